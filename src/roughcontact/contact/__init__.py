@@ -1,0 +1,1 @@
+"""The contact: inequality, solvers, stiffness, curves."""

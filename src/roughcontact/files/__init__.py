@@ -1,0 +1,1 @@
+"""Files: measured surfaces in, results out."""

@@ -1,0 +1,1 @@
+"""The elastic half-space: from pressure to displacement."""

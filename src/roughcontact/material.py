@@ -1,0 +1,82 @@
+"""Elastic solids and the moduli that a pair of them presents to a contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+__all__ = ["Solid", "as_modulus", "reduced_modulus", "reduced_shear_modulus"]
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """An isotropic, linearly elastic solid.
+
+    Parameters
+    ----------
+    young_modulus : float
+        Young's modulus [Pa]; infinite for a rigid body.
+    poisson_ratio : float
+        Poisson's ratio, above -1 and at most 1/2.
+    """
+
+    young_modulus: float
+    poisson_ratio: float
+
+    def __post_init__(self) -> None:
+        if not self.young_modulus > 0:
+            raise ValueError(f"young_modulus must be positive [Pa], not {self.young_modulus}")
+        if not -1 < self.poisson_ratio <= 0.5:
+            raise ValueError(f"poisson_ratio must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
+
+    @property
+    def shear_modulus(self) -> float:
+        """Shear modulus, E / 2(1 + nu) [Pa]."""
+        return self.young_modulus / (2 * (1 + self.poisson_ratio))
+
+
+def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
+    """Return the reduced modulus E* of two solids [Pa] (thesis, eq. 4.3).
+
+    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Without a `second` solid the partner is rigid.
+    """
+    compliance = sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _bodies(first, second))
+    return _inverse(compliance)
+
+
+def reduced_shear_modulus(first: Solid, second: Solid | None = None) -> float:
+    """Return the reduced shear modulus G* of two solids [Pa] (beside thesis, eq. 4.5).
+
+    1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2), so that k/k_t = E*/G* for a circle.
+    """
+    compliance = sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _bodies(first, second))
+    return _inverse(compliance)
+
+
+def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
+    """Return the reduced modulus E* [Pa] of a number, a solid, or a pair of solids.
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive and finite.
+    """
+    if isinstance(modulus, Solid):
+        value = reduced_modulus(modulus)
+    elif isinstance(modulus, tuple):
+        value = reduced_modulus(*modulus)
+    else:
+        value = float(modulus)
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
+    return value
+
+
+def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:
+    return (first,) if second is None else (first, second)
+
+
+def _inverse(compliance: float) -> float:
+    if compliance == 0:
+        raise ValueError("two rigid bodies have no reduced modulus: give one of them a finite young_modulus")
+    return 1 / compliance

@@ -1,0 +1,1 @@
+"""Pictures: functions of axes and data."""
