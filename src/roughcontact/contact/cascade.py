@@ -1,0 +1,71 @@
+"""Coarse to fine: a first guess of the pressure from the same problem on larger cells."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.problem import Control
+from roughcontact.contact.state import Solver
+from roughcontact.contact.window import Windows, embed
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operator import Coarsenable, Operator
+
+__all__ = ["coarse_guess", "coarse_operator", "pooled"]
+
+Array = npt.NDArray[np.float64]
+
+COARSEST = 16  # cells along the longer side at which a problem is solved from nothing
+COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
+
+
+def coarse_guess(operator: Operator, separation: Array, control: Control, solver: Solver) -> tuple[Array, float]:
+    """Return a pressure [Pa] and a depth [m] to start from, found on cells of twice the size, recursively.
+
+    The coarse heights are means of the fine ones: the long waves carry the contact, and the cells that the
+    short waves take out of it are found by the fine solve. Without coarser cells the guess is no pressure.
+    """
+    coarser = coarse_operator(operator, separation.shape)
+    if coarser is None:
+        return np.zeros_like(separation), 0.0
+    part, factors = coarser
+    heights = pooled(separation, factors)
+    guess = coarse_guess(part, heights, control, solver)
+    state, box = Windows(part).solve(solver, heights, control, guess, COARSE_TOLERANCE)
+    pressure = embed(state.pressure, box, heights.shape)
+    for axis, factor in enumerate(factors):
+        pressure = np.repeat(pressure, factor, axis=axis)
+    fine = pressure[tuple(slice(0, n) for n in separation.shape)]
+    return np.where(np.isfinite(separation), fine, 0.0), state.depth
+
+
+def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
+    """Return the operator on cells of twice the size and the factor of each axis; None if that ends here."""
+    if max(shape) <= COARSEST or not isinstance(operator, Coarsenable):
+        return None
+    factors = tuple(2 if n > COARSEST // 2 else 1 for n in shape)
+    coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
+    return operator.coarsened(_coarse_grid(operator.grid, coarse_shape, factors)), factors
+
+
+def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
+    """Return the means over blocks; infinite cells do not count, a block of nothing else is infinite."""
+    pad = [(0, -n % f) for n, f in zip(separation.shape, factors, strict=True)]
+    padded = np.pad(separation, pad, constant_values=np.inf)
+    blocks = padded.reshape([m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f)])
+    axes = tuple(range(1, 2 * separation.ndim, 2))
+    there = np.isfinite(blocks)
+    count = there.sum(axis=axes)
+    total = np.where(there, blocks, 0.0).sum(axis=axes)
+    return np.where(count > 0, total / np.maximum(count, 1), np.inf)
+
+
+def _coarse_grid(grid: Grid, shape: tuple[int, ...], factors: tuple[int, ...]) -> Grid:
+    """Return the grid of the blocks; a periodic one keeps its period, a free one its cells."""
+    spacing = [
+        length / n if periodic else f * step
+        for length, n, periodic, f, step in zip(
+            grid.lengths, shape, grid.periodic, factors, grid.spacing, strict=True
+        )
+    ]
+    return Grid(shape, spacing, grid.periodic)

@@ -1,0 +1,200 @@
+"""The curve: stiffness, area, depth and more against load, with the scales that make it dimensionless."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.power_law import PowerLaw, fit_power_law
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.status import Status
+from roughcontact.contact.stiffness import cell_stiffness, frozen_contact
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Curve", "PowerLaw", "collect"]
+
+Array = npt.NDArray[np.float64]
+
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
+SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
+FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Points of a loading curve, in the order of the loads.
+
+    Attributes
+    ----------
+    force, depth, stiffness, interfacial_stiffness, contact_area, mean_gap, elastic_energy : array, shape (n,)
+        [N], [m], [N/m], [N/m], [m^2], [m], [J]. `stiffness` is dF/dd at the frozen contact region (a
+        staircase in load); `secant_stiffness` is the finite difference that averages over its steps.
+    spots : int array, shape (n,)
+        Number of contact spots.
+    residual, stiffness_residual : array, shape (n,)
+        Certificates of the pressure and of the stiffness.
+    status : tuple of Status
+    modulus : float
+        Reduced modulus [Pa].
+    lengths, spacing : tuple of float
+        Sides of the grid and of a cell [m], y first.
+    rms : float
+        Root mean square height of the surface [m].
+    periodic : tuple of bool
+    cell_stiffness, saturation : float
+        Stiffness of one cell, and of all measured cells in contact [N/m].
+    """
+
+    force: Array
+    depth: Array
+    stiffness: Array
+    interfacial_stiffness: Array
+    contact_area: Array
+    mean_gap: Array
+    elastic_energy: Array
+    spots: npt.NDArray[np.intp]
+    residual: Array
+    stiffness_residual: Array
+    status: tuple[Status, ...]
+    modulus: float
+    lengths: tuple[float, ...]
+    spacing: tuple[float, ...]
+    rms: float
+    periodic: tuple[bool, ...]
+    cell_stiffness: float
+    saturation: float
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+    @property
+    def resolved(self) -> npt.NDArray[np.bool_]:
+        """Mask of points above the one-cell artefact, below saturation, and solved to their tolerance."""
+        solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
+        above = self.stiffness >= CELLS * self.cell_stiffness
+        return above & (self.stiffness <= SATURATED * self.saturation) & solved
+
+    @property
+    def length(self) -> float:
+        """The length L of the dimensionless numbers [m]: the square root of the nominal area."""
+        return math.sqrt(math.prod(self.lengths)) if len(self.lengths) == 2 else self.lengths[0]
+
+    @property
+    def force_scale(self) -> float:
+        """E* h L [N] (thesis, eq. 4.13)."""
+        return self.modulus * self.rms * self.length
+
+    @property
+    def stiffness_scale(self) -> float:
+        """E* L [N/m] (thesis, eq. 4.8)."""
+        return self.modulus * self.length
+
+    @property
+    def dimensionless_force(self) -> Array:
+        """F / (E* h L) (thesis, eq. 4.13); NaN for a flat surface."""
+        return self.force / self.force_scale if self.rms > 0 else np.full(len(self), np.nan)
+
+    @property
+    def dimensionless_stiffness(self) -> Array:
+        """k / (E* L) (thesis, eq. 4.8)."""
+        return self.stiffness / self.stiffness_scale
+
+    @property
+    def secant_stiffness(self) -> Array:
+        """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,)."""
+        return np.diff(self.force) / np.diff(self.depth)
+
+    def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
+        """Return the power law k ~ F^alpha (thesis, eq. 4.53) through the points of a window of force.
+
+        Parameters
+        ----------
+        window : tuple of float, optional
+            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07.
+
+        Raises
+        ------
+        ValueError
+            If fewer than three points lie in the window.
+        """
+        if window is None:
+            inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT)
+        else:
+            inside = (self.force >= window[0]) & (self.force <= window[1]) & (self.stiffness > 0)
+            inside &= np.isfinite(self.stiffness)
+        return fit_power_law(
+            self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the curve as an `xarray.Dataset` with units and long names."""
+        from roughcontact.contact.dataset import curve_dataset
+
+        return curve_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the curve as plain values, for JSON."""
+        from roughcontact.contact.dataset import curve_record
+
+        return curve_record(self)
+
+
+def collect(path: Iterable[Solution]) -> Curve:
+    """Drain a loading path into a curve; fields are not kept."""
+    rows: list[tuple[float, ...]] = []
+    status: list[Status] = []
+    problem: ContactProblem | None = None
+    for s in path:
+        problem = s.problem
+        status.append(s.status)
+        rows.append(
+            (
+                s.force,
+                s.depth,
+                s.stiffness,
+                s.interfacial_stiffness,
+                s.contact_area,
+                s.mean_gap,
+                s.elastic_energy,
+                s.spots.count,
+                s.residual,
+                s.frozen.residual,
+            )
+        )
+    if problem is None:
+        raise ValueError("a curve needs at least one load")
+    columns = np.array(rows).T
+    return Curve(
+        *columns[:7],
+        columns[7].astype(np.intp),
+        *columns[8:],
+        tuple(status),
+        *_scales(problem),
+    )
+
+
+def _scales(
+    problem: ContactProblem,
+) -> tuple[float, tuple[float, ...], tuple[float, ...], float, tuple[bool, ...], float, float]:
+    grid, surface = problem.grid, problem.surface
+    measured = np.isfinite(problem.separation)
+    rms = surface.rms if surface is not None else float(np.std(problem.separation[measured]))
+    # A hundredth in the displacement is a ten-thousandth in the stiffness, more than a limit needs.
+    saturation = frozen_contact(problem.operator, measured, tolerance=1e-2).stiffness
+    return (
+        problem.modulus,
+        grid.lengths,
+        grid.spacing,
+        rms,
+        grid.periodic,
+        cell_stiffness(problem.operator),
+        saturation,
+    )

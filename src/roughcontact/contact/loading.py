@@ -1,0 +1,147 @@
+"""A sequence of loads, each solved from the one before: Newton's method in the depth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.active_set import ActiveSet
+from roughcontact.contact.curve import Curve, collect
+from roughcontact.contact.press import control_of, make_problem
+from roughcontact.contact.problem import ContactProblem, Control, Force
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.solve import solve_state
+from roughcontact.contact.state import Solver
+from roughcontact.contact.stiffness import FrozenContact, frozen_contact
+from roughcontact.contact.window import Windows, embed
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operator import Operator
+from roughcontact.material import Solid
+from roughcontact.surface.surface import Surface
+
+__all__ = ["loading_curve", "loading_path"]
+
+Array = npt.NDArray[np.float64]
+Loads = Sequence[float] | Array
+
+
+def loading_path(
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    pressures: Loads | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> Iterator[Solution]:
+    """Yield the solution of every load, in order; each starts from the one before.
+
+    Parameters
+    ----------
+    surface, modulus, operator, solver, tolerance
+        As for `press`.
+    forces, depths, pressures : array
+        Exactly one: strictly increasing forces [N], depths [m] or nominal pressures [Pa].
+
+    Yields
+    ------
+    Solution
+        With its stiffness computed. A load that missed its tolerance says so in its `status`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, at once and not at the first load.
+    """
+    controls = _controls(surface.grid, forces=forces, depths=depths, pressures=pressures)
+    problem = make_problem(surface, modulus, controls[0], operator, tolerance)
+    for control in controls[1:]:
+        problem.under(control)  # what cannot be asked for is refused before the first load is solved
+    return _follow(problem, controls, solver or ActiveSet())
+
+
+def loading_curve(
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    pressures: Loads | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> Curve:
+    """Return stiffness, contact area, depth and more as functions of load; see `loading_path`."""
+    path = loading_path(
+        surface,
+        modulus,
+        forces=forces,
+        depths=depths,
+        pressures=pressures,
+        operator=operator,
+        solver=solver,
+        tolerance=tolerance,
+    )
+    return collect(path)
+
+
+def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
+    windows = Windows(problem.operator)
+    guess: tuple[Array, float] | None = None
+    for control, following in zip(controls, [*controls[1:], None], strict=True):
+        here = problem.under(control)
+        state, box = solve_state(here, solver, guess, windows)
+        frozen = frozen_contact(windows.part(box), state.pressure > 0, initial=state.tangent)
+        shape = problem.grid.shape
+        solution = Solution(
+            here,
+            embed(state.pressure, box, shape),
+            state.depth,
+            state.status,
+            state.residual,
+            state.steps,
+            FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, box, shape)),
+        )
+        yield solution
+        if following is not None:
+            guess = _predict(solution, following)
+
+
+def _predict(solution: Solution, following: Control) -> tuple[Array, float] | None:
+    """Return pressure and depth at the next load if the contact region stayed as it is.
+
+    The force is convex in the depth, so this overestimates the depth at a given force: the window found
+    from it is safe.
+    """
+    k = solution.stiffness
+    if k == 0:  # no contact yet
+        return None
+    if not np.isfinite(k):  # full contact of a periodic surface: only the mean pressure grows
+        return solution.pressure, solution.depth
+    forced = isinstance(following, Force)
+    advance = (following.value - solution.force) / k if forced else following.value - solution.depth
+    return solution.pressure + advance * solution.frozen.tangent, solution.depth + advance
+
+
+def _controls(
+    grid: Grid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
+) -> list[Control]:
+    """Return the controls that exactly one of the three lists states."""
+    given = {"force": forces, "depth": depths, "pressure": pressures}
+    named = {name: loads for name, loads in given.items() if loads is not None}
+    if len(named) != 1:
+        raise ValueError(f"give exactly one of forces, depths and pressures, not {' and '.join(named) or 'none'}")
+    [(name, loads)] = named.items()
+    values = np.atleast_1d(np.asarray(loads, dtype=np.float64))
+    if values.ndim != 1 or not len(values):
+        raise ValueError(f"the list of {name}s must hold at least one number in one row, not shape {values.shape}")
+    if not (np.diff(values) > 0).all():
+        at = int(np.argmin(np.diff(values) > 0))
+        raise ValueError(
+            f"the {name}s must increase strictly, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}"
+        )
+    return [control_of(grid, **{name: float(v)}) for v in values]

@@ -1,0 +1,137 @@
+"""The pressure under a prescribed displacement of a given region (thesis, eq. A.7)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.cascade import coarse_operator, pooled
+from roughcontact.contact.conjugate_gradient import relax
+from roughcontact.contact.direct import solve_cells
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.window import bounding_box, embed
+from roughcontact.halfspace.operator import Operator
+
+__all__ = ["Prescribed", "prescribed_displacement"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+DENSE_LIMIT = 1500
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Prescribed:
+    """A pressure [Pa], zero outside the region, its force [N], its residual and the products it took.
+
+    `residual` is the largest error of the displacement on the region, relative to its largest value.
+    """
+
+    pressure: Array
+    force: float
+    residual: float
+    steps: int
+
+
+def prescribed_displacement(
+    operator: Operator,
+    region: Mask,
+    displacement: float | Array,
+    *,
+    tolerance: float = 1e-8,
+    max_steps: int = 5000,
+    initial: Array | None = None,
+) -> Prescribed:
+    """Return the pressure that gives a region a prescribed displacement, and presses nowhere else.
+
+    The pressure may be negative: the region is bonded. On a periodic grid the region must leave a cell free.
+
+    Parameters
+    ----------
+    operator : Operator
+    region : bool array
+        The cells that carry pressure; at least one.
+    displacement : float or array
+        Their displacement [m]; values outside the region do not matter.
+    tolerance : float
+        Largest error of the displacement, relative to its largest value.
+    max_steps : int
+        Largest number of products with the operator.
+    initial : array, optional
+        A pressure [Pa] to start from.
+
+    Raises
+    ------
+    ValueError
+        If the region is empty, of a wrong shape, or the whole of a periodic grid, or the displacement is
+        zero or not finite on it.
+    """
+    region = np.asarray(region, dtype=bool)
+    if region.shape != operator.grid.shape:
+        raise ValueError(f"a region of shape {region.shape} does not fit the grid of shape {operator.grid.shape}")
+    box = bounding_box(region)
+    if box is None:
+        raise ValueError("the region holds no cell: nothing can be displaced")
+    if all(operator.grid.periodic) and region.all():
+        raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
+    target = np.broadcast_to(np.asarray(displacement, dtype=np.float64), region.shape)
+    largest = float(np.abs(target[region]).max())
+    if not (np.isfinite(largest) and largest > 0):
+        raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
+    part = operator.restrict(box)
+    inside, wanted = region[box], np.where(region, target, 0.0)[box]
+    start = None if initial is None else np.where(region, initial, 0.0)[box]
+    pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
+    measure = Measure(operator.weights)
+    whole = embed(pressure, box, region.shape)
+    return Prescribed(whole, measure.total(whole), error / largest, steps)
+
+
+def _solve(
+    operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
+) -> tuple[Array, float, int]:
+    """Return pressure, largest error [m] on a fresh product, and the number of products."""
+    steps = 0
+    if start is None:
+        start, steps = _first(operator, region, wanted, limit, max_steps)
+    displacement = operator.apply(start)
+    steps += 1
+    for _ in range(3):  # once as a rule: the image is tracked, and checked by a fresh product
+        found = relax(
+            operator, region, -wanted, start, displacement, depth=0.0, limit=0.5 * limit, max_steps=max_steps - steps
+        )
+        steps += found.steps
+        start = found.pressure
+        if found.steps:
+            displacement = operator.apply(start)
+            steps += 1
+        error = float(np.abs(displacement - wanted)[region].max())
+        if error <= limit or steps >= max_steps:
+            break
+    return start, error, steps
+
+
+def _first(
+    operator: Operator, region: Mask, wanted: Array, limit: float, max_steps: int
+) -> tuple[Array, int]:
+    """Return a first pressure: the answer itself for few cells, else that of cells of twice the size."""
+    cells = np.flatnonzero(region)
+    pressure = np.zeros(region.shape)
+    if len(cells) <= DENSE_LIMIT:
+        pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
+        return pressure, 0
+    coarser = coarse_operator(operator, region.shape)
+    if coarser is None:
+        return pressure, 0
+    part, factors = coarser
+    heights = pooled(np.where(region, wanted, np.inf), factors)
+    covered = np.isfinite(heights)
+    if covered.all() and all(part.grid.periodic):
+        return pressure, 0
+    coarse, _, steps = _solve(part, covered, np.where(covered, heights, 0.0), None, 10 * limit, max_steps)
+    for axis, factor in enumerate(factors):
+        coarse = np.repeat(coarse, factor, axis=axis)
+    pressure = np.where(region, coarse[tuple(slice(0, n) for n in region.shape)], 0.0)
+    return pressure, steps

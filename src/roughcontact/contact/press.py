@@ -1,0 +1,99 @@
+"""The front door: press a surface at one load."""
+
+from __future__ import annotations
+
+import math
+
+from roughcontact.contact.problem import ContactProblem, Control, Depth, Force, separation_of
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.solve import solve
+from roughcontact.contact.state import Solver
+from roughcontact.contact.status import ConvergenceError
+from roughcontact.grid import Grid
+from roughcontact.halfspace.build import half_space
+from roughcontact.halfspace.operator import Operator
+from roughcontact.material import Solid, as_modulus
+from roughcontact.surface.surface import Surface
+
+__all__ = ["press"]
+
+
+def press(
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    force: float | None = None,
+    depth: float | None = None,
+    pressure: float | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> Solution:
+    """Press a rough surface against a flat and return the contact, with a certificate.
+
+    Parameters
+    ----------
+    surface : Surface
+        Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    force, depth, pressure : float
+        Exactly one: normal force [N], approach since first touch [m], or nominal pressure [Pa] (force over
+        the area of all cells).
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid.
+    solver : Solver, optional
+        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
+    tolerance : float
+        Largest residual; see docs/conventions.md.
+
+    Returns
+    -------
+    Solution
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense; the message names the value and the remedy.
+    ConvergenceError
+        If the tolerance was missed. It carries the solution.
+    """
+    control = control_of(surface.grid, force=force, depth=depth, pressure=pressure)
+    solution = solve(make_problem(surface, modulus, control, operator, tolerance), solver=solver)
+    if not solution.status.converged:
+        raise ConvergenceError(solution)
+    return solution
+
+
+def make_problem(
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    control: Control,
+    operator: Operator | None,
+    tolerance: float,
+) -> ContactProblem:
+    """Return the problem of a surface against a flat."""
+    if not isinstance(surface, Surface):
+        raise ValueError(f"press needs a Surface (heights and a grid), not {type(surface).__name__}")
+    value = as_modulus(modulus)
+    body = half_space(surface.grid, value) if operator is None else operator
+    if body.grid != surface.grid:
+        raise ValueError(f"the operator's grid {body.grid} is not the surface's {surface.grid}")
+    return ContactProblem(separation_of(surface), body, control, tolerance, surface, value)
+
+
+def control_of(
+    grid: Grid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
+) -> Control:
+    """Return the control that exactly one of the three numbers states."""
+    given = [name for name, v in (("force", force), ("depth", depth), ("pressure", pressure)) if v is not None]
+    if len(given) != 1:
+        raise ValueError(f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}")
+    if force is not None:
+        return Force(float(force))
+    if depth is not None:
+        return Depth(float(depth))
+    assert pressure is not None
+    if not (math.isfinite(pressure) and pressure > 0):
+        raise ValueError(f"the pressure must be positive and finite [Pa], not {pressure}")
+    return Force(float(pressure) * grid.area)

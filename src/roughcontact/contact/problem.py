@@ -1,0 +1,121 @@
+"""The contact problem: a separation, an operator, and a control."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operator import Operator
+from roughcontact.surface.surface import Surface
+
+__all__ = ["ContactProblem", "Control", "Depth", "Force"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Force:
+    """Press until the contact carries `value` [N] (per unit length on a line [N/m])."""
+
+    value: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.value) and self.value > 0):
+            raise ValueError(f"the force must be positive and finite [N], not {self.value}")
+
+
+@dataclass(frozen=True, slots=True)
+class Depth:
+    """Press until the bodies have approached by `value` [m] since first touch."""
+
+    value: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.value) and self.value >= 0):
+            raise ValueError(f"the depth counts from first touch: at least 0 and finite [m], not {self.value}")
+
+
+Control = Force | Depth
+
+
+@dataclass(frozen=True, eq=False)
+class ContactProblem:
+    """Find a pressure with ``gap >= 0, pressure >= 0, pressure * gap = 0`` (thesis, eqs A.2 to A.5).
+
+    Parameters
+    ----------
+    separation : array, shape ``operator.grid.shape``
+        Undeformed gap at first touch [m]: zero at its smallest, infinite where nothing was measured.
+    operator : Operator
+        Displacement [m] from pressure [Pa].
+    control : Force or Depth
+        What is prescribed.
+    tolerance : float
+        Largest residual of a solution, see `roughcontact.contact.optimality`.
+    surface : Surface, optional
+        Where the separation comes from.
+    modulus : float
+        Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
+    """
+
+    separation: Array
+    operator: Operator
+    control: Control
+    tolerance: float = 1e-8
+    surface: Surface | None = None
+    modulus: float = math.nan
+    _memo: dict[str, Array] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.separation.shape != self.grid.shape:
+            raise ValueError(
+                f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
+            )
+        if not 1e-14 < self.tolerance < 1e-2:
+            raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {self.tolerance}")
+        if not isinstance(self.control, Depth) or not self.semidefinite:
+            return
+        mean = float(self.separation.mean())
+        if self.control.value > mean:
+            raise ValueError(
+                f"a depth of {self.control.value:.6g} m exceeds the mean separation {mean:.6g} m: there a periodic "
+                "surface is in full contact and its stiffness infinite; give a smaller depth, or a force"
+            )
+
+    @property
+    def grid(self) -> Grid:
+        """The grid of the operator."""
+        return self.operator.grid
+
+    @property
+    def semidefinite(self) -> bool:
+        """Whether a constant pressure moves nothing."""
+        return all(self.grid.periodic)
+
+    def under(self, control: Control) -> ContactProblem:
+        """Return the same bodies under another control."""
+        return replace(self, control=control)
+
+    @property
+    def mean_response(self) -> Array:
+        """Mean displacement of the measured cells per unit pressure on each cell [m/Pa], by reciprocity.
+
+        Shape of the grid; found once for all loads on the same bodies.
+        """
+        if "mean_response" not in self._memo:
+            measured = np.isfinite(self.separation)
+            # The mean deflection is itself under the uniform pressure that weighs the measured cells.
+            lifted = self.operator.apply(measured.astype(np.float64))
+            self._memo["mean_response"] = lifted / measured.sum()
+        return self._memo["mean_response"]
+
+
+def separation_of(surface: Surface) -> Array:
+    """Return the undeformed gap at first touch [m]; infinite where nothing was measured."""
+    separation = np.nanmax(surface.heights) - surface.heights
+    separation[np.isnan(separation)] = np.inf
+    return separation

@@ -1,0 +1,197 @@
+"""The answer of a contact problem, and everything that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.spots import Spots, find_spots
+from roughcontact.contact.status import Status
+from roughcontact.contact.stiffness import FrozenContact, frozen_contact
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Solution"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A pressure, its depth and its certificate; the rest is computed when asked for, once.
+
+    Attributes
+    ----------
+    problem : ContactProblem
+    pressure : array, shape of the grid
+        Contact pressure [Pa].
+    depth : float
+        Approach of the bodies since first touch [m].
+    status : Status
+        How the solve ended; it claims nothing that was not earned.
+    residual : float
+        Largest violation of the conditions of contact relative to the largest displacement, on a product of
+        the exact operator with this pressure.
+    steps : int
+        Products with the operator that the solve took on its finest grid.
+    """
+
+    problem: ContactProblem
+    pressure: Array
+    depth: float
+    status: Status
+    residual: float
+    steps: int
+    _frozen: FrozenContact | None = field(default=None, repr=False)
+
+    @cached_property
+    def displacement(self) -> Array:
+        """Displacement of the surface [m]; its mean is zero on a periodic grid, else it vanishes far away."""
+        return self.problem.operator.apply(self.pressure)
+
+    @cached_property
+    def gap(self) -> Array:
+        """Deformed gap [m]; NaN where nothing was measured."""
+        gap = self.displacement + self.problem.separation - self.depth
+        gap[~np.isfinite(self.problem.separation)] = np.nan
+        return gap
+
+    @cached_property
+    def contact(self) -> npt.NDArray[np.bool_]:
+        """Mask of the cells in contact: those that carry pressure."""
+        return self.pressure > 0
+
+    @cached_property
+    def force(self) -> float:
+        """Normal force [N]; on a line [N/m]."""
+        return self._measure.total(self.pressure)
+
+    @cached_property
+    def contact_area(self) -> float:
+        """Real contact area [m^2]; on a line [m]."""
+        return self._measure.total(self.contact)
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real contact area over the nominal area of all cells, missing ones included."""
+        return self.contact_area / self._measure.total(np.ones(self.pressure.shape))
+
+    @cached_property
+    def mean_gap(self) -> float:
+        """Mean of the deformed gap over the measured cells [m]."""
+        separation = self.problem.separation
+        undeformed = float(separation[np.isfinite(separation)].mean())
+        return self._mean_displacement(self.pressure) + undeformed - self.depth
+
+    @cached_property
+    def elastic_energy(self) -> float:
+        """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
+        contact = self.contact
+        work = np.where(contact, self.pressure * (self.depth - np.where(contact, self.problem.separation, 0.0)), 0.0)
+        return 0.5 * self._measure.total(work)
+
+    @cached_property
+    def frozen(self) -> FrozenContact:
+        """The response of the contact region as it is, displaced as one."""
+        if self._frozen is not None:
+            return self._frozen
+        return frozen_contact(self.problem.operator, self.contact)
+
+    @property
+    def stiffness(self) -> float:
+        """Normal contact stiffness dF/dd at fixed contact region [N/m] (thesis, eq. 4.1)."""
+        return self.frozen.stiffness
+
+    @cached_property
+    def interfacial_stiffness(self) -> float:
+        """Stiffness against the mean gap, -dF/d(mean gap) at fixed contact region [N/m].
+
+        1/k = 1/K + d(mean displacement)/dF; on a periodic grid it equals `stiffness`.
+        """
+        k = self.stiffness
+        if not 0 < k < np.inf:
+            return k
+        compliance = (1 - self._mean_displacement(self.frozen.tangent)) / k
+        # In full contact the gap cannot close: what is left of the difference is rounding.
+        return 1 / compliance if compliance * k > 10 * self.frozen.residual + 1e-12 else np.inf
+
+    @cached_property
+    def spots(self) -> Spots:
+        """The connected parts of the contact (cells that share an edge)."""
+        return find_spots(self.contact, self.pressure, self.problem.grid)
+
+    @property
+    def missing(self) -> int:
+        """Number of cells without a height; they never touch."""
+        return int(np.isinf(self.problem.separation).sum())
+
+    @cached_property
+    def touches_edge(self) -> bool:
+        """Whether contact reaches the edge of a free grid, beyond which nothing is known."""
+        return any(
+            bool(np.take(self.contact, (0, -1), axis=axis).any())
+            for axis, periodic in enumerate(self.problem.grid.periodic)
+            if not periodic
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        notes = []
+        if not self.status.converged:
+            notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
+        if self.missing:
+            notes.append(f"{self.missing} cells hold no height; they were kept out of contact.")
+        if self.touches_edge and self.problem.surface is not None:
+            notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
+        if self.contact.sum() == 1:
+            notes.append("A single cell is in contact: stiffness and area are those of the grid, not of the body.")
+        return tuple(notes)
+
+    def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
+        """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa]."""
+        return _density(self.pressure[self.contact], bins)
+
+    def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
+        """Return the probability density [1/m] of the gap over the cells not in contact, and the edges [m]."""
+        apart = ~self.contact & np.isfinite(self.problem.separation)
+        return _density(self.gap[apart], bins)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        from roughcontact.contact.dataset import solution_dataset
+
+        return solution_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON."""
+        from roughcontact.contact.dataset import solution_record
+
+        return solution_record(self)
+
+    @property
+    def _measure(self) -> Measure:
+        return Measure(self.problem.operator.weights)
+
+    def _mean_displacement(self, pressure: Array) -> float:
+        """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
+        if self.problem.semidefinite and not self.missing:
+            return 0.0
+        loaded = pressure != 0
+        return float(pressure[loaded] @ self.problem.mean_response[loaded])
+
+
+def _density(values: Array, bins: int) -> tuple[Array, Array]:
+    if bins < 1:
+        raise ValueError(f"a histogram needs at least one bin, not {bins}")
+    if not values.size:
+        return np.zeros(bins), np.linspace(0.0, 1.0, bins + 1)
+    density, edges = np.histogram(values, bins=bins, range=(0.0, float(values.max()) or 1.0), density=True)
+    return density, edges

@@ -1,0 +1,60 @@
+"""From a problem to its solution: window, first guess, solver, certificate."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.active_set import ActiveSet
+from roughcontact.contact.cascade import coarse_guess
+from roughcontact.contact.problem import ContactProblem, Depth
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.state import Solver, State
+from roughcontact.contact.status import Status
+from roughcontact.contact.window import Box, Windows, embed
+
+__all__ = ["solve"]
+
+Array = npt.NDArray[np.float64]
+
+
+def solve(
+    problem: ContactProblem,
+    *,
+    solver: Solver | None = None,
+    initial: tuple[Array, float] | None = None,
+    windows: Windows | None = None,
+) -> Solution:
+    """Return the solution of a contact problem; its status says whether the tolerance was met.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+    solver : Solver, optional
+        Settings of the method; the active set without.
+    initial : tuple of array and float, optional
+        Pressure [Pa] on the whole grid and depth [m] to start from; without, coarser grids are solved first.
+    windows : Windows, optional
+        Keeps restricted operators from one load to the next.
+    """
+    state, box = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
+    pressure = embed(state.pressure, box, problem.grid.shape)
+    return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
+
+
+def solve_state(
+    problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, windows: Windows
+) -> tuple[State, Box]:
+    """Return the solver's last state on its window, and the window."""
+    if isinstance(problem.control, Depth) and problem.control.value == 0:
+        return _untouched(problem)
+    guess = initial or coarse_guess(problem.operator, problem.separation, problem.control, solver)
+    return windows.solve(solver, problem.separation, problem.control, guess, problem.tolerance)
+
+
+def _untouched(problem: ContactProblem) -> tuple[State, Box]:
+    """At depth 0 the bodies touch and carry nothing."""
+    shape = problem.grid.shape
+    zero = np.zeros(shape)
+    whole = tuple(slice(0, n) for n in shape)
+    return State(zero, zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole

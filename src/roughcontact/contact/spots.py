@@ -1,0 +1,58 @@
+"""Contact spots: cells in contact that share an edge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.ndimage
+import scipy.sparse
+
+from roughcontact.grid import Grid
+
+__all__ = ["Spots", "find_spots"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spots:
+    """The connected parts of a contact.
+
+    Attributes
+    ----------
+    count : int
+    areas : array, shape (count,)
+        Area of each spot [m^2].
+    loads : array, shape (count,)
+        Force that each spot carries [N].
+    labels : int array, shape of the grid
+        0 outside contact, else 1 to `count`.
+    """
+
+    count: int
+    areas: Array
+    loads: Array
+    labels: npt.NDArray[np.intp]
+
+
+def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> Spots:
+    """Return the spots of a contact; along a periodic axis they go on across the edge."""
+    labels, count = scipy.ndimage.label(contact)
+    pairs = []
+    for axis, periodic in enumerate(grid.periodic):
+        if periodic:
+            first, last = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
+            both = (first > 0) & (last > 0)
+            pairs.append(np.stack([first[both], last[both]]))
+    if count and pairs:
+        rows, columns = np.concatenate(pairs, axis=1)
+        links = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(count + 1, count + 1))
+        _, merged = scipy.sparse.csgraph.connected_components(links, directed=False)
+        # Label 0, the ground, is in no pair and keeps its own component; the others are numbered anew.
+        _, compact = np.unique(np.r_[-1, merged[1:]], return_inverse=True)
+        labels, count = compact[labels], int(compact.max())
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    sums = np.bincount(labels.ravel(), weights=pressure.ravel(), minlength=count + 1)[1:]
+    return Spots(int(count), sizes * grid.cell_area, sums * grid.cell_area, labels.astype(np.intp))

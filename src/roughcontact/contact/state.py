@@ -1,0 +1,43 @@
+"""What solvers pass on: a pressure, what it does, and how good it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.problem import Control
+from roughcontact.contact.status import Status
+from roughcontact.halfspace.operator import Operator
+
+__all__ = ["Solver", "State"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """The end of a solver's run over the cells of its operator.
+
+    `tangent`, where a solver has it, is a guess of the pressure per unit depth [Pa/m] at the contact as it is.
+    """
+
+    pressure: Array
+    displacement: Array
+    depth: float
+    residual: float
+    steps: int
+    status: Status
+    tangent: Array | None = None
+
+
+class Solver(Protocol):
+    """Frozen settings with one method; everything that changes during a run stays inside the run."""
+
+    def run(
+        self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float
+    ) -> State:
+        """Solve for the pressure from an `initial` one, down to a residual of `tolerance`."""
+        ...

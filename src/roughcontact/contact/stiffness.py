@@ -1,0 +1,96 @@
+"""The stiffness of a frozen contact region: its force per unit displacement (thesis, eq. 4.1 and A.1.3)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.prescribed import prescribed_displacement
+from roughcontact.grid import Grid
+from roughcontact.halfspace.build import half_space
+from roughcontact.halfspace.operator import Operator
+from roughcontact.material import Solid
+
+__all__ = ["FrozenContact", "cell_stiffness", "contact_stiffness", "frozen_contact"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrozenContact:
+    """The response of a region that is displaced as one: a flat punch of its shape.
+
+    Attributes
+    ----------
+    stiffness : float
+        Force per unit displacement [N/m]; infinite for the whole of a periodic grid.
+    residual : float
+        Largest error of the unit displacement.
+    tangent : array
+        Pressure per unit displacement [Pa/m], zero outside the region.
+    """
+
+    stiffness: float
+    residual: float
+    tangent: Array
+
+
+def frozen_contact(
+    operator: Operator, region: Mask, *, initial: Array | None = None, tolerance: float = TOLERANCE
+) -> FrozenContact:
+    """Return the response of `region` to a unit displacement, from an `initial` tangent where one is at hand."""
+    if not region.any():
+        return FrozenContact(0.0, 0.0, np.zeros(region.shape))
+    if all(operator.grid.periodic) and region.all():
+        return FrozenContact(math.inf, 0.0, np.full(region.shape, math.inf))
+    answer = prescribed_displacement(operator, region, 1.0, tolerance=tolerance, initial=initial)
+    return FrozenContact(answer.force, answer.residual, answer.pressure)
+
+
+def contact_stiffness(
+    mask: Mask, grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, tolerance: float = TOLERANCE
+) -> float:
+    """Return the stiffness of a given contact region pressed as a flat punch [N/m].
+
+    Parameters
+    ----------
+    mask : bool array, shape ``grid.shape``
+        The cells in contact.
+    grid : Grid
+        Free or periodic.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    tolerance : float
+        Largest error of the unit displacement on the region.
+
+    Returns
+    -------
+    float
+        Zero for an empty mask, infinite for the whole of a periodic grid.
+
+    Raises
+    ------
+    ValueError
+        If the mask does not fit the grid.
+    RuntimeError
+        If the tolerance was not reached.
+    """
+    region = np.asarray(mask, dtype=bool)
+    if region.shape != grid.shape:
+        raise ValueError(f"a mask of shape {region.shape} does not fit the grid of shape {grid.shape}")
+    frozen = frozen_contact(half_space(grid, modulus), region, tolerance=tolerance)
+    if frozen.residual > tolerance:
+        raise RuntimeError(f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance")
+    return frozen.stiffness
+
+
+def cell_stiffness(operator: Operator) -> float:
+    """Return the stiffness of a single cell in contact [N/m] (thesis, eq. 4.16 and its neighbour 4.15)."""
+    influence = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
+    return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf

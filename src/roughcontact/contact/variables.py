@@ -1,0 +1,97 @@
+"""One table of every quantity that leaves the library: its unit, its name in words, its name in a picture.
+
+Datasets, files and pictures take units and names from here and from nowhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+__all__ = ["VARIABLES", "Variable"]
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """What is said about one quantity wherever it appears.
+
+    Parameters
+    ----------
+    unit : str
+        Unit in UDUNITS style, as the CF conventions want it: ``"N m-1"``; ``"1"`` for a pure number.
+        Empty for words.
+    long_name : str
+        The quantity in words, complete enough to stand alone in a file.
+    label : str
+        The quantity on the axis of a picture, without its unit.
+    """
+
+    unit: str
+    long_name: str
+    label: str
+
+
+VARIABLES: Mapping[str, Variable] = MappingProxyType(
+    {
+        # control and answer
+        "force": Variable("N", "normal force", "force"),
+        "depth": Variable("m", "approach of the bodies since first touch", "depth"),
+        "stiffness": Variable(
+            "N m-1", "normal stiffness dF/dd of the contact region held fixed", "stiffness"
+        ),
+        "interfacial_stiffness": Variable(
+            "N m-1",
+            "normal stiffness against the mean gap, contact region held fixed",
+            "interfacial stiffness",
+        ),
+        "secant_stiffness": Variable(
+            "N m-1",
+            "difference of force over difference of depth between one load and the next",
+            "secant stiffness",
+        ),
+        "contact_area": Variable("m2", "real contact area", "contact area"),
+        "contact_fraction": Variable("1", "real contact area over nominal area", "contact fraction"),
+        "mean_gap": Variable("m", "gap averaged over the measured cells", "mean gap"),
+        "elastic_energy": Variable("J", "elastic energy of the bodies", "elastic energy"),
+        "spots": Variable("1", "number of connected contact spots", "contact spots"),
+        "dimensionless_force": Variable("1", "force over modulus, length and rms height", "force / (E* L h)"),
+        "dimensionless_stiffness": Variable("1", "stiffness over modulus and length", "stiffness / (E* L)"),
+        # how far the answer can be trusted
+        "residual": Variable(
+            "1", "violation of the contact conditions, recomputed on the answer", "residual"
+        ),
+        "stiffness_residual": Variable(
+            "1", "residual of the linear problem of the stiffness", "stiffness residual"
+        ),
+        "resolved": Variable("", "stiffness lies between twenty cells and saturation", "resolved"),
+        "status": Variable("", "how the solver ended", "status"),
+        "steps": Variable("1", "steps of the solver", "steps"),
+        "missing": Variable("1", "number of cells without a height; they never touch", "missing cells"),
+        "touches_edge": Variable("", "contact reaches the edge of the map", "contact at the edge"),
+        # scales
+        "modulus": Variable("Pa", "reduced modulus E* of the pair of solids", "reduced modulus"),
+        "rms": Variable("m", "root mean square height about the mean", "rms height"),
+        "saturation": Variable("N m-1", "stiffness with every measured cell in contact", "saturation"),
+        "cell_stiffness": Variable("N m-1", "stiffness with one cell in contact", "one cell"),
+        "lengths": Variable("m", "side lengths of the map, cells times spacing", "length"),
+        "spacing": Variable("m", "size of a cell", "spacing"),
+        "shape": Variable("1", "number of cells", "cells"),
+        "periodic": Variable("", "whether the surface repeats itself", "periodic"),
+        # maps
+        "x": Variable("m", "position along the rows of the picture, centre of the cell", "x"),
+        "y": Variable("m", "position down the picture from its top, centre of the cell", "y"),
+        "heights": Variable("m", "height of the surface, positive toward the other body", "height"),
+        "pressure": Variable("Pa", "contact pressure", "pressure"),
+        "displacement": Variable("m", "normal displacement of the half-space", "displacement"),
+        "gap": Variable("m", "gap between the bodies", "gap"),
+        "contact": Variable("", "whether the cell is in contact", "contact"),
+        "largest_pressure": Variable("Pa", "largest contact pressure of a cell", "largest pressure"),
+        "nominal_pressure": Variable("Pa", "force over the area of the whole map", "nominal pressure"),
+        "spot_label": Variable(
+            "1", "number of the contact spot a cell belongs to, 0 outside contact", "spot"
+        ),
+        "spot_area": Variable("m2", "area of a contact spot", "spot area"),
+        "spot_load": Variable("N", "force carried by a contact spot", "spot load"),
+    }
+)

@@ -1,0 +1,58 @@
+"""The one place that turns a grid and a modulus into an operator."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from roughcontact.grid import Grid
+from roughcontact.halfspace.dense import DenseOperator
+from roughcontact.halfspace.influence import Love, Periodic
+from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
+from roughcontact.material import Solid, as_modulus
+
+__all__ = ["half_space", "memory_needed"]
+
+
+def half_space(
+    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], method: Literal["fft", "dense"] = "fft"
+) -> Operator:
+    """Return the elastic half-space on a grid of two axes.
+
+    Parameters
+    ----------
+    grid : Grid
+        Free or periodic along both axes.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    method : {"fft", "dense"}
+        Fast Fourier transforms, or the full matrix (8 n^2 bytes for n cells).
+
+    Raises
+    ------
+    ValueError
+        If the grid has one axis or is periodic along one axis only.
+    """
+    value = as_modulus(modulus)
+    if grid.ndim != 2:
+        raise ValueError("a half-space needs a grid of two axes; a line must name its own operator")
+    if any(grid.periodic) != all(grid.periodic):
+        raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
+    operator: FreeOperator | PeriodicOperator
+    if all(grid.periodic):
+        operator = PeriodicOperator(grid, Periodic(grid, value))
+    else:
+        operator = FreeOperator(grid, Love(grid.spacing, value))
+    if method == "dense":
+        return DenseOperator(grid, operator.as_matrix(), operator.positive)
+    if method != "fft":
+        raise ValueError(f"method must be 'fft' or 'dense', not {method!r}")
+    return operator
+
+
+def memory_needed(grid: Grid) -> int:
+    """Return an upper estimate of the memory that a solve on `grid` takes beyond its surface [bytes]."""
+    # Fields of the solver (pressure, displacement, gap, direction, its image, masks) and the kernel with
+    # its transform: measured with benchmarks/memory.py at the worst case, contact all over.
+    per_cell = 110 if all(grid.periodic) else 190
+    return per_cell * grid.size

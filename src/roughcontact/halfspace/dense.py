@@ -1,0 +1,52 @@
+"""The half-space summed directly: the slow truth that every other method is held against."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+
+__all__ = ["DenseOperator"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DenseOperator:
+    """A full matrix over the cells of a grid (thesis, eq. A.6).
+
+    Parameters
+    ----------
+    grid : Grid
+        The grid, of any number of axes.
+    matrix : array, shape (n, n)
+        Displacement per pressure [m/Pa] between the n cells in flat order.
+    positive : bool
+        Whether no entry is negative.
+    """
+
+    grid: Grid
+    matrix: Array
+    positive: bool = True
+
+    @property
+    def weights(self) -> float:
+        """Area of a cell [m^2]."""
+        return self.grid.cell_area
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa]."""
+        return np.asarray((self.matrix @ pressure.ravel()).reshape(self.grid.shape))
+
+    def as_matrix(self, cells: Cells | None = None) -> Array:
+        """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
+        return self.matrix.copy() if cells is None else self.matrix[np.ix_(cells, cells)]
+
+    def restrict(self, window: tuple[slice, ...]) -> DenseOperator:
+        """Return the map between the cells of `window`, with no pressure outside."""
+        cells = np.arange(self.grid.size).reshape(self.grid.shape)[window].ravel()
+        return DenseOperator(self.grid.window(window), self.as_matrix(cells), self.positive)

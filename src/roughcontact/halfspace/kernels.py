@@ -1,0 +1,118 @@
+"""Closed forms of the half-space: the displacement under a uniformly loaded rectangle."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["love", "love_table", "periodic_multiplier"]
+
+Array = npt.NDArray[np.float64]
+
+# Measured against 60-digit arithmetic (tests/halfspace/test_kernels.py): beyond FAR longer sides the
+# expansion of 1/r to fourth order, beyond NEAR shorter sides Gauss's rule across the cell, else the
+# closed form. Each is good to some 1e-14 where it is used.
+FAR = 60.0
+NEAR = 5.0
+BLOCK = 16384  # cells of a table that are computed in one go
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+def love(x: Array, y: Array, dx: float, dy: float) -> Array:
+    """Return the integral of 1/r over a cell [m] (thesis, eqs A.15, A.16; Love 1929).
+
+    A pressure p on the cell lifts the surface at the offset by ``u = love(...) * p / (pi E*)``.
+
+    Parameters
+    ----------
+    x, y : array
+        Offsets from the centre of the cell [m], broadcast against each other.
+    dx, dy : float
+        Sides of the cell [m].
+
+    Returns
+    -------
+    array
+        Values [m], accurate to 1e-12 relative at any offset and any ratio of the sides.
+    """
+    x, y = np.broadcast_arrays(np.abs(np.asarray(x, float)), np.abs(np.asarray(y, float)))
+    if dy > dx:  # the shorter side is called y from here on
+        x, y, dx, dy = y, x, dy, dx
+    far = np.hypot(x, y) >= FAR * dx
+    near = ~far & (np.maximum(y, x - dx / 2) < NEAR * dy)
+    middle = ~far & ~near
+    value = np.empty(x.shape)
+    value[far] = _expansion(x[far], y[far], dx, dy)
+    value[near] = _closed(x[near], y[near], dx, dy)
+    value[middle] = _across(x[middle], y[middle], dx, dy)
+    return value
+
+
+def love_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
+    """Return `love` for all offsets of whole cells from zero up, shape ``(ny, nx)`` [m]."""
+    (ny, nx), (dy, dx) = shape, spacing
+    x, y = np.arange(nx) * dx, np.arange(ny)[:, None] * dy
+    table = np.empty((ny, nx))
+    rows = max(1, BLOCK // nx)
+    for start in range(0, ny, rows):  # in blocks whose temporaries stay in cache
+        table[start : start + rows] = love(x, y[start : start + rows], dx, dy)
+    return table
+
+
+def periodic_multiplier(wavenumber: Array) -> Array:
+    """Return 2/q, zero at q = 0: the displacement of a unit pressure wave, times E* [m].
+
+    The mean displacement of a periodic half-space is a matter of convention; here it is zero.
+    """
+    q = np.asarray(wavenumber, float)
+    return np.divide(2.0, q, out=np.zeros_like(q), where=q > 0)
+
+
+def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:
+    """Eq. A.16 by F(x, y) = x asinh(y/x) + y asinh(x/y), which keeps the digits that the logarithms lose."""
+    right, left, top, bottom = x + dx / 2, x - dx / 2, y + dy / 2, y - dy / 2
+    return _corner(right, top) - _corner(left, top) - _corner(right, bottom) + _corner(left, bottom)
+
+
+def _corner(x: Array, y: Array) -> Array:
+    a, b = np.abs(x), np.abs(y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        value = np.where(a > 0, a * np.arcsinh(b / a), 0) + np.where(b > 0, b * np.arcsinh(a / b), 0)
+    return np.asarray(np.sign(x) * np.sign(y) * value)
+
+
+def _across(x: Array, y: Array, dx: float, dy: float) -> Array:
+    """Gauss's rule across the shorter side of the integral along the longer one."""
+    value = np.zeros(x.shape)
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        value += weight * _along(x - dx / 2, x + dx / 2, y + node * dy / 2)
+    return value * (dy / 2)
+
+
+def _along(start: Array, stop: Array, y: Array) -> Array:
+    """Return the integral of 1/hypot(x, y) from `start` to `stop` without cancellation; y != 0 or start > 0."""
+    # Seen from the nearer end the integral is log1p of a ratio of positive numbers; an interval that
+    # holds zero is two such integrals.
+    inner, r_inner, r_outer = np.abs(start), np.hypot(start, y), np.hypot(stop, y)
+    same_side = start >= 0
+    span = stop - start
+    ratio = (span + span * (stop + start) / (r_outer + r_inner)) / (inner + r_inner)
+    apart = np.arcsinh(inner / np.where(same_side, 1, np.abs(y))) + np.arcsinh(
+        stop / np.where(same_side, 1, np.abs(y))
+    )
+    return np.where(same_side, np.log1p(ratio), apart)
+
+
+def _expansion(x: Array, y: Array, dx: float, dy: float) -> Array:
+    """Taylor's series of 1/r about the centre, integrated over the cell, to fourth order."""
+    x2, y2 = x * x, y * y
+    r2 = x2 + y2
+    a, b = dx * dx / r2, dy * dy / r2
+    c, s = x2 / r2, y2 / r2
+    second = (a * (3 * c - 1) + b * (3 * s - 1)) / 24
+    fourth = (
+        a * a * (105 * c * c - 90 * c + 9) / 1920
+        + a * b * (105 * c * s - 12) / 576
+        + b * b * (105 * s * s - 90 * s + 9) / 1920
+    )
+    return dx * dy / np.sqrt(r2) * (1 + second + fourth)

@@ -1,0 +1,59 @@
+"""What every linear map from pressure to displacement can do."""
+
+from __future__ import annotations
+
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+
+__all__ = ["Coarsenable", "Operator"]
+
+Array = npt.NDArray[np.float64]
+
+
+@runtime_checkable
+class Operator(Protocol):
+    """A linear map from pressure [Pa] on the cells of a grid to displacement [m] of the same cells.
+
+    Symmetric under its weights. On a free grid positive definite; on a periodic one semidefinite, since a
+    constant pressure moves nothing.
+    """
+
+    @property
+    def grid(self) -> Grid:
+        """The grid it works on."""
+        ...
+
+    @property
+    def weights(self) -> float | Array:
+        """Force of a unit pressure on each cell [m^2]: ``force = sum(weights * pressure)``."""
+        ...
+
+    @property
+    def positive(self) -> bool:
+        """Whether no pressure lifts any cell, so that contact lies where the bodies overlap."""
+        ...
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa], both of the grid's shape."""
+        ...
+
+    def as_matrix(self, cells: npt.NDArray[np.intp] | None = None) -> Array:
+        """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
+        ...
+
+    def restrict(self, window: tuple[slice, ...]) -> Operator:
+        """Return the map between the cells of `window`, with no pressure outside."""
+        ...
+
+
+@runtime_checkable
+class Coarsenable(Protocol):
+    """An operator that can state itself on coarser cells."""
+
+    def coarsened(self, grid: Grid) -> Operator:
+        """Return the same body on `grid`, whose cells are larger."""
+        ...
