@@ -14,7 +14,7 @@ from roughcontact.contact.optimality import displacement_scale, residual
 from roughcontact.contact.polonsky_keer import PolonskyKeer
 from roughcontact.contact.problem import Control, Force
 from roughcontact.contact.start import start_pressure
-from roughcontact.contact.state import State
+from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
 from roughcontact.halfspace.operator import Operator
 
@@ -46,8 +46,9 @@ class ActiveSet:
         given = None if isinstance(control, Force) else control.value
         p = start_pressure(measure, separation, control, initial)
         u, fresh, steps = operator.apply(p), True, 1
-        tangent: Array | None = None
+        tangent: Tangent | None = None
         best, idle = np.inf, 0
+        guessed = True
         while True:
             d = measure.mean(u + separation, p > 0) if given is None else given
             gap = u + separation - d
@@ -63,11 +64,14 @@ class ActiveSet:
             if steps >= self.max_steps or idle > 12:
                 break
             region = (p > 0) | (gap < -0.5 * tolerance * scale)
+            if guessed:  # a guess from other cells or loads: what a projected step of one cell leaves of it
+                region &= p * self_influence >= gap
+                guessed = False
             cells = np.flatnonzero(region)
             if len(cells) <= self.dense_limit and not (singular and region.all()):
                 pressed = press_cells(operator, separation, control, cells)
                 p = _scatter(pressed.cells, pressed.pressure, region.shape)
-                tangent = _scatter(pressed.cells, pressed.tangent, region.shape)
+                tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
                 u, fresh, steps = operator.apply(p), True, steps + 1
                 continue
             relaxed = relax(

@@ -20,13 +20,16 @@ Cells = npt.NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pressed:
-    """A pressure [Pa] on `cells`, nowhere negative, its depth [m], and the pressure per unit depth [Pa/m]."""
+    """A pressure [Pa] on `cells`, nowhere negative, its depth [m], and the pressure per unit depth [Pa/m].
+
+    `error` is the largest deviation from one of the displacement under that last pressure.
+    """
 
     cells: Cells
     pressure: Array
     depth: float
     tangent: Array
-    rounds: int
+    error: float
 
 
 def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> Pressed:
@@ -51,9 +54,7 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
     matrix = operator.as_matrix(cells)
     heights, weights = separation.ravel()[cells], measure.on(cells)
     keep = np.arange(len(cells))
-    rounds = 0
     while True:
-        rounds += 1
         sub = matrix[np.ix_(keep, keep)]
         right = np.stack([np.ones(len(keep)), heights[keep]], axis=1)
         a, b = _solve(sub, weights[keep] if measure.varies else None, right).T
@@ -62,7 +63,10 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
         p = depth * a - b
         pulls = p <= 0
         if not pulls.any() or pulls.all():
-            return Pressed(cells[keep], np.maximum(p, 0.0), float(depth), a, rounds)
+            whole = np.zeros(len(cells))
+            whole[keep] = a
+            error = float(np.abs(matrix @ whole - 1)[keep].max())
+            return Pressed(cells[keep], np.maximum(p, 0.0), float(depth), a, error)
         keep = keep[~pulls]
 
 

@@ -95,7 +95,7 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here = problem.under(control)
         state, box = solve_state(here, solver, guess, windows)
-        frozen = frozen_contact(windows.part(box), state.pressure > 0, initial=state.tangent)
+        frozen = frozen_contact(windows.part(box), state.pressure > 0, tangent=state.tangent)
         shape = problem.grid.shape
         solution = Solution(
             here,

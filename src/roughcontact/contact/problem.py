@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -68,7 +69,7 @@ class ContactProblem:
     tolerance: float = 1e-8
     surface: Surface | None = None
     modulus: float = math.nan
-    _memo: dict[str, Array] = field(default_factory=dict, repr=False)
+    _memo: dict[str, Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if self.separation.shape != self.grid.shape:
@@ -79,7 +80,7 @@ class ContactProblem:
             raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {self.tolerance}")
         if not isinstance(self.control, Depth) or not self.semidefinite:
             return
-        mean = float(self.separation.mean())
+        mean = self.mean_separation
         if self.control.value > mean:
             raise ValueError(
                 f"a depth of {self.control.value:.6g} m exceeds the mean separation {mean:.6g} m: there a periodic "
@@ -111,7 +112,15 @@ class ContactProblem:
             # The mean deflection is itself under the uniform pressure that weighs the measured cells.
             lifted = self.operator.apply(measured.astype(np.float64))
             self._memo["mean_response"] = lifted / measured.sum()
-        return self._memo["mean_response"]
+        response: Array = self._memo["mean_response"]
+        return response
+
+    @property
+    def mean_separation(self) -> float:
+        """Mean undeformed gap of the measured cells [m]."""
+        if "mean_separation" not in self._memo:
+            self._memo["mean_separation"] = float(self.separation[np.isfinite(self.separation)].mean())
+        return float(self._memo["mean_separation"])
 
 
 def separation_of(surface: Surface) -> Array:

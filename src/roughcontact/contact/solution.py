@@ -71,12 +71,13 @@ class Solution:
     @cached_property
     def force(self) -> float:
         """Normal force [N]; on a line [N/m]."""
-        return self._measure.total(self.pressure)
+        cells = self._cells
+        return float(self._measure.on(cells) @ self.pressure.ravel()[cells])
 
     @cached_property
     def contact_area(self) -> float:
         """Real contact area [m^2]; on a line [m]."""
-        return self._measure.total(self.contact)
+        return float(self._measure.on(self._cells).sum())
 
     @property
     def contact_fraction(self) -> float:
@@ -86,16 +87,14 @@ class Solution:
     @cached_property
     def mean_gap(self) -> float:
         """Mean of the deformed gap over the measured cells [m]."""
-        separation = self.problem.separation
-        undeformed = float(separation[np.isfinite(separation)].mean())
-        return self._mean_displacement(self.pressure) + undeformed - self.depth
+        return self._mean_displacement(self.pressure) + self.problem.mean_separation - self.depth
 
     @cached_property
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
-        contact = self.contact
-        work = np.where(contact, self.pressure * (self.depth - np.where(contact, self.problem.separation, 0.0)), 0.0)
-        return 0.5 * self._measure.total(work)
+        cells = self._cells
+        work = self.pressure.ravel()[cells] * (self.depth - self.problem.separation.ravel()[cells])
+        return 0.5 * float(self._measure.on(cells) @ work)
 
     @cached_property
     def frozen(self) -> FrozenContact:
@@ -176,6 +175,11 @@ class Solution:
 
         return solution_record(self)
 
+    @cached_property
+    def _cells(self) -> npt.NDArray[np.intp]:
+        """Flat indices of the cells in contact."""
+        return np.flatnonzero(self.contact)
+
     @property
     def _measure(self) -> Measure:
         return Measure(self.problem.operator.weights)
@@ -184,8 +188,8 @@ class Solution:
         """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
         if self.problem.semidefinite and not self.missing:
             return 0.0
-        loaded = pressure != 0
-        return float(pressure[loaded] @ self.problem.mean_response[loaded])
+        cells = self._cells
+        return float(pressure.ravel()[cells] @ self.problem.mean_response.ravel()[cells])
 
 
 def _density(values: Array, bins: int) -> tuple[Array, Array]:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 import scipy.ndimage
 import scipy.sparse
 
+from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
 
 __all__ = ["Spots", "find_spots"]
@@ -39,7 +40,9 @@ class Spots:
 
 def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> Spots:
     """Return the spots of a contact; along a periodic axis they go on across the edge."""
-    labels, count = scipy.ndimage.label(contact)
+    labels = np.zeros(contact.shape, np.intp)
+    box = bounding_box(contact)
+    count = 0 if box is None else scipy.ndimage.label(contact[box], output=labels[box])
     pairs = []
     for axis, periodic in enumerate(grid.periodic):
         if periodic:
@@ -53,6 +56,8 @@ def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> S
         # Label 0, the ground, is in no pair and keeps its own component; the others are numbered anew.
         _, compact = np.unique(np.r_[-1, merged[1:]], return_inverse=True)
         labels, count = compact[labels], int(compact.max())
-    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
-    sums = np.bincount(labels.ravel(), weights=pressure.ravel(), minlength=count + 1)[1:]
-    return Spots(int(count), sizes * grid.cell_area, sums * grid.cell_area, labels.astype(np.intp))
+    cells = np.flatnonzero(contact)
+    spot = labels.ravel()[cells] - 1
+    sizes = np.bincount(spot, minlength=count)
+    sums = np.bincount(spot, weights=pressure.ravel()[cells], minlength=count)
+    return Spots(int(count), sizes * grid.cell_area, sums * grid.cell_area, labels)

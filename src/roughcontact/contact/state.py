@@ -12,16 +12,24 @@ from roughcontact.contact.problem import Control
 from roughcontact.contact.status import Status
 from roughcontact.halfspace.operator import Operator
 
-__all__ = ["Solver", "State"]
+__all__ = ["Solver", "State", "Tangent"]
 
 Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tangent:
+    """Pressure per unit depth [Pa/m] of the cells in contact, zero elsewhere, and its largest error inside."""
+
+    pressure: Array
+    error: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
     """The end of a solver's run over the cells of its operator.
 
-    `tangent`, where a solver has it, is a guess of the pressure per unit depth [Pa/m] at the contact as it is.
+    `tangent` is there where the solver found it on the way.
     """
 
     pressure: Array
@@ -30,7 +38,7 @@ class State:
     residual: float
     steps: int
     status: Status
-    tangent: Array | None = None
+    tangent: Tangent | None = None
 
 
 class Solver(Protocol):
