@@ -54,7 +54,9 @@ class Grid:
             raise ValueError(f"spacing must be positive and finite [m], not {steps}")
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
-        object.__setattr__(self, "periodic", tuple(bool(b) for b in _per_axis(periodic, len(sizes), "periodic")))
+        object.__setattr__(
+            self, "periodic", tuple(bool(b) for b in _per_axis(periodic, len(sizes), "periodic"))
+        )
 
     @property
     def lengths(self) -> tuple[float, ...]:

@@ -68,6 +68,9 @@ class ActiveSet:
                 region &= p * self_influence >= gap
                 guessed = False
             cells = np.flatnonzero(region)
+            if not len(cells):  # too shallow a depth for this grid
+                p, u, fresh = np.zeros_like(p), np.zeros_like(p), True
+                continue
             if len(cells) <= self.dense_limit and not (singular and region.all()):
                 pressed = press_cells(operator, separation, control, cells)
                 p = _scatter(pressed.cells, pressed.pressure, region.shape)
@@ -84,7 +87,13 @@ class ActiveSet:
                 limit=scale * max(0.3 * tolerance, min(0.1 * r, 1e-2)),
                 max_steps=self.max_steps - steps,
             )
-            p, u, fresh, steps, tangent = relaxed.pressure, relaxed.displacement, False, steps + relaxed.steps, None
+            p, u, fresh, steps, tangent = (
+                relaxed.pressure,
+                relaxed.displacement,
+                False,
+                steps + relaxed.steps,
+                None,
+            )
             if (p < 0).any():  # these would pull: let go
                 p = start_pressure(measure, separation, control, p)
                 u, fresh, steps = operator.apply(p), True, steps + 1

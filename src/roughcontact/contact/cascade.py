@@ -19,7 +19,9 @@ COARSEST = 16  # cells along the longer side at which a problem is solved from n
 COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 
 
-def coarse_guess(operator: Operator, separation: Array, control: Control, solver: Solver) -> tuple[Array, float]:
+def coarse_guess(
+    operator: Operator, separation: Array, control: Control, solver: Solver
+) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on cells of twice the size, recursively.
 
     The coarse heights are means of the fine ones: the long waves carry the contact, and the cells that the

@@ -80,7 +80,8 @@ class Curve:
         """Mask of points above the one-cell artefact, below saturation, and solved to their tolerance."""
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
         above = self.stiffness >= CELLS * self.cell_stiffness
-        return above & (self.stiffness <= SATURATED * self.saturation) & solved
+        below = self.stiffness < SATURATED * self.saturation
+        return np.asarray(above & below & solved)
 
     @property
     def length(self) -> float:
@@ -99,12 +100,12 @@ class Curve:
 
     @property
     def dimensionless_force(self) -> Array:
-        """F / (E* h L) (thesis, eq. 4.13); NaN for a flat surface."""
+        """Force over E* h L (thesis, eq. 4.13); NaN for a flat surface."""
         return self.force / self.force_scale if self.rms > 0 else np.full(len(self), np.nan)
 
     @property
     def dimensionless_stiffness(self) -> Array:
-        """k / (E* L) (thesis, eq. 4.8)."""
+        """Stiffness over E* L (thesis, eq. 4.8)."""
         return self.stiffness / self.stiffness_scale
 
     @property
@@ -149,52 +150,51 @@ class Curve:
 
 def collect(path: Iterable[Solution]) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
-    rows: list[tuple[float, ...]] = []
+    points: list[tuple[float, ...]] = []
     status: list[Status] = []
     problem: ContactProblem | None = None
-    for s in path:
-        problem = s.problem
-        status.append(s.status)
-        rows.append(
-            (
-                s.force,
-                s.depth,
-                s.stiffness,
-                s.interfacial_stiffness,
-                s.contact_area,
-                s.mean_gap,
-                s.elastic_energy,
-                s.spots.count,
-                s.residual,
-                s.frozen.residual,
-            )
-        )
+    for solution in path:
+        problem = solution.problem
+        points.append(_point(solution))
+        status.append(solution.status)
     if problem is None:
         raise ValueError("a curve needs at least one load")
-    columns = np.array(rows).T
+    columns = np.array(points).T
+    measured = np.isfinite(problem.separation)
+    surface = problem.surface
     return Curve(
-        *columns[:7],
-        columns[7].astype(np.intp),
-        *columns[8:],
-        tuple(status),
-        *_scales(problem),
+        force=columns[0],
+        depth=columns[1],
+        stiffness=columns[2],
+        interfacial_stiffness=columns[3],
+        contact_area=columns[4],
+        mean_gap=columns[5],
+        elastic_energy=columns[6],
+        spots=columns[7].astype(np.intp),
+        residual=columns[8],
+        stiffness_residual=columns[9],
+        status=tuple(status),
+        modulus=problem.modulus,
+        lengths=problem.grid.lengths,
+        spacing=problem.grid.spacing,
+        rms=float(np.std(problem.separation[measured])) if surface is None else surface.rms,
+        periodic=problem.grid.periodic,
+        cell_stiffness=cell_stiffness(problem.operator),
+        # A hundredth in the displacement is a ten-thousandth in the stiffness, more than a limit needs.
+        saturation=frozen_contact(problem.operator, measured, tolerance=1e-2).stiffness,
     )
 
 
-def _scales(
-    problem: ContactProblem,
-) -> tuple[float, tuple[float, ...], tuple[float, ...], float, tuple[bool, ...], float, float]:
-    grid, surface = problem.grid, problem.surface
-    measured = np.isfinite(problem.separation)
-    rms = surface.rms if surface is not None else float(np.std(problem.separation[measured]))
-    # A hundredth in the displacement is a ten-thousandth in the stiffness, more than a limit needs.
-    saturation = frozen_contact(problem.operator, measured, tolerance=1e-2).stiffness
+def _point(s: Solution) -> tuple[float, ...]:
     return (
-        problem.modulus,
-        grid.lengths,
-        grid.spacing,
-        rms,
-        grid.periodic,
-        cell_stiffness(problem.operator),
-        saturation,
+        s.force,
+        s.depth,
+        s.stiffness,
+        s.interfacial_stiffness,
+        s.contact_area,
+        s.mean_gap,
+        s.elastic_energy,
+        s.spots.count,
+        s.residual,
+        s.frozen.residual,
     )

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.contact.active_set import ActiveSet
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.press import control_of, make_problem
+from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve_state
@@ -57,7 +57,7 @@ def loading_path(
     ValueError
         If the input makes no sense, at once and not at the first load.
     """
-    controls = _controls(surface.grid, forces=forces, depths=depths, pressures=pressures)
+    controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
     problem = make_problem(surface, modulus, controls[0], operator, tolerance)
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
@@ -134,11 +134,15 @@ def _controls(
     given = {"force": forces, "depth": depths, "pressure": pressures}
     named = {name: loads for name, loads in given.items() if loads is not None}
     if len(named) != 1:
-        raise ValueError(f"give exactly one of forces, depths and pressures, not {' and '.join(named) or 'none'}")
+        raise ValueError(
+            f"give exactly one of forces, depths and pressures, not {' and '.join(named) or 'none'}"
+        )
     [(name, loads)] = named.items()
     values = np.atleast_1d(np.asarray(loads, dtype=np.float64))
     if values.ndim != 1 or not len(values):
-        raise ValueError(f"the list of {name}s must hold at least one number in one row, not shape {values.shape}")
+        raise ValueError(
+            f"the list of {name}s must hold at least one number in one row, not shape {values.shape}"
+        )
     if not (np.diff(values) > 0).all():
         at = int(np.argmin(np.diff(values) > 0))
         raise ValueError(

@@ -64,7 +64,11 @@ class PolonskyKeer:
                 if forced:
                     v -= measure.mean(v, inside)
                 curvature = measure.dot(v, t)
-                tau = measure.dot(np.where(inside, g, 0.0), t) / curvature if curvature > 0 else 1 / self_influence
+                tau = (
+                    measure.dot(np.where(inside, g, 0.0), t) / curvature
+                    if curvature > 0
+                    else 1 / self_influence
+                )
             else:  # a single cell at given force has no error to shrink, but others may overlap
                 t[:] = 0.0
                 tau = 1 / self_influence

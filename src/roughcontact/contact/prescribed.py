@@ -70,7 +70,9 @@ def prescribed_displacement(
     """
     region = np.asarray(region, dtype=bool)
     if region.shape != operator.grid.shape:
-        raise ValueError(f"a region of shape {region.shape} does not fit the grid of shape {operator.grid.shape}")
+        raise ValueError(
+            f"a region of shape {region.shape} does not fit the grid of shape {operator.grid.shape}"
+        )
     box = bounding_box(region)
     if box is None:
         raise ValueError("the region holds no cell: nothing can be displaced")
@@ -100,7 +102,14 @@ def _solve(
     steps += 1
     for _ in range(3):  # once as a rule: the image is tracked, and checked by a fresh product
         found = relax(
-            operator, region, -wanted, start, displacement, depth=0.0, limit=0.5 * limit, max_steps=max_steps - steps
+            operator,
+            region,
+            -wanted,
+            start,
+            displacement,
+            depth=0.0,
+            limit=0.5 * limit,
+            max_steps=max_steps - steps,
         )
         steps += found.steps
         start = found.pressure

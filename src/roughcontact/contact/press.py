@@ -58,11 +58,18 @@ def press(
     ConvergenceError
         If the tolerance was missed. It carries the solution.
     """
-    control = control_of(surface.grid, force=force, depth=depth, pressure=pressure)
+    control = control_of(grid_of(surface), force=force, depth=depth, pressure=pressure)
     solution = solve(make_problem(surface, modulus, control, operator, tolerance), solver=solver)
     if not solution.status.converged:
         raise ConvergenceError(solution)
     return solution
+
+
+def grid_of(surface: Surface) -> Grid:
+    """Return the grid of a surface, or say that it is none."""
+    if not isinstance(surface, Surface):
+        raise ValueError(f"a Surface is wanted (heights and a grid), not {type(surface).__name__}")
+    return surface.grid
 
 
 def make_problem(
@@ -73,8 +80,6 @@ def make_problem(
     tolerance: float,
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
-    if not isinstance(surface, Surface):
-        raise ValueError(f"press needs a Surface (heights and a grid), not {type(surface).__name__}")
     value = as_modulus(modulus)
     body = half_space(surface.grid, value) if operator is None else operator
     if body.grid != surface.grid:
@@ -86,9 +91,13 @@ def control_of(
     grid: Grid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
 ) -> Control:
     """Return the control that exactly one of the three numbers states."""
-    given = [name for name, v in (("force", force), ("depth", depth), ("pressure", pressure)) if v is not None]
+    given = [
+        name for name, v in (("force", force), ("depth", depth), ("pressure", pressure)) if v is not None
+    ]
     if len(given) != 1:
-        raise ValueError(f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}")
+        raise ValueError(
+            f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
+        )
     if force is not None:
         return Force(float(force))
     if depth is not None:

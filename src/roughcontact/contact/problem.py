@@ -37,7 +37,9 @@ class Depth:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.value) and self.value >= 0):
-            raise ValueError(f"the depth counts from first touch: at least 0 and finite [m], not {self.value}")
+            raise ValueError(
+                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
+            )
 
 
 Control = Force | Depth

@@ -151,7 +151,9 @@ class Solution:
         if self.touches_edge and self.problem.surface is not None:
             notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
         if self.contact.sum() == 1:
-            notes.append("A single cell is in contact: stiffness and area are those of the grid, not of the body.")
+            notes.append(
+                "A single cell is in contact: stiffness and area are those of the grid, not of the body."
+            )
         return tuple(notes)
 
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:

@@ -60,4 +60,4 @@ def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> S
     spot = labels.ravel()[cells] - 1
     sizes = np.bincount(spot, minlength=count)
     sums = np.bincount(spot, weights=pressure.ravel()[cells], minlength=count)
-    return Spots(int(count), sizes * grid.cell_area, sums * grid.cell_area, labels)
+    return Spots(int(count), np.asarray(sizes * grid.cell_area), np.asarray(sums * grid.cell_area), labels)

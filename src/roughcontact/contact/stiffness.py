@@ -52,7 +52,9 @@ def frozen_contact(
     if all(operator.grid.periodic) and region.all():
         return FrozenContact(math.inf, 0.0, np.full(region.shape, math.inf))
     if tangent is not None and tangent.error <= tolerance:
-        return FrozenContact(Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure)
+        return FrozenContact(
+            Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure
+        )
     initial = None if tangent is None else tangent.pressure
     answer = prescribed_displacement(operator, region, 1.0, tolerance=tolerance, initial=initial)
     return FrozenContact(answer.force, answer.residual, answer.pressure)
@@ -91,7 +93,9 @@ def contact_stiffness(
         raise ValueError(f"a mask of shape {region.shape} does not fit the grid of shape {grid.shape}")
     frozen = frozen_contact(half_space(grid, modulus), region, tolerance=tolerance)
     if frozen.residual > tolerance:
-        raise RuntimeError(f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance")
+        raise RuntimeError(
+            f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
+        )
     return frozen.stiffness
 
 

@@ -59,7 +59,12 @@ class Windows:
     _last: tuple[tuple[int, ...], Operator] | None = field(default=None)
 
     def solve(
-        self, solver: Solver, separation: Array, control: Control, guess: tuple[Array, float], tolerance: float
+        self,
+        solver: Solver,
+        separation: Array,
+        control: Control,
+        guess: tuple[Array, float],
+        tolerance: float,
     ) -> tuple[State, Box]:
         """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state on its box."""
         pressure, depth = guess

@@ -76,6 +76,8 @@ class Periodic:
 
         The period stays: cells of `grid` that do not divide it are stretched until they do.
         """
-        shape = tuple(max(1, round(length / step)) for length, step in zip(self.grid.lengths, grid.spacing, strict=True))
+        shape = tuple(
+            max(1, round(length / step)) for length, step in zip(self.grid.lengths, grid.spacing, strict=True)
+        )
         spacing = tuple(length / n for length, n in zip(self.grid.lengths, shape, strict=True))
         return Periodic(Grid(shape, spacing, periodic=True), self.modulus)

@@ -18,7 +18,7 @@ BLOCK = 16384  # cells of a table that are computed in one go
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
-def love(x: Array, y: Array, dx: float, dy: float) -> Array:
+def love(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
     """Return the integral of 1/r over a cell [m] (thesis, eqs A.15, A.16; Love 1929).
 
     A pressure p on the cell lifts the surface at the offset by ``u = love(...) * p / (pi E*)``.
@@ -35,16 +35,16 @@ def love(x: Array, y: Array, dx: float, dy: float) -> Array:
     array
         Values [m], accurate to 1e-12 relative at any offset and any ratio of the sides.
     """
-    x, y = np.broadcast_arrays(np.abs(np.asarray(x, float)), np.abs(np.asarray(y, float)))
-    if dy > dx:  # the shorter side is called y from here on
-        x, y, dx, dy = y, x, dy, dx
-    far = np.hypot(x, y) >= FAR * dx
-    near = ~far & (np.maximum(y, x - dx / 2) < NEAR * dy)
+    a, b = np.broadcast_arrays(np.abs(np.asarray(x, float)), np.abs(np.asarray(y, float)))
+    if dy > dx:  # the shorter side is called y, and the offset along it b, from here on
+        a, b, dx, dy = b, a, dy, dx
+    far = np.hypot(a, b) >= FAR * dx
+    near = ~far & (np.maximum(b, a - dx / 2) < NEAR * dy)
     middle = ~far & ~near
-    value = np.empty(x.shape)
-    value[far] = _expansion(x[far], y[far], dx, dy)
-    value[near] = _closed(x[near], y[near], dx, dy)
-    value[middle] = _across(x[middle], y[middle], dx, dy)
+    value = np.empty(a.shape)
+    value[far] = _expansion(a[far], b[far], dx, dy)
+    value[near] = _closed(a[near], b[near], dx, dy)
+    value[middle] = _across(a[middle], b[middle], dx, dy)
     return value
 
 
@@ -59,13 +59,13 @@ def love_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     return table
 
 
-def periodic_multiplier(wavenumber: Array) -> Array:
+def periodic_multiplier(wavenumber: npt.ArrayLike) -> Array:
     """Return 2/q, zero at q = 0: the displacement of a unit pressure wave, times E* [m].
 
     The mean displacement of a periodic half-space is a matter of convention; here it is zero.
     """
     q = np.asarray(wavenumber, float)
-    return np.divide(2.0, q, out=np.zeros_like(q), where=q > 0)
+    return np.asarray(np.divide(2.0, q, out=np.zeros_like(q), where=q > 0))
 
 
 def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:

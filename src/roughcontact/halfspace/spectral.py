@@ -136,5 +136,7 @@ def gather(table: Array, shape: tuple[int, ...], cells: Cells | None = None) -> 
         index = np.abs(y[rows, None] - y)
         index *= width
         index += np.abs(x[rows, None] - x)
-        values.take(index, out=matrix[rows], mode="clip")  # "clip" writes without a buffer; none is out of range
+        values.take(
+            index, out=matrix[rows], mode="clip"
+        )  # "clip" writes without a buffer; none is out of range
     return matrix

@@ -34,7 +34,7 @@ def self_affine(
     """Return a random self-affine surface (thesis, eqs 2.13 to 2.15 as corrected).
 
     The phases are random; the amplitudes follow the spectrum exactly, so that every sample has the same
-    power spectrum and, after scaling, exactly the wanted rms height. The same generator state gives the
+    power spectrum and exactly the wanted rms height. The same generator state gives the
     same phases for every Hurst exponent, so that samples can be compared pair by pair.
 
     Parameters
@@ -44,7 +44,8 @@ def self_affine(
     hurst : float
         Hurst exponent, from -1 to 3.
     rms : float
-        Root mean square height [m], set after synthesis.
+        Root mean square height [m]: of this sample, set after synthesis; with Gaussian amplitudes that of
+        the process, about which samples scatter.
     rng : numpy.random.Generator
         Source of the phases.
     rolloff_wavelength, cutoff_wavelength, short_wavelength : float, optional
@@ -88,7 +89,9 @@ def self_affine(
     elif support != "square":
         raise ValueError(f"support must be 'square' or 'disc', not {support!r}")
     if not amplitude.any():
-        raise ValueError("no wave of this grid lies inside the limits of the spectrum: widen them or the grid")
+        raise ValueError(
+            "no wave of this grid lies inside the limits of the spectrum: widen them or the grid"
+        )
 
     # The transform of real white noise has the Hermitian phases of eq. 2.15 built in.
     noise = scipy.fft.rfft2(rng.standard_normal(shape))
@@ -98,7 +101,7 @@ def self_affine(
     elif amplitudes != "gaussian":
         raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
     heights = scipy.fft.irfft2(noise * amplitude, s=shape, overwrite_x=True)
-    heights *= rms / np.std(heights)
+    heights *= rms / (np.std(heights) if amplitudes == "exact" else _process_rms(amplitude, heights.size))
     if nodal:
         heights = np.pad(heights, ((0, 1), (0, 1)), mode="wrap")
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}, rms = {rms:g} m, inverse FFT",))
@@ -110,6 +113,12 @@ def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     qy = 2 * np.pi * scipy.fft.fftfreq(ny, dy)
     qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
     return np.asarray(np.hypot(qy[:, None], qx))
+
+
+def _process_rms(amplitude: Array, size: int) -> float:
+    """Return the rms of the Gaussian process whose white noise of unit variance is coloured by `amplitude`."""
+    # Columns beyond the first stand for two waves each; the Nyquist column is empty.
+    return math.sqrt((2 * (amplitude**2).sum() - (amplitude[:, 0] ** 2).sum()) / size)
 
 
 def _drop_nyquist(amplitude: Array, shape: tuple[int, ...]) -> None:

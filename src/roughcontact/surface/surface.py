@@ -44,7 +44,9 @@ class Surface:
             raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
         heights = np.array(given, dtype=np.float64)  # a copy: a surface never changes
         if heights.shape != self.grid.shape:
-            raise ValueError(f"heights of shape {heights.shape} do not fit the grid of shape {self.grid.shape}")
+            raise ValueError(
+                f"heights of shape {heights.shape} do not fit the grid of shape {self.grid.shape}"
+            )
         if np.isinf(heights).any():
             raise ValueError(
                 f"{int(np.isinf(heights).sum())} heights are infinite; mark points without a measurement by NaN"

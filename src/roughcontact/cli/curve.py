@@ -1,0 +1,221 @@
+"""The verb ``curve``: stiffness, area and depth against load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from roughcontact.cli import options
+from roughcontact.cli.errors import MISSED, note, reported
+from roughcontact.cli.memory import require_memory
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse_loads
+from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, screen, size_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.contact.solution import Solution
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["EXAMPLES", "curve"]
+
+EXAMPLES = """Examples:
+
+roughcontact curve part.x3p --forces 1mN:1N:100 --modulus 110GPa --out result
+
+roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
+
+roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
+"""
+
+_LOADS = "Loads (one of them)"
+_KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
+
+ForcesOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="1mN:1N:100",
+        help="Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list.",
+        rich_help_panel=_LOADS,
+    ),
+]
+PressuresOption = Annotated[
+    str | None,
+    typer.Option(metavar="1kPa:1MPa:100", help="Nominal pressures, likewise.", rich_help_panel=_LOADS),
+]
+DepthsOption = Annotated[
+    str | None,
+    typer.Option(metavar="1nm:1um:100", help="Depths since first touch, likewise.", rich_help_panel=_LOADS),
+]
+
+
+def curve(
+    file: options.FileArgument,
+    *,
+    forces: ForcesOption = None,
+    pressures: PressuresOption = None,
+    depths: DepthsOption = None,
+    modulus: options.ModulusOption = None,
+    young: options.YoungOption = None,
+    poisson: options.PoissonOption = None,
+    young2: options.Young2Option = None,
+    poisson2: options.Poisson2Option = None,
+    channel: options.ChannelOption = None,
+    unit: options.UnitOption = None,
+    size: options.SizeOption = None,
+    periodic: options.PeriodicOption = False,
+    level: options.LevelOption = None,
+    tolerance: options.ToleranceOption = 1e-8,
+    out: options.OutOption = None,
+    json: options.JsonOption = False,
+) -> None:
+    """Press a rough surface by rising loads: stiffness, area and depth against force."""
+    with reported():
+        from roughcontact.halfspace.build import memory_needed
+
+        given = {"forces": forces, "pressures": pressures, "depths": depths}
+        name = options.only_one({f"--{key}": value for key, value in given.items()}, "the loads")[2:]
+        loads = parse_loads(str(given[name]), _KINDS[name], f"--{name}")
+        reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
+        with output(out) as folder:
+            surface = options.Reading(file, channel, unit, size, level, periodic).surface()
+            require_memory(memory_needed(surface.grid), surface.grid.shape)
+            answer, notes = _load(surface, reduced, name, loads, tolerance)
+            law = _fit(answer)
+            record = _record(answer, law, file, surface, tolerance) | {"notes": list(notes)}
+            if folder is not None:
+                control = (
+                    f"{name} from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}, {loads.size} of them"
+                )
+                _write(answer, law, record, folder, _source(surface, reduced, control, tolerance))
+        _tell(answer, law, surface, record, json)
+        if folder is not None:
+            note(f"summary.json, curve.csv, curve.nc and curve.png are in {folder}")
+        if not record["converged"]:
+            raise typer.Exit(MISSED)
+
+
+def _load(
+    surface: Surface, modulus: float, name: str, loads: npt.NDArray[np.float64], tolerance: float
+) -> tuple[Curve, tuple[str, ...]]:
+    """Return the curve and the notes on its last load; a bar on standard error moves on at every load."""
+    import roughcontact as rc
+    from roughcontact.contact.curve import collect
+
+    given = {kind: loads if kind == name else None for kind in _KINDS}
+    path = rc.loading_path(
+        surface,
+        modulus,
+        forces=given["forces"],
+        pressures=given["pressures"],
+        depths=given["depths"],
+        tolerance=tolerance,
+    )
+    notes: list[tuple[str, ...]] = []
+
+    def watched(path: Iterator[Solution]) -> Iterator[Solution]:
+        for solution in path:
+            notes[:] = [solution.notes]
+            yield solution
+
+    columns = (
+        TextColumn("Pressing"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
+    )
+    with Progress(*columns, console=screen()) as progress:
+        curve = collect(progress.track(watched(path), total=loads.size))
+    return curve, notes[0]
+
+
+def _fit(curve: Curve) -> PowerLaw | None:
+    """Return the power law through the resolved points, if they allow one."""
+    try:
+        return curve.fit()
+    except ValueError as error:
+        note(f"no power law: {error}")
+        return None
+
+
+def _record(
+    curve: Curve, law: PowerLaw | None, file: Path, surface: Surface, tolerance: float
+) -> dict[str, Any]:
+    from roughcontact.contact.dataset import curve_record
+
+    return {
+        "verb": "curve",
+        "file": str(file),
+        "surface": list(surface.provenance),
+        **curve_record(curve),
+        "fit": None if law is None else _law_record(law),
+        "tolerance": tolerance,
+        "converged": all(status.converged for status in curve.status),
+    }
+
+
+def _law_record(law: PowerLaw) -> dict[str, Any]:
+    return {
+        "exponent": float(law.exponent),
+        "prefactor": float(law.prefactor),
+        "scatter": float(law.scatter),
+        "window": [float(end) for end in law.window],
+        "count": int(law.count),
+    }
+
+
+def _source(surface: Surface, modulus: float, control: str, tolerance: float) -> dict[str, str | float]:
+    from roughcontact.files.provenance import provenance
+
+    return provenance(surface, modulus=modulus, control=control, tolerance=tolerance, command=command_line())
+
+
+def _write(
+    curve: Curve, law: PowerLaw | None, record: dict[str, Any], folder: Path, source: dict[str, str | float]
+) -> None:
+    from roughcontact.contact.dataset import curve_dataset
+    from roughcontact.files.write import write_csv, write_json, write_netcdf
+    from roughcontact.plot.figures import curve_figure, save
+
+    dataset = curve_dataset(curve)
+    with all_or_none(folder) as aside:
+        write_netcdf(dataset, aside / "curve.nc", source)
+        write_csv(dataset, aside / "curve.csv", source)
+        save(curve_figure(curve, law), aside / "curve.png")
+        write_json(record, aside / "summary.json", source)
+
+
+def _tell(curve: Curve, law: PowerLaw | None, surface: Surface, record: dict[str, Any], json: bool) -> None:
+    if json:
+        emit(record)
+    else:
+        print_facts(
+            [("surface", size_of(surface.grid)), ("reduced modulus E*", quantity("modulus", curve.modulus))]
+        )
+        print_table(*curve_table(curve))
+        print_facts(_law_facts(law, curve))
+    missed = sum(not status.converged for status in curve.status)
+    if missed:
+        note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
+    for line in record["notes"]:
+        note(line)
+
+
+def _law_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
+    facts = [
+        ("saturation", f"{quantity('saturation', curve.saturation)}, every measured cell in contact"),
+        ("largest certificate", f"{curve.residual.max():.1e}"),
+    ]
+    if law is not None:
+        low, high = (quantity("force", end) for end in law.window)
+        text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
+        fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
+        facts = [("power law", text), ("fitted to", fitted), *facts]
+    return facts

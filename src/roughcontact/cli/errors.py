@@ -1,0 +1,108 @@
+"""What the user did becomes one line; what we did wrong shows itself with its traceback."""
+
+from __future__ import annotations
+
+import os
+import re
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from opcode import opmap
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from roughcontact.files.errors import SurfaceWarning
+
+__all__ = ["BAD_INPUT", "INTERRUPTED", "MISSED", "UsageError", "note", "reported"]
+
+MISSED = 1  # an answer that did not meet its tolerance
+BAD_INPUT = 2  # the same status as a misspelt option
+INTERRUPTED = 130  # what a shell reports for Ctrl-C
+
+# The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
+_OPTIONS = (
+    (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
+    (re.compile(r"\bperiodic=True\b"), "--periodic"),
+    (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
+    (re.compile(r"\b(channel|unit|size)="), r"--\1"),
+)
+_RAISE = opmap["RAISE_VARARGS"]
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+class UsageError(ValueError):
+    """An option that makes no sense; the message says what to write instead."""
+
+
+def note(text: str) -> None:
+    """Print one line on standard error."""
+    typer.echo(f"Note: {_line(text)}", err=True)
+
+
+@contextmanager
+def reported() -> Iterator[None]:
+    """Turn errors of ours into one line and an exit status, and our warnings into notes."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", SurfaceWarning)
+            warnings.showwarning = _showwarning(warnings.showwarning)
+            yield
+    except KeyboardInterrupt:
+        typer.echo("Interrupted: no file was left half-written.", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    except (ValueError, OSError) as error:
+        if not _is_ours(error):
+            raise
+        typer.echo(f"Error: {_line(_message(error))}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+
+
+def _is_ours(error: ValueError | OSError) -> bool:
+    """Return whether `error` speaks to the user: a file's trouble, or an error that our own code raises.
+
+    A ValueError of NumPy or another library, raised inside a call of ours, is a mistake of ours and no
+    bad input. One that comes out of compiled code has our line as its last frame, too, so what counts is
+    whether that line is a ``raise``.
+    """
+    if isinstance(error, BrokenPipeError):
+        return False  # whoever read our output has gone; typer knows how to leave quietly
+    if isinstance(error, OSError) and error.filename is not None:
+        return True
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    if last is None:
+        return False
+    code = last.tb_frame.f_code
+    return _in_package(code.co_filename) and code.co_code[last.tb_lasti] == _RAISE
+
+
+def _in_package(filename: str) -> bool:
+    return Path(filename).resolve().is_relative_to(_PACKAGE)
+
+
+def _message(error: ValueError | OSError) -> str:
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{os.fsdecode(error.filename)}: {error.strerror or error}"
+    return str(error)
+
+
+def _line(text: str) -> str:
+    """Return `text` in one line, with the library's keywords turned into the options of the same name."""
+    for keyword, option in _OPTIONS:
+        text = keyword.sub(option, text)
+    return " ".join(text.split())
+
+
+def _showwarning(original: Any) -> Any:
+    """Return a way to show warnings that turns ours into notes and leaves the others."""
+
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **named: Any) -> None:
+        if issubclass(category, SurfaceWarning):
+            note(str(message))
+        else:
+            original(message, category, *rest, **named)
+
+    return show

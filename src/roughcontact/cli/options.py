@@ -1,0 +1,202 @@
+"""The options that several verbs share, and what they mean."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli.errors import UsageError, note
+from roughcontact.cli.quantity import PRESSURE, parse, parse_size
+
+if TYPE_CHECKING:
+    from roughcontact.material import Solid
+    from roughcontact.surface.surface import Surface
+
+__all__ = [
+    "Bodies",
+    "ChannelOption",
+    "FileArgument",
+    "JsonOption",
+    "Level",
+    "LevelOption",
+    "ModulusOption",
+    "OutOption",
+    "PeriodicOption",
+    "Poisson2Option",
+    "PoissonOption",
+    "Reading",
+    "SizeOption",
+    "ToleranceOption",
+    "UnitOption",
+    "Young2Option",
+    "YoungOption",
+    "only_one",
+]
+
+_READING, _BODIES, _ANSWER = "Reading the file", "The two bodies", "Answer"
+
+
+class Level(StrEnum):
+    """What is taken out of the heights before they are pressed."""
+
+    PLANE = "plane"
+    MEAN = "mean"
+    NONE = "none"
+
+
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Measured surface: X3P, NumPy, text, ...")]
+ChannelOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="Channel of a file with several.", rich_help_panel=_READING)
+]
+UnitOption = Annotated[
+    str | None,
+    typer.Option(metavar="um", help="Unit of the heights, if the file has none.", rich_help_panel=_READING),
+]
+SizeOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="1mm x 2mm",
+        help="Side lengths, if the file has none: height x width of the picture, or its width alone.",
+        rich_help_panel=_READING,
+    ),
+]
+PeriodicOption = Annotated[
+    bool,
+    typer.Option("--periodic", help="The surface repeats itself.", rich_help_panel=_READING),
+]
+LevelOption = Annotated[
+    Level | None,
+    typer.Option(help="What to take out of the heights (default: plane).", rich_help_panel=_READING),
+]
+ModulusOption = Annotated[
+    str | None,
+    typer.Option(metavar="110GPa", help="Reduced modulus E*.", rich_help_panel=_BODIES),
+]
+YoungOption = Annotated[
+    str | None,
+    typer.Option(metavar="210GPa", help="Young's modulus, in place of --modulus.", rich_help_panel=_BODIES),
+]
+PoissonOption = Annotated[
+    float | None, typer.Option(metavar="0.3", help="Poisson's ratio.", rich_help_panel=_BODIES)
+]
+Young2Option = Annotated[
+    str | None,
+    typer.Option(
+        metavar="70GPa",
+        help="Young's modulus of the other body (default: rigid).",
+        rich_help_panel=_BODIES,
+    ),
+]
+Poisson2Option = Annotated[
+    float | None,
+    typer.Option(metavar="0.33", help="Poisson's ratio of the other.", rich_help_panel=_BODIES),
+]
+ToleranceOption = Annotated[
+    float, typer.Option(metavar="1e-8", help="Largest certificate of an answer.", rich_help_panel=_ANSWER)
+]
+OutOption = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Folder for files and pictures.", rich_help_panel=_ANSWER)
+]
+JsonOption = Annotated[
+    bool,
+    typer.Option("--json", help="One JSON object on standard output, in SI units.", rich_help_panel=_ANSWER),
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How to turn a file into the surface to press."""
+
+    file: Path
+    channel: str | None
+    unit: str | None
+    size: str | None
+    level: Level | None
+    periodic: bool
+
+    def as_it_is(self) -> Surface:
+        """Return the surface as the file holds it."""
+        import roughcontact as rc
+
+        size = None if self.size is None else parse_size(self.size, "--size")
+        width = size[0] if size is not None and len(size) == 1 else size
+        # A foreign reader that prints must not spoil what standard output is for.
+        with redirect_stdout(sys.stderr):
+            return rc.read(
+                self.file, channel=self.channel, unit=self.unit, size=width, periodic=self.periodic
+            )
+
+    def surface(self) -> Surface:
+        """Return the surface, read and levelled; say on standard error what was decided unasked."""
+        surface = self.as_it_is()
+        if self.level is None:
+            note("the heights are levelled by their plane (--level mean or none for another choice)")
+        if self.level is Level.NONE:
+            return surface
+        return surface.levelled("mean" if self.level is Level.MEAN else "plane")
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies:
+    """The elastic constants, as the user gave them."""
+
+    modulus: str | None
+    young: str | None
+    poisson: float | None
+    young2: str | None
+    poisson2: float | None
+
+    def reduced_modulus(self) -> float:
+        """Return the reduced modulus E* [Pa].
+
+        Raises
+        ------
+        UsageError
+            If neither a reduced modulus nor a Young's modulus is given, or both, or half a body.
+        """
+        import roughcontact as rc
+        from roughcontact.material import as_modulus
+
+        only_one(
+            {"--modulus": self.modulus, "--young": self.young},
+            "the elastic constants, such as --modulus 110GPa",
+        )
+        if self.modulus is not None:
+            if any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
+                raise UsageError("--modulus is that of the pair: leave out --poisson, --young2, --poisson2")
+            return as_modulus(parse(self.modulus, PRESSURE, "--modulus"))
+        first = _solid(self.young, self.poisson, "--young", "--poisson")
+        if self.young2 is None and self.poisson2 is None:
+            return rc.reduced_modulus(first)
+        return rc.reduced_modulus(first, _solid(self.young2, self.poisson2, "--young2", "--poisson2"))
+
+
+def only_one(given: dict[str, Any], what: str) -> str:
+    """Return the name of the one option that was given.
+
+    Raises
+    ------
+    UsageError
+        If none or several were; the message says `what` is needed.
+    """
+    names = [name for name, value in given.items() if value is not None]
+    if not names:
+        raise UsageError(f"give {what} ({' or '.join(given)})")
+    if len(names) > 1:
+        raise UsageError(f"{' and '.join(names)} exclude each other: give one of them")
+    return names[0]
+
+
+def _solid(young: str | None, poisson: float | None, young_option: str, poisson_option: str) -> Solid:
+    import roughcontact as rc
+
+    if young is None or poisson is None:
+        missing = poisson_option if poisson is None else young_option
+        raise UsageError(f"{young_option} and {poisson_option} belong together: {missing} is missing")
+    return rc.Solid(parse(young, PRESSURE, young_option), poisson)

@@ -1,0 +1,58 @@
+"""Files of a run: all of them whole and together, or none."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from roughcontact.cli.errors import UsageError
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+__all__ = ["all_or_none", "command_line", "output"]
+
+
+def output(folder: Path | None) -> AbstractContextManager[Path | None]:
+    """Return a context that checks the folder before the work, and undoes its creation if that fails."""
+    from roughcontact.files.write import output_folder
+
+    return nullcontext() if folder is None else output_folder(folder)
+
+
+@contextmanager
+def all_or_none(folder: Path) -> Iterator[Path]:
+    """Yield a folder to write into; its files move to `folder` when the block ends well.
+
+    So an interrupt, or a failure of the last picture, does not leave new files beside old ones.
+
+    Raises
+    ------
+    UsageError
+        If a file in the way is protected or a folder.
+    """
+    with tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as name:
+        aside = Path(name)
+        yield aside
+        files = sorted(aside.iterdir())
+        for file in files:
+            _check_free(folder / file.name)
+        for file in files:
+            os.replace(file, folder / file.name)
+
+
+def command_line() -> str:
+    """Return the command as the user typed it, for the record."""
+    return shlex.join(["roughcontact", *sys.argv[1:]])
+
+
+def _check_free(target: Path) -> None:
+    if target.is_dir() or (target.exists() and not os.access(target, os.W_OK)):
+        what = "it is a folder" if target.is_dir() else "the file is write-protected"
+        raise UsageError(f"cannot write {target}: {what}; choose another --out")

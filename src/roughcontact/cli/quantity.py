@@ -1,0 +1,154 @@
+"""Text with units to plain SI numbers: "10 N", "110GPa", "1e-6 m", "1mN:1N:100"."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.cli.errors import UsageError
+
+__all__ = ["FORCE", "LENGTH", "PRESSURE", "Kind", "parse", "parse_loads", "parse_points", "parse_size"]
+
+# A number in the way programs write it, then whatever is left as the unit.
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+# A product or quotient of names with small powers; arithmetic beyond it could take for ever.
+_NAME = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d|[²³])?"
+_UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*")
+_MOST_LOADS = 100_000
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of quantity: its name, its SI unit, and an example for the messages."""
+
+    name: str
+    unit: str
+    example: str
+
+
+FORCE = Kind("a force", "N", "10N")
+LENGTH = Kind("a length", "m", "5um")
+PRESSURE = Kind("a pressure", "Pa", "1MPa")
+
+
+def parse(text: str, kind: Kind, option: str) -> float:
+    """Return the quantity in `text` in the SI unit of its `kind`; a bare number is SI already.
+
+    Raises
+    ------
+    UsageError
+        If the text is no finite number with a unit of that kind; the message names the `option`.
+    """
+    expected = f"expected {kind.name} such as {kind.example}"
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        raise UsageError(f"{option}: {text!r} does not start with a number; {expected}")
+    if match[2].startswith(","):
+        raise UsageError(f"{option}: {text!r} holds a comma: write the decimal point as '.'; {expected}")
+    number, unit = float(match[1]), match[2]
+    value = number if unit in ("", kind.unit) else number * _factor(unit, kind, option, text)
+    if not math.isfinite(value):
+        raise UsageError(f"{option}: {text!r} is not a finite number; {expected}")
+    return value
+
+
+def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    """Return the loads in `text`, ``from:to:count`` (log-spaced) or a comma list, in SI, shape (n,).
+
+    Raises
+    ------
+    UsageError
+        If the text holds no load, or loads that are not positive and increasing.
+    """
+    if ":" in text:
+        loads = _log_spaced(text, kind, option)
+    else:
+        parts = [part for part in text.split(",") if part.strip()]
+        loads = np.array([parse(part, kind, option) for part in parts])
+    if loads.size == 0:
+        raise UsageError(f"{option}: no load given; write {_range_example(kind)} or a comma list")
+    if not (loads > 0).all():
+        raise UsageError(f"{option}: every load must be positive, not {loads.min():g} {kind.unit}")
+    if not (np.diff(loads) > 0).all():
+        raise UsageError(f"{option}: the loads must increase from one to the next, not as in {text!r}")
+    return loads
+
+
+def parse_size(text: str, option: str) -> tuple[float, ...]:
+    """Return one length or two, "1mm" or "1mm x 2mm" (down the rows, then along them), in [m].
+
+    Raises
+    ------
+    UsageError
+        If a part is no positive length or there are more than two.
+    """
+    parts = re.split(r"[x*]", text)
+    if len(parts) > 2:
+        raise UsageError(f"{option}: {text!r} holds {len(parts)} lengths; write '1mm' or '1mm x 2mm'")
+    lengths = tuple(parse(part, LENGTH, option) for part in parts)
+    if not all(length > 0 for length in lengths):
+        raise UsageError(f"{option}: a side length must be positive, not {text!r}")
+    return lengths
+
+
+def parse_points(text: str, option: str) -> tuple[int, int]:
+    """Return the number of points ``(ny, nx)`` of "512" (a square) or "512x256" (rows x columns).
+
+    Raises
+    ------
+    UsageError
+        If the text is not one or two positive whole numbers.
+    """
+    match = re.fullmatch(r"\s*(\d+)\s*(?:[x*]\s*(\d+)\s*)?", text)
+    if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
+        raise UsageError(f"{option}: {text!r} is no number of points; write 512 or 512x256 (rows x columns)")
+    return int(match[1]), int(match[2] or match[1])
+
+
+def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    parts = text.split(":")
+    example = _range_example(kind)
+    if len(parts) != 3 or re.fullmatch(r"\s*\d+\s*", parts[2]) is None:
+        raise UsageError(f"{option}: {text!r} is no range; write from:to:count, such as {example}")
+    low, high = (parse(part, kind, option) for part in parts[:2])
+    count = int(parts[2])
+    if not 0 < low < high:
+        raise UsageError(
+            f"{option}: a range is log-spaced and must rise from a positive load, unlike {text!r}"
+        )
+    if not 2 <= count <= _MOST_LOADS:
+        raise UsageError(f"{option}: a range holds from 2 to {_MOST_LOADS} loads, not {count}")
+    return np.geomspace(low, high, count)
+
+
+def _range_example(kind: Kind) -> str:
+    return f"1m{kind.unit}:1{kind.unit}:100" if kind.unit == "N" else f"1n{kind.unit}:1u{kind.unit}:100"
+
+
+def _factor(unit: str, kind: Kind, option: str, text: str) -> float:
+    """Return how many SI units of `kind` one `unit` is."""
+    expected = f"expected {kind.name} such as {kind.example}"
+    try:
+        if _UNIT.fullmatch(unit) is None:
+            raise ValueError(unit)
+        registry = _registry()
+        given = registry.Quantity(1.0, registry.parse_units(unit))
+        right = given.check(f"[{kind.name.split()[-1]}]")
+    except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
+        raise UsageError(f"{option}: unknown unit {unit!r} in {text!r}; {expected}") from error
+    if not right:
+        raise UsageError(f"{option}: {text!r} is not {kind.name}; {expected}")
+    return float(given.to(kind.unit).magnitude)
+
+
+@cache
+def _registry() -> Any:
+    import pint  # late: it takes longer to import than the rest of the command line
+
+    return pint.UnitRegistry()

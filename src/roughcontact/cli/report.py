@@ -1,0 +1,112 @@
+"""Answers as a person reads them, and as a program does."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import typer
+from rich.console import Console
+
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.units import pretty, scale, written
+
+if TYPE_CHECKING:
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.solution import Solution
+    from roughcontact.grid import Grid
+
+__all__ = [
+    "curve_table",
+    "emit",
+    "print_facts",
+    "print_table",
+    "quantity",
+    "screen",
+    "size_of",
+    "solution_facts",
+]
+
+_CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
+
+
+def screen() -> Console:
+    """Return standard error as a console, for progress."""
+    return Console(stderr=True)
+
+
+def emit(record: Mapping[str, Any]) -> None:
+    """Print one JSON object on standard output."""
+    typer.echo(json.dumps(record, allow_nan=False, ensure_ascii=True))
+
+
+def quantity(name: str, value: float) -> str:
+    """Return a quantity of the table of variables with a unit that suits it."""
+    return written(value, VARIABLES[name].unit, digits=4)
+
+
+def size_of(grid: Grid) -> str:
+    """Return the cells and the side lengths of a grid in words."""
+    cells = " x ".join(str(n) for n in grid.shape)
+    lengths = " x ".join(quantity("lengths", length) for length in grid.lengths)
+    return f"{cells} cells, {lengths}, {'periodic' if all(grid.periodic) else 'free'}"
+
+
+def print_facts(facts: Sequence[tuple[str, str]]) -> None:
+    """Print lines of a name and a value on standard output."""
+    width = max(len(name) for name, _ in facts)
+    for name, value in facts:
+        typer.echo(f"{name:<{width}}   {value}")
+
+
+def print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table with right-aligned columns on standard output, as wide as it needs to be."""
+    lines = [header, *rows]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    for line in lines:
+        typer.echo("  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip())
+
+
+def solution_facts(solution: Solution) -> list[tuple[str, str]]:
+    """Return what one loaded state is worth telling, line by line."""
+    problem = solution.problem
+    pressure = solution.force / problem.grid.area
+    met = "met" if solution.status.converged else "MISSED"
+    return [
+        ("surface", size_of(problem.grid)),
+        ("reduced modulus E*", quantity("modulus", problem.modulus)),
+        ("force", quantity("force", solution.force)),
+        ("nominal pressure", quantity("pressure", pressure)),
+        ("largest pressure", quantity("pressure", float(solution.pressure.max()))),
+        ("depth", quantity("depth", solution.depth)),
+        ("stiffness", quantity("stiffness", solution.stiffness)),
+        ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness)),
+        ("contact area", quantity("contact_area", solution.contact_area)),
+        ("share of the nominal area", f"{solution.contact_fraction:.4g}"),
+        ("contact spots", str(solution.spots.count)),
+        ("mean gap", quantity("mean_gap", solution.mean_gap)),
+        ("elastic energy", quantity("elastic_energy", solution.elastic_energy)),
+        ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
+    ]
+
+
+def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
+    """Return the header and the rows of a curve, one row a load, each column in one unit."""
+    header, columns = [], []
+    for name in _CURVE_COLUMNS:
+        values, known = getattr(curve, name), VARIABLES[name]
+        plain = known.unit in ("", "1")
+        chosen = scale(float(values.max()), known.unit)
+        header.append(known.label if plain else f"{known.label} [{chosen.unit or pretty(known.unit)}]")
+        digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
+        columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
+    header.append("")
+    columns.append([_remark(*point) for point in zip(curve.resolved, curve.status, strict=True)])
+    return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def _remark(resolved: bool, status: Any) -> str:
+    if not status.converged:
+        return f"MISSED: {status.value}"
+    return "" if resolved else "not resolved"

@@ -1,0 +1,202 @@
+"""The verbs ``surface info`` and ``surface make``: look at a file, or make one."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import redirect_stdout
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli import options
+from roughcontact.cli.errors import UsageError, note, reported
+from roughcontact.cli.memory import require_memory
+from roughcontact.cli.quantity import LENGTH, parse, parse_points, parse_size
+from roughcontact.cli.report import emit, print_facts, quantity, size_of
+
+if TYPE_CHECKING:
+    from roughcontact.grid import Grid
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
+
+INFO_EXAMPLES = """Examples:
+
+roughcontact surface info part.x3p
+
+roughcontact surface info heights.csv --unit nm --size 1mm --json
+"""
+MAKE_EXAMPLES = """Examples:
+
+roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
+
+roughcontact surface make r.npz --hurst 2 --rms 1um --size 1mm --points 65x257
+"""
+_LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
+_BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
+
+OutputArgument = Annotated[Path, typer.Argument(metavar="OUT.npz", help="File to write.")]
+HurstOption = Annotated[float, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
+RmsOption = Annotated[str, typer.Option(metavar="1um", help="Root mean square height.")]
+NewSizeOption = Annotated[
+    str,
+    typer.Option(metavar="1mm", help="Width (cells are square), or height x width."),
+]
+PointsOption = Annotated[str, typer.Option(metavar="512", help="Points a side, or rows x columns.")]
+SeedOption = Annotated[int, typer.Option(metavar="1", help="Seed of the random phases.", min=0)]
+RolloffOption = Annotated[str | None, typer.Option(metavar="100um", help="Longer waves lie on a plateau.")]
+CutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
+ShortOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
+MakePeriodicOption = Annotated[bool, typer.Option("--periodic", help="For a surface that repeats itself.")]
+NodalOption = Annotated[
+    bool, typer.Option("--nodal", help="Repeat the first row and column at the end: grids of 2^m + 1 points.")
+]
+
+
+def info(
+    file: options.FileArgument,
+    *,
+    channel: options.ChannelOption = None,
+    unit: options.UnitOption = None,
+    size: options.SizeOption = None,
+    json: options.JsonOption = False,
+) -> None:
+    """Say what a file holds: channels, size, unit, missing points, roughness."""
+    with reported():
+        from roughcontact.files.errors import ReadError
+
+        channels = _channels(file)
+        reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=False)
+        try:
+            surface = reading.as_it_is()
+        except ReadError as error:
+            # What the file leaves open, such as its size, does not hide what it holds.
+            _tell(
+                {"file": str(file), "channels": channels, "error": str(error)}, _channel_facts(channels), json
+            )
+            raise
+        record = {"file": str(file), "channels": channels} | _record(surface)
+        _tell(record, [*_channel_facts(channels), *_facts(surface, record)], json)
+
+
+def make(
+    out: OutputArgument,
+    *,
+    hurst: HurstOption,
+    rms: RmsOption,
+    size: NewSizeOption,
+    points: PointsOption = "512",
+    seed: SeedOption = 1,
+    rolloff: RolloffOption = None,
+    cutoff: CutoffOption = None,
+    short: ShortOption = None,
+    periodic: MakePeriodicOption = False,
+    nodal: NodalOption = False,
+    json: options.JsonOption = False,
+) -> None:
+    """Make a self-affine rough surface and save its heights."""
+    with reported():
+        import numpy as np
+
+        import roughcontact as rc
+        from roughcontact.files.aside import written_aside
+
+        if out.suffix != ".npz":
+            raise UsageError(f"cannot write {out}: name a file that ends in .npz")
+        grid = _grid(size, points, periodic)
+        require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
+        height = parse(rms, LENGTH, "--rms")
+        wavelengths = [
+            None if text is None else parse(text, LENGTH, option)
+            for option, text in (("--rolloff", rolloff), ("--cutoff", cutoff), ("--short", short))
+        ]
+        with written_aside(out) as aside:
+            rng = np.random.default_rng(seed)
+            surface = rc.self_affine(
+                grid,
+                hurst,
+                height,
+                rng,
+                rolloff_wavelength=wavelengths[0],
+                cutoff_wavelength=wavelengths[1],
+                short_wavelength=wavelengths[2],
+                nodal=nodal,
+            )
+            with open(aside, "wb") as stream:
+                np.savez(stream, heights=surface.heights, spacing=np.array(grid.spacing), unit=np.array("m"))
+        record = {"file": str(out), "seed": seed} | _record(surface)
+        _tell(record, _facts(surface, record), json)
+        if periodic:
+            note(f"press it with --periodic: {out} holds the heights of one period")
+
+
+def _grid(size: str, points: str, periodic: bool) -> Grid:
+    """Return the grid of a new surface; with one length the cells are square."""
+    import roughcontact as rc
+
+    shape = parse_points(points, "--points")
+    lengths = parse_size(size, "--size")
+    width = lengths[-1] / shape[1]
+    height = lengths[0] / shape[0] if len(lengths) == 2 else width
+    return rc.Grid(shape, (height, width), periodic=periodic)
+
+
+def _channels(file: Path) -> list[dict[str, Any]]:
+    """Return the channels of a file as plain records."""
+    from roughcontact.files.inspect import channels
+
+    with redirect_stdout(sys.stderr):
+        return [asdict(channel) for channel in channels(file)]
+
+
+def _record(surface: Surface) -> dict[str, Any]:
+    import numpy as np
+
+    grid = surface.grid
+    return {
+        "shape": list(grid.shape),
+        "spacing": list(grid.spacing),
+        "lengths": list(grid.lengths),
+        "periodic": list(grid.periodic),
+        "missing": surface.missing,
+        "rms": surface.rms,
+        "rms_levelled": surface.levelled("plane").rms,
+        "lowest": float(np.nanmin(surface.heights)),
+        "highest": float(np.nanmax(surface.heights)),
+        "provenance": list(surface.provenance),
+        "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
+    }
+
+
+def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what is worth telling of a surface, line by line."""
+    cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
+    missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
+    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its plane"
+    return [
+        ("size", size_of(surface.grid)),
+        ("cell", cell),
+        ("missing points", missing),
+        ("rms height", rms),
+        ("heights", f"{record['lowest']:.6g} m to {record['highest']:.6g} m"),
+        *(("history", line) for line in record["provenance"]),
+    ]
+
+
+def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
+    facts = []
+    for channel in channels:
+        shape = " x ".join(str(n) for n in channel["shape"])
+        unit = "without a unit" if channel["unit"] is None else f"in {channel['unit']}"
+        kind = "" if channel["is_height"] else ", not heights"
+        facts.append(("channel", f"{channel['name']}: {shape}, {unit}{kind}"))
+    return facts
+
+
+def _tell(record: dict[str, Any], facts: list[tuple[str, str]], json: bool) -> None:
+    if json:
+        emit(record)
+    else:
+        print_facts([("file", record["file"]), *facts])

@@ -1,0 +1,218 @@
+"""Every other format, through SurfaceTopography: nothing that it reports is taken on trust."""
+
+from __future__ import annotations
+
+import logging
+import math
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import replace
+from io import BytesIO, StringIO
+from typing import Any, TypeVar
+
+import numpy as np
+
+from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
+from roughcontact.files.errors import ReadError
+from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.units import is_length, length_factor
+
+__all__ = ["list_foreign", "read_foreign"]
+
+Result = TypeVar("Result")
+
+# Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
+_OURS = {"asc": ".txt", "matrix": ".txt", "xyz": ".xyz", "npy": ".npy", "npz": ".npz", "x3p": ".x3p"}
+# Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
+_UNMARKED = {"hgt": ".hgt", "nms": ".nms"}
+# Formats whose lateral size comes out wrong (by 1e6): the size must be given.
+_SIZE_UNRELIABLE = {"nms"}
+# Containers of bare matrices, whose rows are the rows of the picture; all other formats are indexed [x, y].
+_MATRICES = {"mat", "h5"}
+_REMEDY = "check that the file is whole, or export it as X3P, Gwyddion text or .npz"
+
+
+def read_foreign(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return the height channel of a file in any format that SurfaceTopography knows.
+
+    The channel is `channel`, or the first whose name and unit are those of a height; the library's default
+    is never taken.
+    """
+
+    def work(reader: Any) -> HeightMap:
+        channels = _channels(reader, file)
+        index, doubts = _choose(channels, channel, file)
+        return _map(reader, index, channels[index], file, doubts)
+
+    return _with_reader(data, file, work)
+
+
+def list_foreign(data: bytes, file: str) -> tuple[Channel, ...]:
+    """Return the channels of a file in any format that SurfaceTopography knows."""
+    return _with_reader(data, file, lambda reader: _channels(reader, file))
+
+
+def _with_reader(data: bytes, file: str, work: Callable[[Any], Result]) -> Result:
+    """Open the bytes, let `work` look at them, close; whatever goes wrong becomes a ReadError."""
+    with _quiet():
+        try:
+            from SurfaceTopography.IO import open_topography
+        except ImportError as error:
+            raise ReadError(
+                file,
+                f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
+                "run: pip install roughcontact[formats]",
+            ) from error
+        try:
+            # Bytes in memory leave no open file behind when a reader gives up half-way.
+            reader = open_topography(BytesIO(data))
+            try:
+                _accept(str(reader.format()), file)
+                return work(reader)
+            finally:
+                reader.close()
+        except ReadError:
+            raise
+        except Exception as error:  # any reader of forty may fail in any way on a damaged file
+            raise ReadError(file, f"it cannot be read ({_brief(error)})", _REMEDY) from error
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Silence warnings, prints and log lines of foreign readers: some log megabytes of raw bytes."""
+    threshold = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(threshold)
+
+
+def _brief(error: Exception) -> str:
+    if type(error).__name__ == "CannotDetectFileFormat":
+        return "its format is not recognised"
+    lines = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {lines[0][:120]}" if lines else type(error).__name__
+
+
+def _accept(format_name: str, file: str) -> None:
+    """Refuse what the other library reads too readily."""
+    suffix = _OURS.get(format_name) or _UNMARKED.get(format_name)
+    if suffix is not None and not (format_name in _UNMARKED and file.casefold().endswith(suffix)):
+        raise ReadError(
+            file,
+            f"its extension hides its format: it can only be taken for {suffix}",
+            f"rename it to {suffix} if that is what it is; {_REMEDY}",
+        )
+
+
+def _channels(reader: Any, file: str) -> tuple[Channel, ...]:
+    """Return the channels with units that are checked; heights are told by name and unit."""
+    found: list[Channel] = []
+    seen: Counter[str] = Counter()
+    for info in reader.channels:
+        lateral, unit = _units(info)
+        points = tuple(int(n) for n in info.nb_grid_pts or ())
+        shape = points if reader.format() in _MATRICES else points[::-1]
+        sizes = info.physical_sizes
+        size = None
+        if (
+            sizes is not None
+            and len(sizes) == 2
+            and is_length(lateral)
+            and reader.format() not in _SIZE_UNRELIABLE
+        ):
+            factor = length_factor(lateral)  # type: ignore[arg-type]  # a length, so not None
+            size = (float(sizes[1]) * factor, float(sizes[0]) * factor)
+        name = str(info.name)
+        seen[name] += 1
+        label = name if seen[name] == 1 else f"{name}#{seen[name]}"
+        found.append(Channel(label, shape, unit, size, is_height=False))
+    if not found:
+        raise ReadError(file, "it holds no channel", _REMEDY)
+    return tuple(replace(c, is_height=_is_height(c, found)) for c in found)
+
+
+def _units(info: Any) -> tuple[str | None, str | None]:
+    """Return the lateral unit and the unit of the values; a pair of units means them in that order."""
+    if isinstance(info.unit, tuple):
+        lateral, values = (*info.unit, None, None)[:2]
+        return lateral, values
+    # Values that are lengths are converted to the lateral unit by the library; other values keep their own.
+    other = info.data_unit
+    return info.unit, other if other is not None and not is_length(other) else info.unit
+
+
+def _is_height(channel: Channel, channels: Sequence[Channel]) -> bool:
+    """Whether a map is named as a height, or the only one and not named otherwise; its unit may be silent."""
+    if not _is_map(channel) or not (channel.unit is None or is_length(channel.unit)):
+        return False
+    alone = sum(map(_is_map, channels)) == 1
+    return names_a_height(channel.name) or (alone and not names_something_else(channel.name))
+
+
+def _is_map(channel: Channel) -> bool:
+    return len(channel.shape) == 2 and min(channel.shape) >= 2
+
+
+def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) -> tuple[int, tuple[str, ...]]:
+    """Return the position of the channel to read, and a doubt where another would do as well."""
+    if wanted is not None:
+        return pick(channels, wanted, file), ()
+    if not any(map(_is_map, channels)):
+        raise ReadError(
+            file,
+            f"it holds no map but {describe(channels)}: a line scan cannot be pressed as a surface",
+            "give a two-dimensional map of heights",
+        )
+    heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
+    if not heights:  # without a unit they need the user's, which is asked for later
+        heights = [k for k, c in enumerate(channels) if c.is_height]
+    if not heights:
+        raise ReadError(
+            file,
+            f"no channel is a height by its name and unit: {describe(channels)}",
+            "pass channel= with a name from this list, and unit= where its unit is no length",
+        )
+    if len(heights) == 1:
+        return heights[0], ()
+    names = ", ".join(repr(channels[k].name) for k in heights)
+    chosen = channels[heights[0]].name
+    return heights[0], (
+        f"{len(heights)} channels are heights ({names}); took {chosen!r}, pass channel= for another",
+    )
+
+
+def _map(reader: Any, index: int, channel: Channel, file: str, doubts: tuple[str, ...]) -> HeightMap:
+    info = reader.channels[index]
+    # A size must be passed where the file has none; it is not used.
+    missing = {"physical_sizes": tuple(info.nb_grid_pts)} if info.physical_sizes is None else {}
+    if len(channel.shape) != 2:
+        raise ReadError(
+            file, f"channel {channel.name!r} is a line scan", "give a two-dimensional map of heights"
+        )
+    topography = reader.topography(channel_index=index, **missing)
+    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), math.nan)
+    if reader.format() not in _MATRICES:
+        heights = heights.T
+    if heights.shape != channel.shape:
+        raise ReadError(
+            file, f"its header announces {channel.shape} points and its data hold {heights.shape}", _REMEDY
+        )
+    spacing = None
+    if channel.size is not None:
+        spacing = (channel.size[0] / channel.shape[0], channel.size[1] / channel.shape[1])
+    return HeightMap(
+        as_heights(heights, file),
+        f"{reader.format()} by SurfaceTopography",
+        channel=channel.name,
+        unit=channel.unit,
+        spacing=spacing,
+        periodic=bool(info.is_periodic),
+        notes=("a bare matrix: its rows are rows of the picture",) if reader.format() in _MATRICES else (),
+        doubts=doubts,
+    )

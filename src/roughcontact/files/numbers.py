@@ -1,0 +1,140 @@
+"""A table of numbers in a text: every row whole, every hole named."""
+
+from __future__ import annotations
+
+import codecs
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.files.errors import ReadError
+from roughcontact.files.heightmap import Array
+
+__all__ = ["Table", "parse_table"]
+
+_HOLE = "write nan where a point was not measured, so that all rows are equally long"
+_PLAIN = "give rows of numbers only; lines of explanation before them start with #; a line scan is not a map"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Table:
+    """The numbers of a text, shape (rows, columns), and its comment lines without their ``#``."""
+
+    values: Array
+    comments: tuple[str, ...]
+
+
+def parse_table(data: bytes, file: str) -> Table:
+    """Return the table in a text separated by blanks, tabs, semicolons or commas.
+
+    A decimal comma is understood beside any separator but the comma itself.
+
+    Raises
+    ------
+    ReadError
+        If a row is longer or shorter than the first, a field is empty or not a number, or an empty line or a
+        comment interrupts the rows; the message names the row.
+    """
+    comments: list[str] = []
+    rows: list[tuple[int, str]] = []
+    interrupted = False
+    interruption = 0  # the line of an empty line or comment after the first row
+    for number, line in enumerate(_decode(data, file).split("\n"), start=1):
+        bare = line.strip()
+        if bare.startswith("#") or not bare:
+            if bare:
+                comments.append(bare.lstrip("# ").strip())
+            if rows and not interruption:
+                interruption = number
+        elif interruption:
+            interrupted = True
+            break
+        else:
+            rows.append((number, line))
+    if not rows:
+        raise ReadError(file, "it holds no numbers", _PLAIN)
+    # The rows come first: one that holds no numbers says more about the file than the hole after it.
+    values = _numbers(rows, file)
+    if interrupted:
+        raise ReadError(
+            file,
+            f"line {interruption}, empty or a comment, is a hole after row {len(rows)}",
+            "keep one uninterrupted table in a file",
+        )
+    return Table(values, tuple(comments))
+
+
+def _decode(data: bytes, file: str) -> str:
+    """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
+    utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    try:
+        text = data.decode("utf-16" if utf16 else "utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")  # older Western exports: only comments are concerned
+    if "\0" in text:
+        raise ReadError(
+            file, "it is not a text: it holds zero bytes", "rename it to the extension of its format"
+        )
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _numbers(rows: list[tuple[int, str]], file: str) -> Array:
+    separator, decimal_comma = _separator(rows[0][1])
+    lines = [line.strip(" ") for _, line in rows]
+    # A separator closing every row is a habit of some programs; one closing only some rows leaves holes.
+    closed = separator is not None and all(line.endswith(separator) for line in lines)
+    table = []
+    for index, ((number, _), line) in enumerate(zip(rows, lines, strict=True)):
+        fields = line.split() if separator is None else line.split(separator)
+        if closed:
+            fields.pop()
+        if decimal_comma:
+            fields = _without_decimal_comma(fields, file, f"row {index + 1} (line {number})")
+        try:
+            if "_" in line:  # Python reads 1_000 as a thousand
+                raise ValueError
+            table.append([float(field) for field in fields])
+        except ValueError:
+            raise _bad_field(fields, file, f"row {index + 1} (line {number})") from None
+        if len(fields) != len(table[0]):
+            raise ReadError(
+                file,
+                f"row {index + 1} (line {number}) holds {len(fields)} numbers, the first row {len(table[0])}",
+                _HOLE,
+            )
+    return np.array(table, dtype=np.float64)
+
+
+def _separator(line: str) -> tuple[str | None, bool]:
+    """Return the separator of a row (None: blanks) and whether a comma is the decimal mark."""
+    for mark in (";", "\t"):
+        if mark in line.strip(" "):
+            return mark, "," in line
+    if "," not in line:
+        return None, False
+    # "1,5 2,5" holds blanks away from its commas; "1, 2" and "1,2" do not.
+    blanks = re.search(r"[^,\s]\s+[^,\s]", line.strip()) is not None
+    return (None, True) if blanks else (",", False)
+
+
+def _without_decimal_comma(fields: list[str], file: str, where: str) -> list[str]:
+    if any("." in field for field in fields):
+        raise ReadError(file, f"{where} holds decimal commas and points", "write decimal points throughout")
+    return [field.replace(",", ".") for field in fields]
+
+
+def _bad_field(fields: list[str], file: str, where: str) -> ReadError:
+    """Return the error that names the first field which is not a number."""
+    for column, field in enumerate(fields, start=1):
+        if not field.strip():
+            return ReadError(file, f"{where}, column {column} is empty", _HOLE)
+        try:
+            if "_" not in field:
+                float(field)
+                continue
+        except ValueError:
+            pass
+        shown = field.strip() if len(field.strip()) <= 30 else field.strip()[:27] + "..."
+        return ReadError(file, f"{where}, column {column}: {shown!r} is not a number", _PLAIN)
+    return ReadError(file, f"{where} is not a row of numbers", _PLAIN)

@@ -1,0 +1,81 @@
+"""Where a result comes from: versions, inputs and their fingerprint, settings, time."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["provenance", "surface_hash"]
+
+
+def provenance(
+    surface: Surface | None = None,
+    *,
+    modulus: float | None = None,
+    control: str | None = None,
+    tolerance: float | None = None,
+    command: Sequence[str] | str | None = None,
+) -> dict[str, str | float]:
+    """Return what a result needs to be understood and repeated, as attributes of a file.
+
+    Parameters
+    ----------
+    surface : Surface, optional
+        The surface that was pressed: its history is written down, its heights and grid are hashed.
+    modulus : float, optional
+        Reduced modulus [Pa].
+    control : str, optional
+        What was prescribed, in words with units: ``"force = 10.0 N"``.
+    tolerance : float, optional
+        Tolerance asked of the certificate.
+    command : str or sequence of str, optional
+        The command line, where there was one.
+
+    Returns
+    -------
+    dict
+        Words and numbers only. The time is UTC, in ISO 8601.
+    """
+    import scipy
+
+    from roughcontact import __version__
+
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    lines: dict[str, str | float | None] = {
+        "source": f"roughcontact {__version__}",
+        "date_created": now,
+        "python_version": platform.python_version(),
+        "numpy_version": np.__version__,
+        "scipy_version": scipy.__version__,
+        "input_reduced_modulus_in_Pa": modulus,
+        "input_control": control,
+        "tolerance": tolerance,
+    }
+    if surface is not None:
+        lines["input_surface"] = "\n".join(surface.provenance) or "not stated"
+        lines["input_sha256"] = surface_hash(surface)
+    if command is not None:
+        text = command if isinstance(command, str) else " ".join(command)
+        lines["history"] = f"{now}: {text}"
+    return {name: value for name, value in lines.items() if value is not None}
+
+
+def surface_hash(surface: Surface) -> str:
+    """Return the SHA-256 of the heights and the grid of a surface, as 64 hexadecimal digits.
+
+    Equal surfaces have equal hashes on every machine: heights count as little-endian doubles in the
+    order of the rows, every NaN as the same NaN, -0 as 0.
+    """
+    grid = surface.grid
+    heights = np.where(np.isnan(surface.heights), np.nan, surface.heights + 0.0)
+    digest = hashlib.sha256(repr((grid.shape, grid.spacing, grid.periodic)).encode())
+    digest.update(np.ascontiguousarray(heights, dtype="<f8").tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,120 @@
+"""Results on disk: NetCDF-4 for everything, CSV for tables, JSON for scripts."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.files.aside import WriteError, output_folder, written_aside
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["WriteError", "output_folder", "write_csv", "write_json", "write_netcdf", "written_aside"]
+
+Attributes = Mapping[str, str | float]
+
+
+def write_netcdf(
+    dataset: xarray.Dataset, path: str | os.PathLike[str], provenance: Attributes | None = None
+) -> None:
+    """Write a dataset as NetCDF-4, which xarray, netCDF4 and any HDF5 reader open.
+
+    Maps are compressed without loss. `provenance` (see `roughcontact.files.provenance`) becomes
+    attributes of the file. The file appears whole or not at all.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+    """
+    whole = dataset.assign_attrs(dict(provenance or {}))
+    # Shuffled bytes compress better; level 4 is where more time stops buying size.
+    maps = [name for name, values in whole.variables.items() if values.ndim > 1 and values.size]
+    encoding: dict[Any, dict[str, Any]] = {
+        name: {"zlib": True, "complevel": 4, "shuffle": True} for name in maps
+    }
+    # CF wants a fill value only where something can be missing: coordinates never are.
+    encoding |= {
+        name: {"_FillValue": None} for name, values in whole.coords.items() if values.dtype.kind == "f"
+    }
+    with written_aside(path) as aside:
+        whole.to_netcdf(aside, engine="h5netcdf", format="NETCDF4", encoding=encoding)
+
+
+def write_csv(
+    dataset: xarray.Dataset, path: str | os.PathLike[str], provenance: Attributes | None = None
+) -> None:
+    """Write the points of a curve, or the scalars of one state, as a table of comma-separated values.
+
+    The first line names the columns. Lines that start with ``#`` follow it: units, scales,
+    provenance. Then one line a point, every number with all its digits; truth values are 1 and 0.
+    It stands in this order because `numpy.genfromtxt` (``delimiter=",", names=True``) takes names from
+    the first line of a file; `pandas.read_csv` (``comment="#"``) reads it as well.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+    """
+    along = ("load",) if "load" in dataset.sizes else ()
+    columns = {str(name): values for name, values in dataset.data_vars.items() if values.dims == along}
+    # Words go last, so that readers of pure numbers can ask for the columns before them.
+    names = sorted(columns, key=lambda name: columns[name].dtype.kind in "OUT")
+    units = [f"{name} [{columns[name].attrs['units']}]" for name in names if "units" in columns[name].attrs]
+    remarks = [f"units: {', '.join(units)}"]
+    remarks += [
+        _scale(str(n), v)
+        for n, v in dataset.data_vars.items()
+        if v.dims in ((), ("axis",)) and v.dims != along
+    ]
+    remarks += [f"{name} = {value}" for name, value in (dataset.attrs | dict(provenance or {})).items()]
+
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(names)
+    # A remark is one line: a break within it becomes a bar.
+    text.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
+    table.writerows(
+        zip(*(map(_cell, columns[name].to_numpy().reshape(-1).tolist()) for name in names), strict=True)
+    )
+    _write_text(path, text.getvalue())
+
+
+def write_json(
+    record: Mapping[str, Any], path: str | os.PathLike[str], provenance: Attributes | None = None
+) -> None:
+    """Write a record as one JSON object, with the provenance under ``"provenance"``.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+    """
+    whole = dict(record) | ({"provenance": dict(provenance)} if provenance else {})
+    # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
+    _write_text(path, json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def _cell(value: Any) -> str:
+    """Return one value of a table; `repr` keeps every digit of a number."""
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    return value if isinstance(value, str) else repr(value)
+
+
+def _scale(name: str, values: xarray.DataArray) -> str:
+    """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
+    numbers = ", ".join(_cell(value) for value in values.to_numpy().reshape(-1).tolist())
+    axes = f" ({', '.join(values['axis'].to_numpy().tolist())})" if values.dims else ""
+    return f"{name} = {numbers} {values.attrs.get('units', '')}".rstrip() + axes
+
+
+def _write_text(path: str | os.PathLike[str], text: str) -> None:
+    with written_aside(path) as aside:
+        # Line ends as they are, on every system, so that equal results are equal files.
+        aside.write_text(text, encoding="utf-8", newline="\n")

@@ -1,0 +1,129 @@
+"""Loading curves, drawn on axes that the caller owns."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.curve import CELLS
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.units import Scale, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from roughcontact.contact.curve import Curve, PowerLaw
+
+__all__ = ["area_curve", "depth_curve", "stiffness_curve"]
+
+Array = npt.NDArray[Any]
+
+_POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
+_ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
+
+
+def stiffness_curve(axes: Axes, curve: Curve, law: PowerLaw | None = None) -> None:
+    """Draw stiffness against force, both logarithmic.
+
+    Resolved points are filled, the others open. `law` is drawn strongly over its window and thinly
+    beyond. Horizontal lines mark the stiffness of twenty cells and that of all measured cells in
+    contact. The outer axes give force and stiffness without dimension.
+    """
+    x, y = _draw(axes, curve, "stiffness")
+    values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
+    # A periodic surface in full contact is infinitely stiff: that limit has no line.
+    limits = [level for level in (CELLS * curve.cell_stiffness, curve.saturation) if math.isfinite(level)]
+    low, high = min(*values, *limits) / _ROOM, max(*values, *limits) * _ROOM
+    axes.set_ylim(low * y.factor, high * y.factor)
+    if law is not None:
+        _draw_law(axes, curve, law, (x, y))
+    beside = axes.get_yaxis_transform()
+    for level, place, side, text in zip(
+        limits, (0.985, 0.015), ("right", "left"), (f"{CELLS} cells", "saturation"), strict=False
+    ):
+        axes.axhline(level * y.factor, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
+        axes.text(
+            place, level * y.factor, text, transform=beside, ha=side, va="bottom", fontsize=TICK, color=_LIMIT
+        )
+    # The corner between the curve and its upper limit is the one that stays free.
+    top = math.log(max(limits) / low) / math.log(high / low) if len(limits) > 1 else 1.0
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
+    _outer(axes, curve, (x, y))
+
+
+def area_curve(axes: Axes, curve: Curve) -> None:
+    """Draw the real contact area against force, both logarithmic; the right axis is its share of the map."""
+    _, y = _draw(axes, curve, "contact_area")
+    right = axes.secondary_yaxis("right", functions=_shares_of(math.prod(curve.lengths) * y.factor))
+    right.set_ylabel("share of the map", fontsize=LABEL)
+    right.tick_params(labelsize=TICK, which="both")
+
+
+def depth_curve(axes: Axes, curve: Curve) -> None:
+    """Draw the depth since first touch against force, both logarithmic."""
+    _draw(axes, curve, "depth")
+
+
+def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
+    """Draw one quantity of the curve against force; return the scales of both axes."""
+    force, values = curve.force, np.asarray(getattr(curve, name))
+    x, y = (
+        scale(float(np.max(v, initial=0.0, where=np.isfinite(v))), VARIABLES[n].unit)
+        for n, v in (("force", force), (name, values))
+    )
+    axes.set(xscale="log", yscale="log")
+    # A logarithmic axis has no place for zero, and none for infinity.
+    shown = np.isfinite(values) & (values > 0) & (force > 0)
+    resolved = np.asarray(curve.resolved)
+    size = 4.5 if force.size <= 60 else 3.0
+    for chosen, fill, text in ((resolved, _POINTS, "resolved"), (~resolved, "white", "not resolved")):
+        points = shown & chosen
+        if points.any():
+            axes.plot(
+                force[points] * x.factor,
+                values[points] * y.factor,
+                "o",
+                markersize=size,
+                color=_POINTS,
+                markerfacecolor=fill,
+                label=text,
+                zorder=3,
+            )
+    axes.set_xlabel(f"{VARIABLES['force'].label} [{x.unit}]", fontsize=LABEL)
+    axes.set_ylabel(f"{VARIABLES[name].label} [{y.unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK, which="both")
+    axes.grid(True, which="major", color="0.92", linewidth=0.8)
+    axes.set_axisbelow(True)
+    return x, y
+
+
+def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scale]) -> None:
+    x, y = scales
+    within = np.array(law.window)
+    loads = curve.force[curve.force > 0]
+    beyond = np.array([min(loads.min(), within[0]), max(loads.max(), within[1])])
+    text = rf"$\bar{{k}} = {law.prefactor:.3g}\;\bar{{F}}^{{\;{law.exponent:.3f}}}$"
+    axes.plot(beyond * x.factor, law.stiffness(beyond) * y.factor, color=_LAW, linewidth=0.8, zorder=2)
+    axes.plot(
+        within * x.factor, law.stiffness(within) * y.factor, color=_LAW, linewidth=2, zorder=4, label=text
+    )
+
+
+def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:
+    """Put the quantities without dimension on the upper and the right axis."""
+    outer = [axes.secondary_yaxis("right", functions=_shares_of(curve.stiffness_scale * scales[1].factor))]
+    outer[0].set_ylabel(rf"$\bar{{k}}$ = {VARIABLES['dimensionless_stiffness'].label}", fontsize=LABEL)
+    if curve.force_scale > 0:  # a flat surface has no height to compare with
+        outer.append(axes.secondary_xaxis("top", functions=_shares_of(curve.force_scale * scales[0].factor)))
+        outer[1].set_xlabel(rf"$\bar{{F}}$ = {VARIABLES['dimensionless_force'].label}", fontsize=LABEL)
+    for each in outer:
+        each.tick_params(labelsize=TICK, which="both")
+
+
+def _shares_of(unit: float) -> Any:
+    """Return the two functions of an axis that counts in `unit`: there and back."""
+    return (lambda value: value / unit), (lambda share: share * unit)

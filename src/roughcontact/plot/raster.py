@@ -1,0 +1,125 @@
+"""Arrays as pictures: where the cells lie on the axes, in which unit, and with which colour bar."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.units import Scale, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
+    from matplotlib.image import AxesImage
+
+    from roughcontact.grid import Grid
+
+__all__ = [
+    "LABEL",
+    "TICK",
+    "Window",
+    "colour_bar",
+    "extent",
+    "heights_image",
+    "length_scale",
+    "part",
+    "pooled",
+    "show",
+]
+
+Array = npt.NDArray[Any]
+Window = tuple[slice, slice]
+
+LABEL, TICK = 9, 8  # sizes of text [points]
+
+# More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
+# leaves out some rows could leave out the contact.
+_DRAWN = 1024
+
+
+def part(grid: Grid, window: Window | None) -> Window:
+    """Return the cells to draw: those of `window`, or all."""
+    return (slice(0, grid.shape[0]), slice(0, grid.shape[1])) if window is None else window
+
+
+def length_scale(grid: Grid) -> Scale:
+    """Return the unit of both axes of a map; a window keeps the unit of the whole."""
+    return scale(max(grid.lengths), VARIABLES["lengths"].unit)
+
+
+def extent(grid: Grid, window: Window) -> tuple[float, float, float, float]:
+    """Return the edges of `window` on the axes: left, right, bottom, top; row 0 is on top."""
+    factor = length_scale(grid).factor
+    (y0, y1), (x0, x1) = (
+        (cells.start * step * factor, cells.stop * step * factor)
+        for cells, step in zip(window, grid.spacing, strict=True)
+    )
+    return x0, x1, y1, y0
+
+
+def show(
+    axes: Axes, values: Array, grid: Grid, window: Window, colours: Colormap, limits: tuple[float, float]
+) -> AxesImage:
+    """Draw `values`, the cells of `window`, each cell as it is; NaN stays transparent."""
+    values = pooled(values)
+    rows, columns = values.shape
+    left, right, bottom, top = extent(grid, window)
+    # Pooling rounds the number of blocks up: the picture may reach over the edge, the axes do not.
+    stride = [-(-(cells.stop - cells.start) // n) for cells, n in zip(window, (rows, columns), strict=True)]
+    high = (bottom - top) * rows * stride[0] / (window[0].stop - window[0].start)
+    wide = (right - left) * columns * stride[1] / (window[1].stop - window[1].start)
+    image = axes.imshow(
+        values,
+        cmap=colours,
+        vmin=limits[0],
+        vmax=limits[1],
+        interpolation="nearest",
+        origin="upper",
+        extent=(left, left + wide, top + high, top),
+    )
+    axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
+    unit = length_scale(grid).unit
+    axes.set_xlabel(f"x [{unit}]", fontsize=LABEL)
+    axes.set_ylabel(f"y [{unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK)
+    axes.locator_params(nbins=6)
+    return image
+
+
+def pooled(values: Array) -> Array:
+    """Return at most 1024 rows and columns, each the largest of its block; NaN counts only where alone."""
+    for axis in (0, 1):
+        stride = -(-values.shape[axis] // _DRAWN)
+        if stride > 1:
+            values = np.fmax.reduceat(values, np.arange(0, values.shape[axis], stride), axis=axis)
+    return values
+
+
+def heights_image(
+    axes: Axes, heights: Array, grid: Grid, window: Window | None, colours: Colormap
+) -> tuple[AxesImage, str]:
+    """Draw heights, hatched where they are missing; return the image and the unit."""
+    window = part(grid, window)
+    inside = heights[window]
+    measured = inside[~np.isnan(inside)]
+    low, high = (measured.min(), measured.max()) if measured.size else (0.0, 0.0)
+    chosen = scale(float(max(abs(low), abs(high))), VARIABLES["heights"].unit)
+    if measured.size < inside.size:
+        axes.patch.set(facecolor="white", edgecolor="0.55", hatch="//////")
+    image = show(
+        axes, inside * chosen.factor, grid, window, colours, (low * chosen.factor, high * chosen.factor)
+    )
+    return image, chosen.unit
+
+
+def colour_bar(axes: Axes, image: AxesImage, label: str, cut: bool = False) -> None:
+    """Put a colour bar beside the map, as high as the map itself; pointed where larger values were `cut`."""
+    from matplotlib.colorbar import Colorbar
+
+    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if cut else "neither")
+    bar.set_label(label, fontsize=LABEL)
+    bar.ax.tick_params(labelsize=TICK)
+    bar.outline.set_linewidth(0.5)

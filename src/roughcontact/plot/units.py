@@ -1,0 +1,60 @@
+"""Engineering units for pictures: the power of ten that leaves numbers a person can read."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+__all__ = ["Scale", "pretty", "scale", "written"]
+
+_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+_SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A unit for a picture: multiply a value in SI by `factor` and write `unit` beside it."""
+
+    factor: float
+    unit: str
+
+
+def scale(largest: float, unit: str) -> Scale:
+    """Return the scale that brings `largest`, in the SI unit `unit`, between 1 and 1000.
+
+    The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and counts as often as
+    that unit does (``"m2"`` becomes µm², a factor of 1e12). Kilometres are the largest length.
+    """
+    first = unit.split()[0] if unit else ""
+    power = int(re.search(r"\d+$", first).group()) if re.search(r"\d$", first) else 1  # type: ignore[union-attr]
+    exponent = 0
+    if math.isfinite(largest) and largest > 0 and first not in ("", "1"):
+        # The hair keeps 1e-6 m, which floating point may put just below, at 1 µm.
+        exponent = 3 * math.floor(math.log10(largest * (1 + 1e-9)) / (3 * power))
+    highest = 3 if first.startswith("m") else 12
+    exponent = min(max(exponent, -12), highest)
+    # A division by an exact power of ten rounds once.
+    factor = 10.0 ** (-exponent * power) if exponent <= 0 else 1 / 10.0 ** (exponent * power)
+    return Scale(factor, pretty(f"{_PREFIXES[exponent]}{unit}"))
+
+
+def pretty(unit: str) -> str:
+    """Return a unit of the table as it is written in print: ``"N m-1"`` as N/m, ``"m2"`` as m²."""
+    if unit in ("", "1"):
+        return ""
+    over = [part.replace("-1", "").replace("-", "") for part in unit.split() if "-" in part]
+    under = [part for part in unit.split() if "-" not in part]
+    return "/".join(["·".join(under) or "1", *over]).translate(_SUPERSCRIPTS)
+
+
+def written(value: float, unit: str, digits: int = 3) -> str:
+    """Return a value with its unit in words: ``written(1.2345e-5, "m")`` is "12.3 µm"."""
+    if not math.isfinite(value):
+        return "infinite" if value > 0 else "unknown"
+    # Rounded first, so that 999.99 nm are 1 µm and not 1000 nm.
+    rounded = float(f"{value:.{digits}g}")
+    chosen = scale(abs(rounded), unit)
+    number = float(f"{rounded * chosen.factor:.{digits}g}")
+    text = f"{number:g}" if abs(number) < 10**digits else f"{number:.0f}"
+    return f"{text} {chosen.unit}".rstrip()

@@ -1,0 +1,190 @@
+"""Whatever is wrong with what the user gives: one line that says so, status 2, and nothing on disk."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+PRESS = ("press", "FILE", "--force", "1mN", "--modulus", "1GPa")
+CURVE = ("curve", "FILE", "--forces", "1mN,2mN", "--modulus", "1GPa")
+INFO = ("surface", "info", "FILE")
+SIZED = ("--unit", "um", "--size", "1mm")
+
+
+def x3p(folder):
+    """Return the bytes of a file that is no X3P from its first half on."""
+    path = folder / "whole.npz"
+    np.savez(path, heights=np.random.default_rng(1).random((64, 64)), spacing=1e-6, unit="um")
+    content = path.read_bytes()
+    path.unlink()
+    return content[: len(content) // 2]
+
+
+def heights(change):
+    values = np.random.default_rng(1).random((8, 8))
+    change(values)
+    return values
+
+
+def text(rows):
+    return "\n".join(" ".join(row) for row in rows).encode()
+
+
+def spoil(values, where, by):
+    values[where] = by
+
+
+def saved(values):
+    def content(folder):
+        path = folder / "whole.npz"
+        np.savez(path, heights=values, spacing=1e-6, unit="um")
+        data = path.read_bytes()
+        path.unlink()
+        return data
+
+    return content
+
+
+GOOD = heights(lambda values: None)
+ROWS = [[f"{value:.6f}" for value in row] for row in GOOD]
+FILES = {
+    "missing": ("part.npz", None, "cannot be opened"),
+    "folder": (".", None, ""),
+    "empty npz": ("part.npz", lambda _: b"", "empty"),
+    "empty npy": ("part.npy", lambda _: b"", "empty"),
+    "empty text": ("part.txt", lambda _: b"", "empty"),
+    "empty csv": ("part.csv", lambda _: b"", "empty"),
+    "empty x3p": ("part.x3p", lambda _: b"", "empty"),
+    "empty of another kind": ("part.sur", lambda _: b"", "empty"),
+    "truncated npz": ("part.npz", x3p, "cut short"),
+    "truncated x3p": ("part.x3p", x3p, "cut short"),
+    "text with a hole": ("part.txt", lambda _: text([*ROWS[:3], ROWS[3][:-2], *ROWS[4:]]), "row"),
+    "text with words": ("part.txt", lambda _: text([*ROWS[:3], ["what"] * 8, *ROWS[4:]]), "row"),
+    "all NaN": ("part.npz", saved(np.full((8, 8), np.nan)), "NaN"),
+    "one row": ("part.npz", saved(np.ones((1, 8))), "1 x 8"),
+    "infinite heights": ("part.npz", saved(heights(lambda v: spoil(v, (2, 3), np.inf))), "infinite"),
+    "no numbers": ("part.npz", saved(np.full((8, 8), "word")), ""),
+}
+
+
+def refused(answer, complaint):
+    assert answer.exit_code == 2, answer.stderr
+    assert isinstance(answer.exception, SystemExit)
+    errors = [line for line in answer.stderr.splitlines() if not line.startswith("Note: ")]
+    assert len(errors) == 1
+    assert errors[0].startswith("Error: ")
+    assert complaint in errors[0]
+
+
+@pytest.mark.parametrize("words", [PRESS, CURVE, INFO], ids=["press", "curve", "info"])
+@pytest.mark.parametrize("case", FILES)
+def test_a_bad_file(invoke, tmp_path, case, words):
+    name, content, complaint = FILES[case]
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content(tmp_path))
+    before = sorted(tmp_path.iterdir())
+    sized = SIZED if path.suffix in (".txt", ".csv", ".npy") else ()
+    out = () if words is INFO else ("--out", tmp_path / "new" / "out")
+    answer = invoke(*(path if word == "FILE" else word for word in words), *sized, *out)
+    refused(answer, complaint)
+    assert answer.stdout == "" or words is INFO
+    assert sorted(tmp_path.iterdir()) == before
+
+
+LOADS = {"--force": "1mN", "--modulus": "1GPa"}
+
+
+def changed(**options):
+    """Return the good options with some others instead; None takes one out."""
+    named = LOADS | {f"--{name}": value for name, value in options.items()}
+    return [word for name, value in named.items() if value is not None for word in (name, value)]
+
+
+PRESS_OPTIONS = {
+    "negative force": (changed(force="-1N"), "the force must be positive"),
+    "zero force": (changed(force="0N"), "the force must be positive"),
+    "force in kilograms": (
+        changed(force="1kg"),
+        "--force: '1kg' is not a force; expected a force such as 10N",
+    ),
+    "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
+    "negative depth": (changed(force=None, depth="-1um"), "the depth counts from first touch"),
+    "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
+    "no load": (changed(force=None), "give one load (--force or --pressure or --depth)"),
+    "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
+    "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
+    "negative modulus": (changed(modulus="-1GPa"), "modulus must be positive"),
+    "no modulus": (changed(modulus=None), "--modulus or --young"),
+    "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
+    "half a body": (changed(modulus=None, young="1GPa"), "--poisson is missing"),
+    "half of the other body": (
+        changed(modulus=None, young="1GPa", poisson="0.3", young2="1GPa"),
+        "--poisson2 is missing",
+    ),
+    "too many bodies": (changed(young2="1GPa"), "leave out"),
+    "zero Young's modulus": (
+        changed(modulus=None, young="0", poisson="0.3"),
+        "young_modulus must be positive",
+    ),
+    "Poisson's ratio": (changed(modulus=None, young="1GPa", poisson="0.7"), "poisson_ratio must lie"),
+    "size of zero": (changed(size="0mm"), "--size: a side length must be positive"),
+    "unit that is none": (changed(unit="parsec"), "unit 'parsec'"),
+    "unknown channel": (changed(channel="colour"), "no channel 'colour'"),
+    "loose tolerance": (changed(tolerance="1"), "the tolerance must lie between"),
+    "tight tolerance": (changed(tolerance="0"), "the tolerance must lie between"),
+}
+
+
+@pytest.mark.parametrize("case", PRESS_OPTIONS)
+def test_a_bad_option_of_press(invoke, rough, tmp_path, case):
+    options, complaint = PRESS_OPTIONS[case]
+    answer = invoke("press", rough, *options, "--out", tmp_path / "out")
+    refused(answer, complaint)
+    assert answer.stdout == ""
+    assert not (tmp_path / "out").exists()
+
+
+CURVE_OPTIONS = {
+    "no load": (("--forces", ""), "no load given"),
+    "empty list": (("--forces", ", ,"), "no load given"),
+    "falling loads": (("--forces", "2N,1N"), "must increase"),
+    "equal loads": (("--forces", "1N,1N"), "must increase"),
+    "a load of zero": (("--forces", "0,1N"), "must be positive"),
+    "negative depths": (("--depths", "-1um,1um"), "must be positive"),
+    "a range of nothing": (("--forces", "1N:2N:0"), "from 2 to"),
+    "two kinds": (("--forces", "1N,2N", "--depths", "1um,2um"), "exclude each other"),
+    "none": ((), "give the loads"),
+    "full contact": (("--depths", "1um,1m", "--periodic"), "exceeds the mean separation"),
+}
+
+
+@pytest.mark.parametrize("case", CURVE_OPTIONS)
+def test_a_bad_option_of_curve(invoke, rough, tmp_path, case):
+    options, complaint = CURVE_OPTIONS[case]
+    answer = invoke("curve", rough, *options, "--modulus", "1GPa", "--out", tmp_path / "out")
+    refused(answer, complaint)
+    assert answer.stdout == ""
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("words", [PRESS, CURVE], ids=["press", "curve"])
+@pytest.mark.parametrize("place", ["", "inside"])
+def test_an_output_folder_with_a_file_in_its_place(invoke, rough, tmp_path, words, place):
+    (tmp_path / "taken").write_text("mine")
+    answer = invoke(
+        *(rough if word == "FILE" else word for word in words), "--out", tmp_path / "taken" / place
+    )
+    refused(answer, "is a file")
+    assert (tmp_path / "taken").read_text() == "mine"
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_mistake_of_ours_shows_itself(invoke, rough, monkeypatch):
+    def mistake(*_, **__):
+        raise ValueError("operands could not be broadcast together")
+
+    monkeypatch.setattr(rc, "press", mistake)
+    answer = invoke(*(rough if word == "FILE" else word for word in PRESS))
+    assert isinstance(answer.exception, ValueError)
+    assert answer.exit_code == 1

@@ -1,0 +1,128 @@
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+import xarray
+
+import roughcontact as rc
+
+MODULUS = ("--modulus", "110GPa")
+FORCES = ("--forces", "1mN:1N:12")
+
+
+def test_it_answers_as_the_library_does(invoke, rough, surface):
+    answer = invoke("curve", rough, *FORCES, *MODULUS, "--level", "none", "--json")
+    assert answer.exit_code == 0
+    curve = rc.loading_curve(surface, 110e9, forces=np.geomspace(1e-3, 1.0, 12))
+    record = json.loads(answer.stdout)
+    for name in ("force", "depth", "stiffness", "contact_area", "mean_gap", "spots", "resolved", "residual"):
+        assert record[name] == getattr(curve, name).tolist(), name
+    assert record["converged"] is True
+    assert record["status"] == ["converged"] * 12
+
+
+def test_the_power_law_is_that_of_the_curve(invoke, tmp_path):
+    path = tmp_path / "rough.npz"
+    made = invoke(
+        "surface", "make", path, "--hurst", "0.8", "--rms", "0.1um", "--size", "0.1mm", "--points", "256"
+    )
+    assert made.exit_code == 0
+    words = ("curve", path, "--forces", "45mN:75mN:9", "--level", "none", *MODULUS)
+    law = rc.loading_curve(rc.read(path), 110e9, forces=np.geomspace(0.045, 0.075, 9)).fit()
+    answer = invoke(*words, "--json")
+    fit = json.loads(answer.stdout)["fit"]
+    assert fit == {
+        "exponent": law.exponent,
+        "prefactor": law.prefactor,
+        "scatter": law.scatter,
+        "window": list(law.window),
+        "count": law.count,
+    }
+    assert f"(F/(E* L h))^{law.exponent:.4f}" in invoke(*words).stdout
+
+
+def test_too_few_points_for_a_power_law_are_a_note_and_no_failure(invoke, rough):
+    answer = invoke("curve", rough, "--forces", "1mN,2mN", *MODULUS, "--json")
+    assert answer.exit_code == 0
+    assert json.loads(answer.stdout)["fit"] is None
+    assert "Note: no power law" in answer.stderr
+
+
+def test_a_person_gets_one_line_a_load(invoke, rough):
+    answer = invoke("curve", rough, *FORCES, *MODULUS)
+    assert answer.exit_code == 0
+    header = next(k for k, line in enumerate(answer.stdout.splitlines()) if "depth [" in line)
+    rows = [line.split() for line in answer.stdout.splitlines()[header + 1 : header + 13]]
+    np.testing.assert_allclose([float(row[0]) for row in rows], np.geomspace(1e-3, 1, 12), rtol=5e-4)
+    assert "saturation" in answer.stdout
+
+
+def test_progress_goes_to_standard_error(invoke, rough):
+    assert "12/12" in invoke("curve", rough, *FORCES, *MODULUS, "--json").stderr
+
+
+def test_loads_can_be_pressures_or_depths(invoke, rough, surface):
+    def ask(*loads):
+        return json.loads(invoke("curve", rough, *loads, *MODULUS, "--level", "none", "--json").stdout)
+
+    np.testing.assert_allclose(ask("--depths", "10nm,20nm")["depth"], [1e-8, 2e-8], rtol=1e-14)
+    force = np.array(ask("--pressures", "1MPa,2MPa")["force"])
+    np.testing.assert_allclose(force, np.array([1e6, 2e6]) * surface.grid.area, rtol=1e-9)
+
+
+def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
+    out = tmp_path / "result"
+    answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", out, "--json")
+    assert answer.exit_code == 0
+    names = ["curve.csv", "curve.nc", "curve.png", "summary.json"]
+    assert sorted(path.name for path in out.iterdir()) == names
+    record = json.loads(answer.stdout)
+    table = np.genfromtxt(out / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    with xarray.open_dataset(out / "curve.nc") as dataset:
+        for name in ("force", "stiffness"):
+            assert table[name].tolist() == record[name]
+            assert dataset[name].to_numpy().tolist() == record[name]
+    assert json.loads((out / "summary.json").read_text(encoding="utf-8")).items() >= record.items()
+    assert (out / "curve.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkeypatch):
+    path = rc.loading_path
+
+    def last_one_stagnates(*arguments, **named):
+        solutions = list(path(*arguments, **named))
+        solutions[-1] = dataclasses.replace(solutions[-1], status=rc.Status.STAGNATED)
+        return iter(solutions)
+
+    monkeypatch.setattr(rc, "loading_path", last_one_stagnates)
+    answer = invoke("curve", rough, *FORCES, *MODULUS, "--json")
+    assert answer.exit_code == 1
+    record = json.loads(answer.stdout)
+    assert record["status"] == ["converged"] * 11 + ["stagnated"]
+    assert record["converged"] is False
+    assert "Note: 1 of 12 loads missed the tolerance" in answer.stderr
+    assert invoke("curve", rough, *FORCES, *MODULUS).stdout.count("MISSED") == 1
+
+
+def test_an_interrupt_leaves_nothing(invoke, rough, monkeypatch, tmp_path):
+    path = rc.loading_path
+
+    def interrupted(*arguments, **named):
+        yield next(path(*arguments, **named))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc, "loading_path", interrupted)
+    answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", tmp_path / "out")
+    assert answer.exit_code == 130
+    assert answer.stdout == ""
+    assert "Interrupted" in answer.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("verb", ["press", "curve"])
+def test_flat_heights_are_answered(invoke, tmp_path, verb):
+    np.savez(tmp_path / "flat.npz", heights=np.zeros((8, 8)), spacing=1e-6, unit="m")
+    loads = {"press": ("--force", "1mN"), "curve": ("--forces", "1mN,2mN")}[verb]
+    answer = invoke(verb, tmp_path / "flat.npz", *loads, *MODULUS, "--out", tmp_path / "out")
+    assert answer.exit_code == 0

@@ -1,0 +1,144 @@
+import json
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+MAKE = ("--hurst", "0.8", "--rms", "1um", "--size", "1mm")
+
+
+def test_a_surface_is_made_as_the_library_makes_it(invoke, tmp_path):
+    path = tmp_path / "new.npz"
+    answer = invoke(
+        *(
+            "surface",
+            "make",
+            path,
+            "--hurst",
+            "0.7",
+            "--rms",
+            "2um",
+            "--size",
+            "1mm x 3mm",
+            "--points",
+            "16x24",
+        ),
+        *("--seed", "9", "--rolloff", "0.8mm", "--cutoff", "2mm", "--short", "0.2mm", "--periodic"),
+    )
+    assert answer.exit_code == 0
+    grid = rc.Grid((16, 24), (1e-3 / 16, 3e-3 / 24), periodic=True)
+    expected = rc.self_affine(
+        grid,
+        0.7,
+        2e-6,
+        np.random.default_rng(9),
+        rolloff_wavelength=0.8e-3,
+        cutoff_wavelength=2e-3,
+        short_wavelength=0.2e-3,
+    )
+    surface = rc.read(path)
+    np.testing.assert_allclose(surface.heights, expected.heights, rtol=0, atol=1e-14 * expected.rms)
+    assert surface.grid.spacing == grid.spacing
+    assert "press it with --periodic" in answer.stderr
+
+
+def test_one_length_is_the_width_of_square_cells(invoke, tmp_path):
+    path = tmp_path / "new.npz"
+    assert invoke("surface", "make", path, *MAKE, "--points", "16x32").exit_code == 0
+    assert rc.read(path).grid.lengths == pytest.approx((0.5e-3, 1e-3), rel=1e-15)
+
+
+def test_a_nodal_surface_repeats_its_first_row_and_column(invoke, tmp_path):
+    path = tmp_path / "new.npz"
+    assert invoke("surface", "make", path, *MAKE, "--points", "17", "--nodal").exit_code == 0
+    heights = rc.read(path).heights
+    np.testing.assert_array_equal(heights[0], heights[-1])
+    np.testing.assert_array_equal(heights[:, 0], heights[:, -1])
+
+
+def test_the_seed_makes_the_surface(invoke, tmp_path):
+    names = {name: tmp_path / f"{name}.npz" for name in ("first", "again", "other")}
+    for name, path in names.items():
+        seed = "2" if name == "other" else "1"
+        assert invoke("surface", "make", path, *MAKE, "--points", "16", "--seed", seed).exit_code == 0
+    first, again, other = (rc.read(path).heights for path in names.values())
+    assert (first == again).all()
+    assert (first != other).any()
+
+
+@pytest.mark.parametrize(
+    ("changed", "complaint"),
+    [
+        (("--hurst", "4"), "hurst must lie between -1 and 3"),
+        (("--rms", "0um"), "rms must be positive"),
+        (("--rms", "1N"), "--rms: '1N' is not a length"),
+        (("--size", "0mm"), "--size: a side length must be positive"),
+        (("--points", "0"), "--points: '0' is no number of points"),
+        (("--cutoff", "1um"), "no wave"),
+        (("--nodal", "--periodic"), "nodal repeats the first row"),
+    ],
+)
+def test_a_surface_that_cannot_be_made_leaves_no_file(invoke, tmp_path, changed, complaint):
+    answer = invoke("surface", "make", tmp_path / "new.npz", *MAKE, "--points", "16", *changed)
+    assert answer.exit_code == 2
+    assert answer.stderr.startswith("Error: ")
+    assert complaint in answer.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_that_cannot_be_written_is_refused(invoke, tmp_path):
+    for path, complaint in (
+        (tmp_path / "new.csv", "ends in .npz"),
+        (tmp_path / "no" / "new.npz", "no folder"),
+    ):
+        answer = invoke("surface", "make", path, *MAKE, "--points", "16")
+        assert (answer.exit_code, list(tmp_path.iterdir())) == (2, [])
+        assert complaint in answer.stderr
+
+
+def test_info_says_what_a_file_holds(invoke, tmp_path, surface):
+    heights = surface.heights.copy()
+    heights[2, 3] = np.nan
+    path = tmp_path / "part.npz"
+    np.savez(path, heights=heights * 1e9, other=heights, spacing=np.array((2e-6, 1e-6)), unit="nm")
+    answer = invoke("surface", "info", path, "--json")
+    assert answer.exit_code == 0
+    record = json.loads(answer.stdout)
+    read = rc.read(path)
+    assert record["shape"] == [24, 32]
+    assert record["spacing"] == [2e-6, 1e-6]
+    assert record["missing"] == 1
+    assert record["rms"] == read.rms
+    assert record["rms_levelled"] == read.levelled("plane").rms
+    assert {channel["name"] for channel in record["channels"]} == {"heights", "other"}
+
+    table = invoke("surface", "info", path).stdout
+    assert "heights: 24 x 32, in nm" in table
+    assert "1 (0.13%)" in table
+    assert "24 x 32 cells, 48 µm x 32 µm, free" in table
+
+
+def test_info_shows_the_channels_of_a_file_that_leaves_its_size_open(invoke, tmp_path, surface):
+    path = tmp_path / "part.npy"
+    np.save(path, surface.heights)
+    answer = invoke("surface", "info", path)
+    assert answer.exit_code == 2
+    assert "24 x 32, without a unit" in answer.stdout
+    assert answer.stderr.startswith(
+        "Error: part.npy: it states no unit of its heights and no size; pass --unit"
+    )
+    failed = invoke("surface", "info", path, "--json")
+    assert json.loads(failed.stdout)["channels"][0]["shape"] == [24, 32]
+
+    given = invoke("surface", "info", path, "--unit", "m", "--size", "48um x 32um", "--json")
+    assert given.exit_code == 0
+    assert json.loads(given.stdout)["spacing"] == pytest.approx([2e-6, 1e-6], rel=1e-15)
+
+
+def test_the_user_names_a_channel(invoke, tmp_path, surface):
+    path = tmp_path / "part.npz"
+    np.savez(path, heights=surface.heights, other=2 * surface.heights, spacing=1e-6, unit="m")
+    record = json.loads(invoke("surface", "info", path, "--channel", "other", "--json").stdout)
+    assert record["rms"] == pytest.approx(2 * surface.rms, rel=1e-14)
+    assert invoke("surface", "info", path, "--channel", "none").exit_code == 2

@@ -1,0 +1,195 @@
+"""Curves: identities between their columns, which hold whatever the surface."""
+
+import math
+
+import numpy as np
+import oracles
+import pytest
+
+import roughcontact as rc
+
+
+def rough(n=96, hurst=0.8, seed=0, periodic=False):
+    return rc.self_affine(rc.Grid((n, n), 1 / n, periodic), hurst, 0.01, np.random.default_rng(seed))
+
+
+CASES = [
+    {"hurst": 0.8},
+    {"hurst": 0.2, "seed": 1},
+    {"hurst": 1.6, "seed": 2},
+    {"hurst": 0.8, "seed": 3, "periodic": True},
+]
+
+
+@pytest.fixture(params=CASES, ids=str, scope="module")
+def curve(request):
+    return rc.loading_curve(rough(**request.param), 1.0, forces=np.geomspace(1e-6, 2e-2, 60), tolerance=1e-10)
+
+
+def test_every_point_is_certified(curve):
+    assert (curve.residual <= 1e-10).all()
+    assert (curve.stiffness_residual <= 1e-7).all()
+    assert set(curve.status) == {rc.Status.CONVERGED}
+    np.testing.assert_allclose(curve.force, np.geomspace(1e-6, 2e-2, 60), rtol=1e-10)
+
+
+def test_tangents_bound_the_secants(curve):
+    """F is convex in d: k1 <= dF/dd <= k2 between neighbours (1e-6: the depths' own certificates)."""
+    k, secant = curve.stiffness, curve.secant_stiffness
+    assert (k[:-1] <= secant * (1 + 1e-6)).all()
+    assert (secant <= k[1:] * (1 + 1e-6)).all()
+    assert (np.diff(k) >= -1e-7 * k[1:]).all()
+
+
+def test_work_becomes_energy(curve):
+    """dU = F dd exactly (thesis, eq. 3.17): between the rectangles below and above F(d)."""
+    work = np.diff(curve.elastic_energy)
+    step = np.diff(curve.depth)
+    slack = 1e-8 * curve.elastic_energy[1:]
+    assert (curve.force[:-1] * step <= work + slack).all()
+    assert (work <= curve.force[1:] * step + slack).all()
+
+
+def test_work_becomes_energy_in_the_limit():
+    """The trapezoid of F over d between two loads 1e-3 apart, to the square of that."""
+    near = rc.loading_curve(rough(), 1.0, forces=[1e-3, 1.001e-3], tolerance=1e-12)
+    work = 0.5 * near.force.sum() * np.diff(near.depth)[0]
+    assert np.diff(near.elastic_energy)[0] == pytest.approx(work, rel=1e-6)
+
+
+def test_bounds_between_the_two_stiffnesses(curve):
+    """E* L (1/k - 1/K) lies between 0.56110 and 1.12220 on a free square; on a periodic one k = K."""
+    if all(curve.periodic):
+        np.testing.assert_allclose(curve.interfacial_stiffness, curve.stiffness, rtol=1e-12)
+        return
+    difference = 1 / curve.stiffness - 1 / curve.interfacial_stiffness
+    low, high = 2 * math.log(1 + math.sqrt(2)) / math.pi, 4 * math.log(1 + math.sqrt(2)) / math.pi
+    assert (difference > low).all()
+    assert (difference < high).all()
+
+
+def test_the_interfacial_stiffness_is_the_slope_of_the_gap(curve):
+    """-dF/d(mean gap) between neighbours lies between the two values, as the tangents bound the secants."""
+    K = curve.interfacial_stiffness
+    slope = -np.diff(curve.force) / np.diff(curve.mean_gap)
+    assert (slope < K[1:] * 1.02).all()
+    assert (slope > K[:-1] * 0.98).all()
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("solver", [rc.ActiveSet(), rc.ActiveSet(dense_limit=0), rc.PolonskyKeer()], ids=repr)
+def test_stiffness_is_the_derivative(periodic, solver):
+    """Central difference over a step in which the contact set does not change: 1e-5."""
+    surface = rough(64, periodic=periodic)
+    here = rc.press(surface, 1.0, force=2e-3, tolerance=1e-12, solver=solver)
+    step = 1e-6 * here.depth
+    low, high = (
+        rc.press(surface, 1.0, depth=here.depth + s, tolerance=1e-12, solver=solver) for s in (-step, step)
+    )
+    np.testing.assert_array_equal(low.contact, high.contact)
+    assert (high.force - low.force) / (2 * step) == pytest.approx(here.stiffness, rel=1e-5)
+    gap = (high.mean_gap - low.mean_gap) / (2 * step)
+    assert -(high.force - low.force) / (2 * step) / gap == pytest.approx(here.interfacial_stiffness, rel=1e-5)
+
+
+def test_force_is_the_integral_of_stiffness():
+    """Thesis, eq. 4.9, for Hertz: k = 2 E* a at each depth."""
+    n = 97
+    surface = rc.Surface(oracles.paraboloid(n, 1.0), rc.Grid((n, n), 1 / n))
+    depths = np.linspace(0.002, 0.16, 40)
+    curve = rc.loading_curve(surface, 1.0, depths=depths)
+    np.testing.assert_array_equal(curve.depth, depths)
+    a = np.sqrt(depths)
+    large = a * n > 15  # the staircase of the rim: some dx/a
+    np.testing.assert_allclose(curve.stiffness[large], 2 * a[large], rtol=0.01)
+    np.testing.assert_allclose(curve.force[large], 4 / 3 * a[large] ** 3, rtol=2e-3)
+
+
+def test_a_path_is_the_curve_point_by_point():
+    surface = rough(48)
+    forces = [1e-5, 1e-4, 1e-3]
+    curve = rc.loading_curve(surface, 1.0, forces=forces)
+    for i, solution in enumerate(rc.loading_path(surface, 1.0, forces=forces)):
+        alone = rc.press(surface, 1.0, force=forces[i])
+        assert solution.force == curve.force[i]
+        assert solution.stiffness == curve.stiffness[i] == pytest.approx(alone.stiffness, rel=1e-6)
+        assert solution.depth == pytest.approx(alone.depth, rel=1e-7)
+        assert curve.mean_gap[i] == pytest.approx(np.mean(solution.gap), rel=1e-9)
+        assert curve.spots[i] == alone.spots.count
+        u = oracles.displacement(surface.grid, 1.0, solution.pressure)
+        energy = 0.5 * (u * solution.pressure).sum() * surface.grid.cell_area
+        assert curve.elastic_energy[i] == pytest.approx(energy, rel=1e-7)
+
+
+def test_curve_through_full_contact_of_a_periodic_surface():
+    curve = rc.loading_curve(rough(32, hurst=1.5, periodic=True), 1.0, forces=[1e-4, 1e-2, 1.0, 2.0, 100.0])
+    assert np.isinf(curve.stiffness[-2:]).all()
+    assert curve.depth[-1] == pytest.approx(curve.depth[-2], rel=1e-7)
+    assert curve.saturation == np.inf
+    assert not curve.resolved[-2:].any()
+
+
+def test_resolution_limits():
+    surface = rough(64)
+    curve = rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-7, 10, 50))
+    single = rc.contact_stiffness(np.eye(1, 64 * 64, 99, dtype=bool).reshape(64, 64), surface.grid, 1.0)
+    full = rc.contact_stiffness(np.ones((64, 64), bool), surface.grid, 1.0)
+    assert curve.cell_stiffness == pytest.approx(single, rel=1e-12)
+    assert curve.saturation == pytest.approx(full, rel=1e-3)
+    k = curve.stiffness
+    np.testing.assert_array_equal(curve.resolved, (k >= 20 * single) & (k < 0.9 * curve.saturation))
+    assert 0 < curve.resolved.sum() < len(curve)
+
+
+def test_fit_of_hertz():
+    """Paraboloid: k ~ F^(1/3), k = (6 R E*^2 F)^(1/3)."""
+    n = 129
+    surface = rc.Surface(oracles.paraboloid(n, 1.0), rc.Grid((n, n), 1 / n))
+    a = np.linspace(0.15, 0.45, 25)
+    curve = rc.loading_curve(surface, 1.0, forces=4 / 3 * a**3)
+    law = curve.fit(window=(0.0, 1.0))
+    assert law.count == 25
+    assert law.exponent == pytest.approx(1 / 3, abs=0.005)
+    assert law.scatter < 0.005
+    np.testing.assert_allclose(law.stiffness(curve.force), 2 * a, rtol=0.01)
+    expected = (6 * surface.rms / 1.0) ** (1 / 3)  # k/(E* L) over (F/(E* h L))^(1/3) with R = L = 1
+    assert law.prefactor == pytest.approx(expected, rel=0.02)
+
+
+def test_dimensionless_numbers_do_not_depend_on_scale():
+    one = rc.loading_curve(rough(64), 1.0, forces=np.geomspace(1e-5, 1e-3, 9))
+    made = rough(64)
+    scaled = rc.Surface(made.heights * 3e-6, rc.Grid((64, 64), 1e-6 / 64))
+    two = rc.loading_curve(scaled, 110e9, forces=np.geomspace(1e-5, 1e-3, 9) * 110e9 * 3e-12)
+    np.testing.assert_allclose(two.dimensionless_force, one.dimensionless_force, rtol=1e-9)
+    np.testing.assert_allclose(two.dimensionless_stiffness, one.dimensionless_stiffness, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ({"forces": []}, "at least one"),
+        ({"forces": [1.0, 1.0]}, "increase strictly"),
+        ({"forces": [1.0, 0.5]}, "0.5 follows 1"),
+        ({"forces": [1.0, np.nan]}, "increase strictly"),
+        ({"forces": [-1.0, 1.0]}, "force must be positive"),
+        ({"forces": [[1.0, 2.0]]}, "one row"),
+        ({"depths": [-1.0]}, "first touch"),
+        ({}, "exactly one of forces"),
+        ({"forces": [1.0], "depths": [1.0]}, "force and depth"),
+    ],
+)
+def test_nonsense_is_refused_before_the_first_load(more, message):
+    with pytest.raises(ValueError, match=message):
+        rc.loading_path(rough(16), 1.0, **more)  # not even a next() is needed
+
+
+def test_too_deep_for_a_periodic_surface_is_refused_at_once():
+    with pytest.raises(ValueError, match="mean separation"):
+        rc.loading_path(rough(16, periodic=True), 1.0, depths=[0.001, 1.0])
+
+
+def test_too_few_points_for_a_law():
+    curve = rc.loading_curve(rough(16), 1.0, forces=[1e-5, 1e-4])
+    with pytest.raises(ValueError, match="at least 3 resolved points, not 0"):
+        curve.fit()

@@ -1,0 +1,170 @@
+"""Answers as labelled data and as plain records."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.dataset import curve_dataset, curve_record, solution_dataset, solution_record
+from roughcontact.contact.variables import VARIABLES
+
+MODULUS = 1e11
+GRID = rc.Grid((24, 32), (2e-7, 1e-7))
+
+
+@pytest.fixture(scope="module")
+def surface() -> rc.Surface:
+    made = rc.self_affine(GRID, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    heights = made.heights.copy()
+    heights[5, 6:9] = np.nan
+    return rc.Surface(heights, GRID, made.provenance)
+
+
+@pytest.fixture(scope="module")
+def solution(surface: rc.Surface) -> rc.Solution:
+    return rc.press(surface, MODULUS, force=1e-3)
+
+
+@pytest.fixture(scope="module")
+def curve(surface: rc.Surface) -> rc.Curve:
+    return rc.loading_curve(surface, MODULUS, forces=[1e-4, 1e-3, 1e-2])
+
+
+@pytest.fixture(scope="module")
+def full() -> rc.Solution:
+    """Return a periodic surface in full contact: infinitely stiff."""
+    grid = rc.Grid((8, 8), (1e-7, 1e-7), periodic=True)
+    wavy = rc.self_affine(grid, hurst=0.8, rms=1e-12, rng=np.random.default_rng(1))
+    return rc.press(wavy, MODULUS, pressure=1e9)
+
+
+def test_every_variable_says_what_the_table_says(solution, curve):
+    for dataset in (solution_dataset(solution), curve_dataset(curve)):
+        for name in set(dataset.variables) - {"spot", "axis"}:
+            attributes, known = dataset[name].attrs, VARIABLES[name]
+            assert attributes["long_name"] == known.long_name, name
+            assert attributes.get("units", "") == known.unit, name
+
+
+def test_units_are_understood_by_a_unit_library():
+    import pint
+
+    registry = pint.UnitRegistry()
+    for name, known in VARIABLES.items():
+        # UDUNITS writes powers as bare numbers behind the unit.
+        text = " * ".join(
+            part if part == "1" else part.rstrip("-0123456789") + "**" + (part.lstrip("NmPaJ") or "1")
+            for part in known.unit.split()
+        )
+        if text:
+            assert registry.Quantity(1.0, text).to_base_units().magnitude == 1.0, name
+
+
+def test_solution_dataset_holds_the_solution(solution):
+    dataset = solution_dataset(solution)
+    assert dataset.pressure.dims == ("y", "x")
+    for name in ("pressure", "displacement", "gap", "contact"):
+        np.testing.assert_array_equal(dataset[name], getattr(solution, name))
+    for name in (
+        "force",
+        "depth",
+        "stiffness",
+        "interfacial_stiffness",
+        "contact_area",
+        "mean_gap",
+        "missing",
+    ):
+        assert dataset[name].dims == ()
+        assert dataset[name] == getattr(solution, name), name
+    np.testing.assert_array_equal(dataset.heights, solution.problem.surface.heights)
+    assert dataset.largest_pressure == solution.pressure.max()
+    assert dataset.status == "converged"
+    assert dataset.missing == 3
+    assert int(np.isnan(dataset.gap).sum()) == 3
+    assert dataset.contact.dtype == bool
+
+
+def test_coordinates_are_the_centres_of_cells(solution):
+    dataset = solution_dataset(solution)
+    np.testing.assert_array_equal(dataset.x[:2], [0.5e-7, 1.5e-7])
+    np.testing.assert_array_equal(dataset.y[:2], [1e-7, 3e-7])
+    # x runs along a row: 32 of them, 24 rows.
+    assert dataset.sizes["x"] == 32
+    assert dataset.sizes["y"] == 24
+    assert list(dataset.lengths.sel(axis=["x", "y"])) == [32 * 1e-7, 24 * 2e-7]
+
+
+def test_spots_can_be_found_by_their_number(solution):
+    dataset = solution_dataset(solution)
+    assert dataset.spots == solution.spots.count > 1
+    for number in dataset.spot:
+        inside = dataset.spot_label == number
+        assert dataset.spot_area.sel(spot=number) == pytest.approx(int(inside.sum()) * 2e-14, rel=1e-14)
+        load = float(dataset.pressure.where(inside, 0.0).sum()) * 2e-14
+        assert dataset.spot_load.sel(spot=number) == pytest.approx(load, rel=1e-13)
+
+
+def test_curve_dataset_holds_the_curve(curve):
+    dataset = curve_dataset(curve)
+    for name in ("force", "depth", "stiffness", "contact_area", "spots", "resolved", "dimensionless_force"):
+        assert dataset[name].dims == ("load",)
+        np.testing.assert_array_equal(dataset[name], getattr(curve, name))
+    np.testing.assert_array_equal(dataset.secant_stiffness, curve.secant_stiffness)
+    assert dataset.sizes == {"load": 3, "interval": 2, "axis": 2}
+    assert dataset.resolved.dtype == bool
+    assert list(dataset.status.to_numpy()) == ["converged"] * 3
+    assert dataset.modulus == MODULUS
+    assert dataset.saturation == curve.saturation
+
+
+def test_the_classes_hand_out_the_same(solution, curve):
+    assert solution.to_dataset().identical(solution_dataset(solution))
+    assert curve.to_dataset().identical(curve_dataset(curve))
+    assert solution.to_record() == solution_record(solution)
+    assert curve.to_record() == curve_record(curve)
+
+
+@pytest.mark.parametrize("which", ["solution", "curve", "full"])
+def test_records_are_strict_json_and_lose_nothing(which, request):
+    answer = request.getfixturevalue(which)
+    record = answer.to_record()
+    assert json.loads(json.dumps(record, allow_nan=False)) == record
+    numbers = {name for name, value in record.items() if isinstance(value, int | float) and value is not True}
+    assert {name for name in numbers if not isinstance(record[name], bool)} <= record["units"].keys()
+    assert record["units"]["stiffness"] == "N m-1"
+
+
+def test_a_record_holds_the_numbers_of_the_answer(solution, curve):
+    record = solution_record(solution)
+    assert record["force"] == solution.force
+    assert record["spots"] == solution.spots.count
+    assert record["periodic"] == [False, False]
+    assert record["status"] == "converged"
+    assert curve_record(curve)["stiffness"] == curve.stiffness.tolist()
+    assert curve_record(curve)["resolved"] == curve.resolved.tolist()
+
+
+def test_infinity_stays_in_the_dataset_and_is_none_in_the_record(full):
+    assert full.stiffness == np.inf
+    assert solution_dataset(full).stiffness == np.inf
+    assert solution_record(full)["stiffness"] is None
+
+
+def test_bodies_that_do_not_touch(surface):
+    apart = rc.press(surface, MODULUS, depth=0.0)
+    dataset = solution_dataset(apart)
+    assert dataset.sizes["spot"] == 0
+    assert dataset.status == "no contact"
+    assert not dataset.contact.any()
+    assert solution_record(apart)["largest_pressure"] == 0.0
+
+
+def test_a_line_is_refused_rather_than_given_wrong_units(curve):
+    line = replace(curve, lengths=(1.0,), spacing=(0.1,), periodic=(False,))
+    for convert in (curve_dataset, curve_record):
+        with pytest.raises(ValueError, match="two dimensions"):
+            convert(line)

@@ -1,0 +1,201 @@
+"""Where contacts begin and end: one cell, flat, full, missing, edges."""
+
+import numpy as np
+import oracles
+import pytest
+
+import roughcontact as rc
+
+
+def wave(periodic, n=32):
+    x = np.arange(n) / n
+    heights = 0.01 * (np.cos(2 * np.pi * x)[:, None] + np.cos(2 * np.pi * x))
+    return rc.Surface(heights, rc.Grid((n, n), 1 / n, periodic))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_one_touching_cell(periodic):
+    """A spike: the depth is what one cell makes of the force, and the notes say that the grid speaks."""
+    n = 15
+    heights = np.zeros((n, n))
+    heights[4, 9] = 1.0
+    surface = rc.Surface(heights, rc.Grid((n, n), 0.1, periodic))
+    solution = rc.press(surface, 2.0, force=1e-4)
+    single = rc.contact_stiffness(solution.contact, surface.grid, 2.0)
+    assert solution.contact.sum() == 1
+    assert solution.stiffness == pytest.approx(single, rel=1e-12)
+    assert solution.depth == pytest.approx(1e-4 / single, rel=1e-12)
+    assert solution.spots.count == 1
+    assert any("single cell" in note for note in solution.notes)
+
+
+@pytest.mark.parametrize("force", [1e-6, 1.0, 1e6])
+def test_a_flat_free_surface_is_a_punch(force):
+    surface = rc.Surface(np.zeros((24, 24)), rc.Grid((24, 24), 1 / 24))
+    solution = rc.press(surface, 1.0, force=force)
+    full = rc.contact_stiffness(np.ones((24, 24), bool), surface.grid, 1.0)
+    assert solution.contact.all()
+    assert solution.stiffness == pytest.approx(full, rel=1e-7)
+    assert solution.depth == pytest.approx(force / full, rel=1e-7)
+    assert solution.interfacial_stiffness == np.inf
+    assert solution.mean_gap == pytest.approx(0, abs=1e-8 * solution.depth)
+    assert solution.touches_edge
+
+
+@pytest.mark.parametrize("force", [1e-6, 1.0, 1e6])
+def test_a_flat_periodic_surface_carries_a_uniform_pressure(force):
+    surface = rc.Surface(np.full((16, 20), 3.0), rc.Grid((16, 20), 0.1, True))
+    solution = rc.press(surface, 1.0, force=force)
+    np.testing.assert_allclose(solution.pressure, force / surface.grid.area, rtol=1e-9)
+    assert solution.depth == pytest.approx(0, abs=1e-12 * force)
+    assert solution.stiffness == solution.interfacial_stiffness == np.inf
+    assert not solution.touches_edge
+    assert solution.spots.count == 1
+
+
+def test_full_contact_of_a_periodic_surface():
+    """Every wave is flattened: p_q = E* q h_q / 2, the depth is the mean separation, the stiffness infinite."""
+    surface = wave(True)
+    closing = 2 * np.pi * 0.01  # the sum of both waves' amplitudes E* q h / 2
+    solution = rc.press(surface, 1.0, force=2 * closing)
+    expected = 2 * closing + surface.heights * np.pi
+    np.testing.assert_allclose(solution.pressure, expected, rtol=1e-6)
+    assert solution.contact.all()
+    assert solution.depth == pytest.approx(0.02, rel=1e-7)
+    assert solution.stiffness == np.inf
+    assert solution.mean_gap == pytest.approx(0, abs=1e-9)
+
+
+def test_a_periodic_surface_cannot_sink_below_full_contact():
+    surface = wave(True)
+    near = rc.press(surface, 1.0, depth=0.02 * (1 - 1e-4))
+    assert near.status is rc.Status.CONVERGED
+    with pytest.raises(ValueError, match="exceeds the mean separation"):
+        rc.press(surface, 1.0, depth=0.02 * (1 + 1e-6))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_depth_zero_is_first_touch(periodic):
+    solution = rc.press(wave(periodic), 1.0, depth=0.0)
+    assert solution.status is rc.Status.NO_CONTACT
+    assert solution.force == solution.stiffness == solution.contact_area == solution.elastic_energy == 0
+    assert solution.interfacial_stiffness == 0
+    assert solution.spots.count == 0
+    assert solution.mean_gap == pytest.approx(0.02)
+
+
+def test_a_free_surface_goes_on_beyond_full_contact():
+    surface = wave(False)
+    full = rc.contact_stiffness(np.ones((32, 32), bool), surface.grid, 1.0)
+    one, two = (rc.press(surface, 1.0, force=f, tolerance=1e-10) for f in (1.0, 2.0))
+    assert one.contact.all()
+    assert two.depth - one.depth == pytest.approx(1 / full, rel=1e-8)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_an_ellipse_of_one_missing_patch(periodic):
+    """Missing cells carry nothing, are counted, and change the answer only by being absent."""
+    surface = wave(periodic)
+    y, x = np.mgrid[:32, :32]
+    patch = ((y - 3) / 3) ** 2 + ((x - 30) / 2) ** 2 <= 1
+    heights = surface.heights.copy()
+    heights[patch] = np.nan
+    holed = rc.Surface(heights, surface.grid)
+    lowered = rc.Surface(np.where(patch, -1e3, surface.heights), surface.grid)
+    solution = rc.press(holed, 1.0, force=3e-3, tolerance=1e-10)
+    assert solution.missing == patch.sum()
+    assert not solution.contact[patch].any()
+    assert np.isnan(solution.gap[patch]).all()
+    assert np.isfinite(solution.mean_gap)
+    assert oracles.certificate(holed, 1.0, solution.pressure, solution.depth) <= 1e-10
+    assert any(str(patch.sum()) in note for note in solution.notes)
+    deep = rc.press(lowered, 1.0, force=3e-3, tolerance=1e-10)
+    np.testing.assert_allclose(solution.pressure, deep.pressure, rtol=0, atol=1e-7 * deep.pressure.max())
+
+
+def test_an_isolated_missing_cell():
+    heights = oracles.paraboloid(33, 1.0)
+    heights[16, 16] = np.nan  # the apex itself
+    solution = rc.press(rc.Surface(heights, rc.Grid((33, 33), 1 / 33)), 1.0, force=1e-2)
+    assert solution.missing == 1
+    assert solution.pressure[16, 16] == 0
+    assert solution.spots.count == 1
+
+
+def test_contact_at_the_edge_is_said():
+    heights = oracles.paraboloid(33, 1.0, apex=(0.5, 0.0))
+    solution = rc.press(rc.Surface(heights, rc.Grid((33, 33), 1 / 33)), 1.0, force=1e-3)
+    assert solution.touches_edge
+    assert any("edge" in note for note in solution.notes)
+    inside = rc.press(rc.Surface(oracles.paraboloid(33, 1.0), rc.Grid((33, 33), 1 / 33)), 1.0, force=1e-3)
+    assert not inside.touches_edge
+    assert inside.notes == ()
+
+
+def test_spots_go_on_across_a_periodic_edge():
+    surface = wave(True)  # the crest sits in the corner
+    periodic = rc.press(surface, 1.0, force=1e-4).spots
+    free = rc.press(rc.Surface(surface.heights, rc.Grid((32, 32), 1 / 32)), 1.0, force=1e-3).spots
+    assert periodic.count == 1
+    assert free.count > 1
+    for spots, force in ((periodic, 1e-4), (free, 1e-3)):
+        assert spots.loads.sum() == pytest.approx(force, rel=1e-10)
+        assert len(spots.areas) == len(spots.loads) == spots.labels.max() == spots.count
+
+
+@pytest.mark.parametrize("shape", [(1, 40), (40, 1), (1, 1), (2, 3)])
+def test_slender_grids(shape):
+    rng = np.random.default_rng(0)
+    surface = rc.Surface(rng.standard_normal(shape) * 0.01, rc.Grid(shape, 0.1))
+    solution = rc.press(surface, 1.0, force=1e-3)
+    assert oracles.certificate(surface, 1.0, solution.pressure, solution.depth) <= 1e-8
+
+
+def test_histograms_are_densities():
+    solution = rc.press(wave(False), 1.0, force=1e-2)
+    for density, edges in (solution.pressure_histogram(20), solution.gap_histogram(30)):
+        assert (density * np.diff(edges)).sum() == pytest.approx(1, rel=1e-12)
+        assert edges[0] == 0
+    with pytest.raises(ValueError, match="at least one bin"):
+        solution.gap_histogram(0)
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ({"force": 0.0}, "force must be positive"),
+        ({"force": -1.0}, "force must be positive"),
+        ({"force": np.nan}, "force must be positive"),
+        ({"force": np.inf}, "force must be positive"),
+        ({"depth": -1e-9}, "depth counts from first touch"),
+        ({"pressure": 0.0}, "pressure must be positive"),
+        ({}, "exactly one of force"),
+        ({"force": 1.0, "depth": 1.0}, "force and depth"),
+        ({"force": 1.0, "modulus": 0.0}, "reduced modulus"),
+        ({"force": 1.0, "tolerance": 0.0}, "tolerance must lie"),
+        ({"force": 1.0, "surface": np.zeros((4, 4))}, "a Surface is wanted"),
+        ({"force": 1.0, "operator": rc.half_space(rc.Grid((4, 4), 1.0), 1.0)}, "is not the surface's"),
+    ],
+)
+def test_nonsense_is_refused(more, message):
+    arguments = {"surface": wave(False), "modulus": 1.0} | more
+    with pytest.raises(ValueError, match=message):
+        rc.press(arguments.pop("surface"), arguments.pop("modulus"), **arguments)
+
+
+def test_masks_that_make_no_sense():
+    operator = rc.half_space(rc.Grid((4, 4), 1.0, True), 1.0)
+    some = np.eye(4, dtype=bool)
+    with pytest.raises(ValueError, match="does not fit"):
+        rc.contact_stiffness(np.ones((3, 3), bool), operator.grid, 1.0)
+    assert rc.contact_stiffness(np.zeros((4, 4), bool), operator.grid, 1.0) == 0
+    assert rc.contact_stiffness(np.ones((4, 4), bool), operator.grid, 1.0) == np.inf
+    for region, u, message in [
+        (np.zeros((4, 4), bool), 1.0, "no cell"),
+        (np.ones((4, 4), bool), 1.0, "leave a cell free"),
+        (some, 0.0, "not zero"),
+        (some, np.nan, "finite"),
+        (np.ones((2, 2), bool), 1.0, "does not fit"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            rc.prescribed_displacement(operator, region, u)

@@ -1,0 +1,126 @@
+"""The contract of every operator."""
+
+import numpy as np
+import oracles
+import pytest
+
+import roughcontact as rc
+from roughcontact.halfspace.operator import Operator
+
+SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20)]
+CASES = [
+    (shape, periodic, method) for shape in SHAPES for periodic in (False, True) for method in ("fft", "dense")
+]
+
+
+@pytest.fixture(params=CASES, ids=str)
+def operator(request):
+    shape, periodic, method = request.param
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method)
+
+
+def fields(operator, count=2, seed=0):
+    return np.random.default_rng(seed).standard_normal((count, *operator.grid.shape))
+
+
+def close(a, b, scale=1.0):
+    """Equal up to the rounding of a transform: some ten units in the last place of the largest value."""
+    np.testing.assert_allclose(a, b, rtol=0, atol=1e-14 * scale)
+
+
+def test_it_is_an_operator(operator):
+    assert isinstance(operator, Operator)
+    assert operator.weights == pytest.approx(0.15)
+
+
+def test_linear(operator):
+    p, q = fields(operator)
+    close(operator.apply(2 * p - 3 * q), 2 * operator.apply(p) - 3 * operator.apply(q), 10)
+
+
+def test_symmetric(operator):
+    p, q = fields(operator)
+    assert np.vdot(operator.apply(p), q) == pytest.approx(np.vdot(p, operator.apply(q)), abs=1e-13 * p.size)
+
+
+def test_definite(operator):
+    """Free: positive definite. Periodic: semidefinite, and only a constant pressure moves nothing."""
+    values = np.linalg.eigvalsh(operator.as_matrix())
+    if all(operator.grid.periodic):
+        assert abs(values[0]) < 1e-14
+        assert operator.grid.size == 1 or values[1] > 0.01
+        close(operator.apply(np.ones(operator.grid.shape)), 0.0)
+    else:
+        assert values[0] > 0.01
+
+
+def test_equal_to_its_matrix(operator):
+    p = fields(operator)[0]
+    close(operator.apply(p).ravel(), operator.as_matrix() @ p.ravel(), 3)
+    cells = np.flatnonzero(np.random.default_rng(1).random(p.size) < 0.4)
+    np.testing.assert_array_equal(operator.as_matrix(cells), operator.as_matrix()[np.ix_(cells, cells)])
+
+
+def test_equal_to_the_plain_product(operator):
+    p = fields(operator)[0]
+    close(operator.apply(p), oracles.displacement(operator.grid, 2.0, p), 3)
+
+
+def test_equal_to_its_restriction(operator):
+    p = fields(operator)[0]
+    window = tuple(slice(n // 3, n) for n in operator.grid.shape)
+    inside = np.zeros_like(p)
+    inside[window] = p[window]
+    close(operator.restrict(window).apply(p[window]), operator.apply(inside)[window], 3)
+
+
+def test_loads_in_corners_meet(operator):
+    """The wrap-around that a missing padding would make."""
+    ny, nx = operator.grid.shape
+    p = np.zeros((ny, nx))
+    p[0, 0] = 1.0
+    far = operator.apply(p)[-1, -1]
+    assert far == pytest.approx(operator.as_matrix()[0, -1], abs=1e-15)
+
+
+@pytest.mark.parametrize("method", ["fft", "dense"])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_scale_laws(method, periodic):
+    """Cells larger by a factor move by that factor; a stiffer body moves less."""
+    p = np.random.default_rng(0).standard_normal((12, 9))
+    base = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2.0, method).apply(p)
+    large = rc.half_space(rc.Grid((12, 9), (3e-7, 5e-7), periodic), 2.0, method).apply(p)
+    stiff = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2e11, method).apply(p)
+    np.testing.assert_allclose(large, base * 1e-6, rtol=0, atol=1e-20)
+    np.testing.assert_allclose(stiff, base * 1e-11, rtol=0, atol=1e-25)
+
+
+def test_far_field_is_a_point_load():
+    """u = F / (pi E* r), to the order (h/r)^2 of the cell's extent."""
+    operator = rc.half_space(rc.Grid((1, 400), (1.0, 1.0)), 2.0)
+    p = np.zeros((1, 400))
+    p[0, 0] = 3.0
+    r = 399.0
+    assert operator.apply(p)[0, -1] == pytest.approx(3.0 / (np.pi * 2.0 * r), rel=1 / (12 * r**2))
+
+
+def test_periodic_waves_answer_with_two_over_q():
+    grid = rc.Grid((16, 24), (0.5, 0.25), True)
+    y, x = np.mgrid[:16, :24] * np.array([0.5, 0.25])[:, None, None]
+    qy, qx = 2 * np.pi * 2 / 8.0, 2 * np.pi * 3 / 6.0
+    wave = np.cos(qy * y + qx * x)
+    close(rc.half_space(grid, 5.0).apply(wave), wave * 2 / (5.0 * np.hypot(qy, qx)))
+
+
+@pytest.mark.parametrize(
+    ("grid", "more", "message"),
+    [
+        (rc.Grid(8, 1.0), {}, "two axes"),
+        (rc.Grid((8, 8), 1.0, (True, False)), {}, "both axes"),
+        (rc.Grid((8, 8), 1.0), {"method": "magic"}, "method must be"),
+        (rc.Grid((8, 8), 1.0), {"modulus": 0.0}, "modulus must be positive"),
+    ],
+)
+def test_nonsense_is_refused(grid, more, message):
+    with pytest.raises(ValueError, match=message):
+        rc.half_space(grid, **({"modulus": 1.0} | more))

@@ -1,0 +1,129 @@
+"""Curves: every point drawn once, the limits where they are, the law as it was fitted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
+
+MODULUS = 1e11
+
+
+@pytest.fixture(scope="module")
+def curve() -> rc.Curve:
+    grid = rc.Grid((48, 48), (1e-7, 1e-7))
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    scale = MODULUS * 1e-7 * 48e-7
+    return rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(1e-3, 1, 8))
+
+
+@pytest.fixture
+def axes() -> Axes:
+    return Figure().subplots()
+
+
+def line(axes: Axes, label: str):
+    (found,) = [each for each in axes.lines if each.get_label() == label]
+    return found
+
+
+def level(axes: Axes) -> list[float]:
+    """Return the heights of the horizontal lines over the whole width."""
+    return sorted(each.get_ydata()[0] for each in axes.lines if list(each.get_xdata()) == [0, 1])
+
+
+def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
+    assert 0 < curve.resolved.sum() < len(curve), "both kinds are needed here"
+    stiffness_curve(axes, curve)
+    for label, mask in (("resolved", curve.resolved), ("not resolved", ~curve.resolved)):
+        drawn = line(axes, label)
+        # Units of the axes are powers of ten: ratios tell whether the points are the curve's.
+        for data, values in (
+            (drawn.get_xdata(), curve.force[mask]),
+            (drawn.get_ydata(), curve.stiffness[mask]),
+        ):
+            np.testing.assert_allclose(data / data[0], values / values[0], rtol=1e-13)
+        filled = drawn.get_markerfacecolor() != "white"
+        assert filled is (label == "resolved")
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
+    stiffness_curve(axes, curve)
+    factor = line(axes, "resolved").get_ydata()[0] / curve.stiffness[curve.resolved][0]
+    expected = [20 * curve.cell_stiffness * factor, curve.saturation * factor]
+    assert level(axes) == pytest.approx(expected, rel=1e-12)
+    low, high = axes.get_ylim()
+    assert low < expected[0] < expected[1] < high
+
+
+def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
+    law = curve.fit((float(curve.force[2]), float(curve.force[-1])))
+    stiffness_curve(axes, curve, law)
+    (drawn,) = [each for each in axes.lines if each.get_linewidth() == 2]
+    points = line(axes, "resolved")
+    x, y = (
+        data[0] / values[curve.resolved][0]
+        for data, values in ((points.get_xdata(), curve.force), (points.get_ydata(), curve.stiffness))
+    )
+    np.testing.assert_allclose(drawn.get_xdata(), np.array(law.window) * x, rtol=1e-12)
+    np.testing.assert_allclose(drawn.get_ydata(), law.stiffness(np.array(law.window)) * y, rtol=1e-12)
+    assert f"{law.exponent:.3f}" in drawn.get_label()
+    assert drawn.get_label() in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_the_outer_axes_have_no_dimension(curve):
+    figure = Figure()
+    axes = figure.subplots()
+    stiffness_curve(axes, curve)
+    figure.draw_without_rendering()
+    right, upper = axes.child_axes
+    x, y = line(axes, "resolved").get_data()
+    first = np.flatnonzero(curve.resolved)[0]
+    assert upper.get_xlim()[0] * x[0] / axes.get_xlim()[0] == pytest.approx(
+        curve.dimensionless_force[first], rel=1e-12
+    )
+    assert right.get_ylim()[0] * y[0] / axes.get_ylim()[0] == pytest.approx(
+        curve.dimensionless_stiffness[first], rel=1e-12
+    )
+
+
+def test_an_infinite_saturation_has_no_line(axes):
+    grid = rc.Grid((16, 16), (1e-7, 1e-7), periodic=True)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-9, rng=np.random.default_rng(3))
+    curve = rc.loading_curve(surface, MODULUS, pressures=[1e7, 1e8, 1e10])
+    assert np.isinf(curve.stiffness[-1])  # full contact
+    stiffness_curve(axes, curve)
+    assert len(level(axes)) == 1
+    drawn = sum(len(each.get_xdata()) for each in axes.lines if each.get_marker() == "o")
+    assert drawn == 2
+    axes.figure.draw_without_rendering()
+
+
+def test_a_flat_surface_has_a_curve(axes):
+    surface = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1e-3))
+    curve = rc.loading_curve(surface, MODULUS, forces=[1.0, 10.0])
+    stiffness_curve(axes, curve)
+    axes.figure.draw_without_rendering()
+    assert not any("force /" in each.get_xlabel() for each in axes.child_axes)
+
+
+def test_area_and_depth(curve):
+    for draw, values in ((area_curve, curve.contact_area), (depth_curve, curve.depth)):
+        figure = Figure()
+        axes = figure.subplots()
+        draw(axes, curve)
+        data = line(axes, "resolved").get_ydata()
+        np.testing.assert_allclose(
+            data / data[0], values[curve.resolved] / values[curve.resolved][0], rtol=1e-13
+        )
+        if draw is area_curve:
+            figure.draw_without_rendering()
+            (right,) = axes.child_axes
+            share = right.get_ylim()[0] / axes.get_ylim()[0] * data[0]
+            expected = values[curve.resolved][0] / (48e-7 * 48e-7)
+            assert share == pytest.approx(expected, rel=1e-12)

@@ -1,0 +1,168 @@
+"""Maps: the right way up, in readable units, and contact that can be seen however small."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.plot.maps import contact_map, height_map, pressure_map
+from roughcontact.plot.marks import contact_window, faint_spots
+from roughcontact.plot.raster import part, pooled
+
+MODULUS = 1e11
+
+
+def peaks(shape: tuple[int, int], cells: list[tuple[int, int]], missing: int = 0) -> rc.Surface:
+    """Return a flat surface with towers of equal height on single cells."""
+    heights = np.zeros(shape)
+    for cell in cells:
+        heights[cell] = 1e-6
+    heights.flat[:missing] = np.nan
+    return rc.Surface(heights, rc.Grid(shape, (2e-7, 1e-7)))
+
+
+def pressed(shape: tuple[int, int], cells: list[tuple[int, int]], missing: int = 0) -> rc.Solution:
+    return rc.press(peaks(shape, cells, missing), MODULUS, force=1e-5)
+
+
+def painted(figure: Figure) -> np.ndarray:
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def single(size: float = 4.0) -> tuple[Figure, object]:
+    figure = Figure(figsize=(size, size), dpi=100)
+    return figure, figure.add_axes((0.1, 0.1, 0.8, 0.8))
+
+
+def test_row_zero_is_on_top_and_cells_lie_where_they_are():
+    solution = pressed((20, 30), [(4, 25)])
+    _, axes = single()
+    pressure_map(axes, solution)
+    image = axes.images[-1]
+    left, right, bottom, top = image.get_extent()
+    # 30 cells of 0.1 um and 20 cells of 0.2 um, y pointing down.
+    assert (left, right) == pytest.approx((0.0, 3.0), rel=1e-14)
+    assert (top, bottom) == pytest.approx((0.0, 4.0), rel=1e-14)
+    assert axes.get_ylim()[0] > axes.get_ylim()[1]
+    shown = np.argwhere(~np.ma.getmaskarray(np.ma.masked_invalid(image.get_array())))
+    assert shown.tolist() == [[4, 25]]
+    assert axes.get_xlabel() == "x [µm]"
+
+
+@pytest.mark.parametrize("draw", [pressure_map, contact_map])
+def test_one_cell_in_a_quarter_of_a_million_is_seen_where_it_is(draw):
+    solution = pressed((512, 512), [(100, 400)])
+    assert solution.contact.sum() == 1
+    figure, axes = single()
+    draw(axes, solution)
+    before = painted(figure)
+    # The picture differs from that of the bare heights only by the mark.
+    bare, plain = single()
+    draw(plain, rc.press(solution.problem.surface, MODULUS, depth=0.0))
+    plain.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())
+    changed = np.argwhere(np.abs(before - painted(bare)).sum(axis=-1) > 100)
+    frame = axes.get_window_extent()
+    changed = changed[(changed[:, 1] > frame.x0) & (changed[:, 1] < frame.x1)]  # not those of the colour bar
+    assert len(changed) >= 9  # pixels: more than a speck of dust
+    x, y = axes.transData.transform((40.05, 20.1))  # the centre of the cell [um]
+    assert np.abs(changed.mean(axis=0) - (before.shape[0] - y, x)).max() < 3  # pixels
+
+
+def test_contact_that_is_plain_to_see_gets_no_marks():
+    surface = rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6))
+    solution = rc.press(surface, MODULUS, force=1.0)
+    assert faint_spots(solution, part(surface.grid, None))[0].size == 0
+    assert contact_window(solution) is None
+
+
+def test_bodies_that_do_not_touch_have_a_map_too():
+    solution = rc.press(peaks((16, 16), [(3, 3)]), MODULUS, depth=0.0)
+    assert contact_window(solution) is None
+    for draw in (pressure_map, contact_map):
+        figure, axes = single()
+        draw(axes, solution)
+        painted(figure)
+
+
+def test_marks_stand_on_their_spots_and_not_on_one_another():
+    cells = [(10, 20), (11, 22), (300, 40), (500, 500)]
+    solution = pressed((512, 512), cells)
+    spots, places = faint_spots(solution, part(solution.problem.grid, None))
+    assert solution.spots.count == 4
+    # The first two are neighbours at this scale: one mark, on the one that carries more.
+    assert len(spots) == 3
+    assert {tuple(place) for place in places.tolist()} < set(cells)
+    for spot, place in zip(spots, places, strict=True):
+        assert solution.spots.labels[tuple(place)] == spot + 1
+    # In a window about the first two each of them is seen.
+    window = (slice(4, 20), slice(12, 28))
+    assert faint_spots(solution, window)[0].size == 0
+
+
+def test_the_window_holds_compact_contact_and_keeps_the_shape_of_the_map():
+    solution = pressed((200, 400), [(30, 100), (50, 110)])
+    y, x = contact_window(solution)
+    assert y.start <= 30 < 51 <= y.stop
+    assert x.start <= 100 < 111 <= x.stop
+    assert (x.stop - x.start) / (y.stop - y.start) == pytest.approx(2, abs=0.1)
+    assert 0 <= y.start < y.stop <= 200
+
+
+def test_the_window_goes_to_the_heaviest_part_of_scattered_contact():
+    cluster = [(100 + 2 * i, 50 + 2 * j) for i in range(3) for j in range(3)]
+    solution = pressed((256, 256), [(5, 250), (250, 5), (250, 250), *cluster])
+    y, x = contact_window(solution)
+    assert y.start <= 100 < 105 <= y.stop
+    assert x.start <= 50 < 55 <= x.stop
+    assert y.stop - y.start <= 256 / 6 + 1
+
+
+@pytest.mark.parametrize("cell", [(0, 0), (0, 63), (63, 0), (63, 63)])
+def test_a_window_at_a_corner_lies_on_the_map(cell):
+    y, x = contact_window(pressed((64, 64), [cell]))
+    assert y.start <= cell[0] < y.stop <= 64
+    assert x.start <= cell[1] < x.stop <= 64
+    assert min(y.start, x.start) >= 0
+
+
+def test_missing_points_are_hatched_and_others_not():
+    for missing, hatched in ((5, True), (0, False)):
+        figure, axes = single()
+        height_map(axes, peaks((8, 8), [(4, 4)], missing))
+        assert bool(axes.patch.get_hatch()) is hatched
+        assert int(np.ma.masked_invalid(axes.images[0].get_array()).mask.sum()) == missing
+        painted(figure)
+
+
+def test_large_maps_are_pooled_without_losing_a_cell():
+    values = np.full((3001, 10), np.nan)
+    values[2999, 7] = 5.0
+    small = pooled(values)
+    assert small.shape == (1001, 10)  # blocks of three rows
+    assert np.argwhere(small == 5.0).tolist() == [[999, 7]]
+    assert np.isnan(small).sum() == small.size - 1
+
+
+def test_pooled_cells_lie_where_they_are():
+    _, axes = single()
+    slope = np.repeat(np.arange(2500.0)[:, None], 2500, axis=1)
+    surface = rc.Surface(slope, rc.Grid((2500, 2500), 1e-6))
+    height_map(axes, surface)
+    _, right, bottom, _ = axes.images[0].get_extent()
+    # 2500 cells in blocks of three are 834 blocks, 2502 cells; the axes end with the map.
+    assert (right, bottom) == pytest.approx((2.502, 2.502), rel=1e-14)
+    assert axes.get_xlim() == pytest.approx((0.0, 2.5), rel=1e-14)
+
+
+def test_a_few_great_pressures_do_not_darken_the_rest():
+    edge = rc.press(rc.Surface(np.zeros((32, 32)), rc.Grid((32, 32), 1e-3)), MODULUS, force=10.0)
+    _, axes = single()
+    pressure_map(axes, edge)
+    image = axes.images[-1]
+    assert image.get_clim()[1] == pytest.approx(np.quantile(edge.pressure, 0.95) * 1e-3, rel=1e-12)  # kPa
+    assert image.colorbar.extend == "max"

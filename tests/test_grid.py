@@ -1,0 +1,41 @@
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+
+def test_lengths_count_cells():
+    grid = rc.Grid((4, 5), (0.5, 2.0))
+    assert grid.lengths == (2.0, 10.0)
+    assert grid.area == 20.0
+    assert grid.cell_area == 1.0
+    assert grid.size == 20
+
+
+def test_one_number_serves_every_axis():
+    assert rc.Grid((4, 5), 0.5, True) == rc.Grid([4, 5], (0.5, 0.5), (True, True))
+    assert rc.Grid(7, 0.5) == rc.Grid((7,), (0.5,))
+
+
+def test_a_window_is_free():
+    window = rc.Grid((8, 9), (1.0, 2.0), True).window((slice(2, 5), slice(0, 9)))
+    assert window == rc.Grid((3, 9), (1.0, 2.0), False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (((0, 4), 1.0), "positive whole"),
+        (((4, -1), 1.0), "positive whole"),
+        (((4, 2.5), 1.0), "positive whole"),
+        (((4, 4, 4), 1.0), "one or two axes"),
+        (((4, 4), 0.0), "spacing must be positive"),
+        (((4, 4), (1.0, np.nan)), "spacing must be positive"),
+        (((4, 4), (1.0, np.inf)), "spacing must be positive"),
+        (((4, 4), (1.0, 1.0, 1.0)), "spacing needs one value or 2"),
+        (((4, 4), 1.0, (True,)), "periodic needs one value or 2"),
+    ],
+)
+def test_nonsense_is_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        rc.Grid(*arguments)

@@ -1,0 +1,156 @@
+"""The house keeps its shape: imports point one way, and disk and screen stay at the rim."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import roughcontact
+
+SOURCE = Path(roughcontact.__file__).parent
+FILES = sorted(SOURCE.rglob("*.py"))
+# Each room may look into those before it, and into itself.
+ORDER = [
+    {"arrays"},
+    {"grid", "material"},
+    {"surface"},
+    {"halfspace"},
+    {"contact"},
+    {"mdr"},
+    {"files"},
+    {"study"},
+    {"plot"},
+    {"thesis"},
+    {"cli", "web"},
+]
+RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
+# `theory` stands beside the house; the two top files open doors and do nothing else.
+BESIDE = {"theory", "__init__", "__main__"}
+AT_THE_RIM = RANK["files"]
+DISK_AND_SCREEN = {
+    *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),
+    *("sqlite3", "tempfile", "typer"),
+}
+WRITES = {"open", "print", "save", "savetxt", "savez", "tofile", "to_netcdf", "write_bytes", "write_text"}
+
+
+def module_of(path):
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def room_of(path):
+    return path.relative_to(SOURCE).parts[0].removesuffix(".py")
+
+
+def imported(tree):
+    """Return the names of all modules that `tree` imports, those inside functions too."""
+    names = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "imports are written in full"
+            # The thing imported may be a module itself.
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return names
+
+
+def imported_at_once(tree):
+    """Return the names of the modules that importing `tree` loads: not those for the type checker."""
+    return imported(ast.Module([node for node in tree.body if not isinstance(node, ast.If)], []))
+
+
+def wrong_way(room, names):
+    """Return the rooms among the imported `names` that `room` must not look into."""
+    rooms = {name.split(".")[1] for name in names if name.startswith("roughcontact.")} & RANK.keys()
+    return {other for other in rooms if other != room and RANK[other] >= RANK[room]}
+
+
+def foreign(names):
+    return {name.split(".")[0] for name in names} - {"roughcontact"} - set(sys.stdlib_module_names)
+
+
+def called(tree):
+    """Return the last names of all that `tree` calls."""
+    functions = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return {
+        f.id if isinstance(f, ast.Name) else f.attr
+        for f in functions
+        if isinstance(f, ast.Name | ast.Attribute)
+    }
+
+
+def cycle(graph):
+    """Return the modules on or behind a cycle of `graph`: what is left when the leaves are taken off."""
+    graph = {module: set(names) & graph.keys() - {module} for module, names in graph.items()}
+    while leaves := {module for module, names in graph.items() if not names}:
+        graph = {module: names - leaves for module, names in graph.items() if module not in leaves}
+    return set(graph)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
+class TestFile:
+    def test_belongs_to_a_room_that_the_design_knows(self, path):
+        assert room_of(path) in RANK.keys() | BESIDE
+
+    def test_is_at_most_400_lines_long(self, path):
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= 400
+
+    def test_imports_point_one_way(self, path):
+        room, names = room_of(path), imported(ast.parse(path.read_text(encoding="utf-8")))
+        if room in RANK:
+            assert wrong_way(room, names) == set()
+        elif room == "theory":
+            assert foreign(names) <= {"numpy", "scipy"}
+            assert all(name.startswith("roughcontact.theory") for name in names if "roughcontact" in name)
+
+    def test_disk_and_screen_stay_at_the_rim(self, path):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        assert "print" not in called(tree)
+        if RANK.get(room_of(path), 0) < AT_THE_RIM and room_of(path) not in {"__init__", "__main__"}:
+            assert {name.split(".")[0] for name in imported(tree)} & DISK_AND_SCREEN == set()
+            assert called(tree) & WRITES == set()
+
+
+def test_no_module_waits_for_itself():
+    trees = {module_of(path): ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
+    assert cycle({module: imported_at_once(tree) for module, tree in trees.items()}) == set()
+
+
+def test_the_checks_see_what_they_look_for():
+    tree = ast.parse(
+        "import matplotlib.pyplot as plt\nfrom roughcontact.contact import press\nopen('x'); a.save(1)"
+    )
+    assert wrong_way("surface", imported(tree)) == {"contact"}
+    assert wrong_way("plot", imported(tree)) == set()
+    assert wrong_way("grid", imported(ast.parse("import roughcontact.material"))) == {"material"}
+    assert foreign(imported(tree)) == {"matplotlib"}
+    assert called(tree) == {"open", "save"}
+    assert cycle({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": set()}) == {"a", "b", "c"}
+    assert cycle({"a": {"b", "numpy"}, "b": {"c"}, "c": set()}) == set()
+
+
+def test_importing_the_package_and_all_its_names_loads_no_heavy_library():
+    heavy = [
+        "SurfaceTopography",
+        "h5netcdf",
+        "h5py",
+        "matplotlib",
+        "pandas",
+        "pint",
+        "rich",
+        "typer",
+        "xarray",
+    ]
+    script = (
+        "import sys, roughcontact\n"
+        "first = set(sys.modules)\n"
+        "for name in roughcontact.__all__: getattr(roughcontact, name)\n"
+        "early = sorted(first & {'numpy', 'scipy'})\n"
+        f"sys.stdout.write(repr((early, sorted(set(sys.modules) & set({heavy})))))"
+    )
+    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert answer.stdout == "([], [])"
