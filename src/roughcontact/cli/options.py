@@ -56,7 +56,7 @@ ChannelOption = Annotated[
 ]
 UnitOption = Annotated[
     str | None,
-    typer.Option(metavar="um", help="Unit of the heights, if the file has none.", rich_help_panel=_READING),
+    typer.Option(metavar="um", help="Unit of the heights, or metres per unit.", rich_help_panel=_READING),
 ]
 SizeOption = Annotated[
     str | None,
@@ -129,8 +129,15 @@ class Reading:
         # A foreign reader that prints must not spoil what standard output is for.
         with redirect_stdout(sys.stderr):
             return rc.read(
-                self.file, channel=self.channel, unit=self.unit, size=width, periodic=self.periodic
+                self.file, channel=self.channel, unit=self._unit(), size=width, periodic=self.periodic
             )
+
+    def _unit(self) -> str | float | None:
+        """Return the unit by its name, or as the metres that it is."""
+        try:
+            return None if self.unit is None else float(self.unit)
+        except ValueError:
+            return self.unit
 
     def surface(self) -> Surface:
         """Return the surface, read and levelled; say on standard error what was decided unasked."""

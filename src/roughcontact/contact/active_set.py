@@ -34,7 +34,7 @@ class ActiveSet:
     """
 
     max_steps: int = 5000
-    dense_limit: int = 1500
+    dense_limit: int = 2000
 
     def run(
         self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float

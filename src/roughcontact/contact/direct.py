@@ -17,6 +17,9 @@ __all__ = ["Pressed", "press_cells", "solve_cells"]
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
+# Letting go of one cell costs two triangular solves, a new factorisation a sixth of the cells as many.
+FEW = 1 / 8
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pressed:
@@ -41,52 +44,87 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
     separation : array
         Undeformed gap [m] on the operator's grid.
     control : Force or Depth
-        What is prescribed; a depth above the smallest separation of the cells.
+        What is prescribed.
     cells : int array
         Flat indices of the cells that may carry pressure.
 
     Notes
     -----
     With A a = 1 and A b = separation on the cells, the pressure is ``depth * a - b``; the force fixes the
-    depth. One matrix serves all rounds.
+    depth.
     """
-    measure = Measure(operator.weights)
-    matrix = operator.as_matrix(cells)
-    heights, weights = separation.ravel()[cells], measure.on(cells)
-    keep = np.arange(len(cells))
+    weights = Measure(operator.weights).on(cells)
+    heights = separation.ravel()[cells]
+    system = _System(operator.as_matrix(cells), weights, np.stack([np.ones(len(cells)), heights], axis=1))
     while True:
-        sub = matrix[np.ix_(keep, keep)]
-        right = np.stack([np.ones(len(keep)), heights[keep]], axis=1)
-        a, b = _solve(sub, weights[keep] if measure.varies else None, right).T
-        w = weights[keep]
-        depth = (control.value + w @ b) / (w @ a) if isinstance(control, Force) else control.value
+        a, b = system.solution.T  # zero on the cells that were let go
+        depth = (control.value + weights @ b) / (weights @ a) if isinstance(control, Force) else control.value
         p = depth * a - b
-        pulls = p <= 0
-        if not pulls.any() or pulls.all():
-            whole = np.zeros(len(cells))
-            whole[keep] = a
-            error = float(np.abs(matrix @ whole - 1)[keep].max())
-            return Pressed(cells[keep], np.maximum(p, 0.0), float(depth), a, error)
-        keep = keep[~pulls]
+        pulls = system.kept & (p <= 0)
+        if not pulls.any() or (pulls == system.kept).all():
+            kept = system.kept
+            return Pressed(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], system.error(a, 1.0))
+        system.release(pulls)
 
 
 def solve_cells(operator: Operator, cells: Cells, right: Array) -> Array:
-    """Return the pressure [Pa] on `cells` that displaces them by `right` [m], shape (n,) or (n, m)."""
-    measure = Measure(operator.weights)
-    weights = measure.on(cells) if measure.varies else None
-    return _solve(operator.as_matrix(cells), weights, right)
+    """Return the pressure [Pa] on `cells` that displaces them by `right` [m], shape (n,)."""
+    weights = Measure(operator.weights).on(cells)
+    return _System(operator.as_matrix(cells), weights, right[:, None]).solution[:, 0]
 
 
-def _solve(matrix: Array, weights: Array | None, right: Array) -> Array:
-    """Solve a system that is symmetric and positive definite under `weights`; the matrix is not kept."""
-    if weights is None:
-        return _cholesky(matrix, right)
-    root = np.sqrt(weights).reshape((-1,) + (1,) * (right.ndim - 1))
-    scaled = matrix * root.reshape(-1, 1) / root.reshape(1, -1)
-    return _cholesky(scaled, right * root) / root
+class _System:
+    """A symmetric positive definite system from which unknowns are let go one by one.
 
+    The influence matrix is symmetric under the weights; scaled by their roots it is so under none.
+    """
 
-def _cholesky(matrix: Array, right: Array) -> Array:
-    # The transpose of a symmetric matrix in C order is itself in Fortran order: LAPACK works in place.
-    factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
-    return np.asarray(scipy.linalg.cho_solve(factor, right, check_finite=False))
+    def __init__(self, matrix: Array, weights: Array, right: Array) -> None:
+        self._matrix, self._right = matrix, right
+        root = np.sqrt(weights / weights[0])
+        self._root = None if (root == 1).all() else root[:, None]
+        self.kept = np.ones(len(right), dtype=bool)
+        self._factorise()
+
+    @property
+    def solution(self) -> Array:
+        """Solution for every right side on the kept unknowns, zero elsewhere, shape (n, m)."""
+        x = self._free
+        if self._gone.size:
+            # The kept rows hold with the gone unknowns at zero: their columns of the inverse make up for it.
+            x = x - self._columns @ np.linalg.solve(self._columns[self._gone], x[self._gone])
+            x[self._gone] = 0.0
+        whole = np.zeros(self._right.shape)
+        whole[self._base] = x if self._root is None else x / self._root[self._base]
+        return whole
+
+    def release(self, unknowns: npt.NDArray[np.bool_]) -> None:
+        """Let go of `unknowns`: of a few by their columns of the inverse, of many by a new factorisation."""
+        self.kept = self.kept & ~unknowns
+        gone = np.flatnonzero(~self.kept[self._base])
+        if len(gone) > FEW * len(self._base):
+            self._factorise()
+            return
+        new = np.setdiff1d(gone, self._gone)
+        unit = np.zeros((len(self._base), len(new)))
+        unit[new, np.arange(len(new))] = 1.0
+        self._columns = np.concatenate([self._columns, self._solve(unit)], axis=1)
+        self._gone = np.concatenate([self._gone, new])
+
+    def error(self, x: Array, value: float) -> float:
+        """Return the largest deviation of the product with `x` from `value` on the kept unknowns."""
+        return float(np.abs(self._matrix @ x - value)[self.kept].max())
+
+    def _factorise(self) -> None:
+        base = np.flatnonzero(self.kept)
+        matrix, right = self._matrix[np.ix_(base, base)], self._right[base]
+        if self._root is not None:
+            root = self._root[base]
+            matrix, right = matrix * root / root.T, right * root
+        # The transpose of a symmetric matrix in C order is itself in Fortran order: LAPACK works in place.
+        self._factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
+        self._base, self._gone = base, np.zeros(0, np.intp)
+        self._free, self._columns = self._solve(right), np.zeros((len(base), 0))
+
+    def _solve(self, right: Array) -> Array:
+        return np.asarray(scipy.linalg.cho_solve(self._factor, right, check_finite=False))

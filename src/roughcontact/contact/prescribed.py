@@ -19,7 +19,7 @@ __all__ = ["Prescribed", "prescribed_displacement"]
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-DENSE_LIMIT = 1500
+DENSE_LIMIT = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
