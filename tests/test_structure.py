@@ -13,7 +13,7 @@ SOURCE = Path(roughcontact.__file__).parent
 FILES = sorted(SOURCE.rglob("*.py"))
 # Each room may look into those before it, and into itself.
 ORDER = [
-    {"arrays"},
+    {"arrays", "threads"},
     {"grid", "material"},
     {"surface"},
     {"halfspace"},

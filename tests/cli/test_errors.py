@@ -82,7 +82,6 @@ def test_warnings_of_ours_become_notes_and_others_stay_what_they_are(capsys):
         ("pass size= with the width", "pass --size with the width"),
         ("such as size='5 um' or size=(4e-4, 5e-4)", "such as --size '5 um' or --size '4e-4 x 5e-4'"),
         ("pass unit= with a unit, such as unit='um'", "pass --unit with a unit, such as --unit 'um'"),
-        ("pass periodic=True", "pass --periodic"),
         ("several\n   lines", "several lines"),
     ],
 )

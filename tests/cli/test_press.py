@@ -75,6 +75,18 @@ def test_the_modulus_can_follow_from_the_bodies(invoke, rough):
     assert ask(*first, "--young2", "70GPa", "--poisson2", "0.33") == rc.reduced_modulus(steel, aluminium)
 
 
+def test_a_file_that_says_it_is_periodic_is_pressed_so(invoke, tmp_path):
+    path = tmp_path / "made.npz"
+    making = ("--hurst", "0.8", "--rms", "1um", "--size", "1mm", "--points", "16", "--periodic")
+    assert invoke("surface", "make", path, *making).exit_code == 0
+    answer = invoke("press", path, *FORCE, *MODULUS, "--json")
+    assert json.loads(answer.stdout)["periodic"] == [True, True]
+    assert "levelled by its mean" in answer.stderr
+    free = invoke("press", path, *FORCE, *MODULUS, "--json", "--free")
+    assert json.loads(free.stdout)["periodic"] == [False, False]
+    assert "levelled by their plane" in free.stderr
+
+
 def test_a_periodic_surface_has_no_edge(invoke, rough):
     record = json.loads(invoke("press", rough, *FORCE, *MODULUS, "--periodic", "--json").stdout)
     assert record["periodic"] == [True, True]

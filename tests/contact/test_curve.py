@@ -156,6 +156,19 @@ def test_fit_of_hertz():
     assert law.prefactor == pytest.approx(expected, rel=0.02)
 
 
+def test_a_load_on_the_limit_belongs_to_the_window():
+    curve = rc.loading_curve(rough(64), 1.0, forces=np.geomspace(1e-4, 1e-3, 7))
+    assert curve.fit(window=(1e-4, 1e-3)).count == 7
+    assert curve.fit(window=(1.01e-4, 0.99e-3)).count == 5
+
+
+def test_depths_may_begin_at_first_touch():
+    curve = rc.loading_curve(rough(32), 1.0, depths=np.linspace(0, 0.01, 5))
+    assert curve.force[0] == curve.stiffness[0] == 0
+    assert curve.status[0] is rc.Status.NO_CONTACT
+    assert (np.diff(curve.force) > 0).all()
+
+
 def test_dimensionless_numbers_do_not_depend_on_scale():
     one = rc.loading_curve(rough(64), 1.0, forces=np.geomspace(1e-5, 1e-3, 9))
     made = rough(64)

@@ -135,3 +135,18 @@ def test_channels_of_an_npz(put, npz):
     assert (heights.name, heights.shape, heights.unit, heights.is_height) == ("heights", (3, 4), "nm", True)
     np.testing.assert_allclose(heights.size, (6e-6, 4e-6), rtol=1e-15)
     assert (line.name, line.shape, line.unit, line.size, line.is_height) == ("line", (3,), None, None, False)
+
+
+@pytest.mark.parametrize(("stated", "meant"), [(True, True), (False, False), (np.array([1]), True)])
+def test_npz_may_say_that_the_surface_repeats_itself(tmp_path, stated, meant):
+    path = tmp_path / "a.npz"
+    np.savez(path, heights=np.eye(4), spacing=0.1, unit="m", periodic=stated)
+    assert rc.read(path).grid.periodic == (meant, meant)
+    assert rc.read(path, periodic=not meant).grid.periodic == (not meant, not meant)
+
+
+def test_npz_with_a_strange_periodic_is_refused(tmp_path):
+    path = tmp_path / "a.npz"
+    np.savez(path, heights=np.eye(4), spacing=0.1, unit="m", periodic="yes")
+    with pytest.raises(rc.ReadError, match="one truth value"):
+        rc.read(path)

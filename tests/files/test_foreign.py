@@ -49,11 +49,13 @@ def test_the_picture_is_upright_and_in_metres(tmp_path):
     )
 
 
-def test_a_periodic_file_read_as_free_is_doubted(tmp_path):
+def test_a_periodic_file_is_read_as_free_only_by_choice(tmp_path):
     path = netcdf(tmp_path / "a.nc", periodic=1)
-    with pytest.warns(SurfaceWarning, match="pass periodic=True"):
-        assert rc.read(path).grid.periodic == (False, False)
-    assert rc.read(path, periodic=True).grid.periodic == (True, True)
+    assert rc.read(path).grid.periodic == (True, True)
+    free = rc.read(path, periodic=False)
+    assert free.grid.periodic == (False, False)
+    assert "read as free, though the file says that it is periodic" in free.provenance
+    assert rc.read(netcdf(tmp_path / "b.nc"), periodic=True).grid.periodic == (True, True)
 
 
 def test_no_unit_or_an_arbitrary_one_is_refused(tmp_path):

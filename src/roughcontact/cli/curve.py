@@ -70,7 +70,7 @@ def curve(
     channel: options.ChannelOption = None,
     unit: options.UnitOption = None,
     size: options.SizeOption = None,
-    periodic: options.PeriodicOption = False,
+    periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
     tolerance: options.ToleranceOption = 1e-8,
     out: options.OutOption = None,

@@ -24,7 +24,6 @@ INTERRUPTED = 130  # what a shell reports for Ctrl-C
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
-    (re.compile(r"\bperiodic=True\b"), "--periodic"),
     (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
 )

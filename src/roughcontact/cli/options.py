@@ -67,8 +67,12 @@ SizeOption = Annotated[
     ),
 ]
 PeriodicOption = Annotated[
-    bool,
-    typer.Option("--periodic", help="The surface repeats itself.", rich_help_panel=_READING),
+    bool | None,
+    typer.Option(
+        "--periodic/--free",
+        help="Whether the surface repeats itself (default: what the file says, else free).",
+        rich_help_panel=_READING,
+    ),
 ]
 LevelOption = Annotated[
     Level | None,
@@ -118,7 +122,7 @@ class Reading:
     unit: str | None
     size: str | None
     level: Level | None
-    periodic: bool
+    periodic: bool | None
 
     def as_it_is(self) -> Surface:
         """Return the surface as the file holds it."""
@@ -142,11 +146,16 @@ class Reading:
     def surface(self) -> Surface:
         """Return the surface, read and levelled; say on standard error what was decided unasked."""
         surface = self.as_it_is()
-        if self.level is None:
+        level = self.level
+        if level is None and self.periodic is None and all(surface.grid.periodic):
+            level = Level.MEAN
+            note("the file says that the surface is periodic, so that it has no tilt: levelled by its mean")
+        elif level is None:
+            level = Level.PLANE
             note("the heights are levelled by their plane (--level mean or none for another choice)")
-        if self.level is Level.NONE:
-            return surface
-        return surface.levelled("mean" if self.level is Level.MEAN else "plane")
+        return (
+            surface if level is Level.NONE else surface.levelled("mean" if level is Level.MEAN else "plane")
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,7 +55,7 @@ def press(
     channel: options.ChannelOption = None,
     unit: options.UnitOption = None,
     size: options.SizeOption = None,
-    periodic: options.PeriodicOption = False,
+    periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
     tolerance: options.ToleranceOption = 1e-8,
     out: options.OutOption = None,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.errors import UsageError, note, reported
+from roughcontact.cli.errors import UsageError, reported
 from roughcontact.cli.memory import require_memory
 from roughcontact.cli.quantity import LENGTH, parse, parse_points, parse_size
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
@@ -68,7 +68,7 @@ def info(
         from roughcontact.files.errors import ReadError
 
         channels = _channels(file)
-        reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=False)
+        reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=None)
         try:
             surface = reading.as_it_is()
         except ReadError as error:
@@ -125,11 +125,15 @@ def make(
                 nodal=nodal,
             )
             with open(aside, "wb") as stream:
-                np.savez(stream, heights=surface.heights, spacing=np.array(grid.spacing), unit=np.array("m"))
+                np.savez(
+                    stream,
+                    heights=surface.heights,
+                    spacing=np.array(grid.spacing),
+                    unit=np.array("m"),
+                    periodic=np.array(periodic),
+                )
         record = {"file": str(out), "seed": seed} | _record(surface)
         _tell(record, _facts(surface, record), json)
-        if periodic:
-            note(f"press it with --periodic: {out} holds the heights of one period")
 
 
 def _grid(size: str, points: str, periodic: bool) -> Grid:

@@ -33,8 +33,8 @@ def coarse_guess(
     part, factors = coarser
     heights = pooled(separation, factors)
     guess = coarse_guess(part, heights, control, solver)
-    state, box = Windows(part).solve(solver, heights, control, guess, COARSE_TOLERANCE)
-    pressure = embed(state.pressure, box, heights.shape)
+    state, place = Windows(part).solve(solver, heights, control, guess, COARSE_TOLERANCE)
+    pressure = embed(state.pressure, place, heights.shape)
     for axis, factor in enumerate(factors):
         pressure = np.repeat(pressure, factor, axis=axis)
     fine = pressure[tuple(slice(0, n) for n in separation.shape)]

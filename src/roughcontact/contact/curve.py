@@ -25,6 +25,7 @@ Array = npt.NDArray[np.float64]
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
 SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
+ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
 
 
@@ -127,9 +128,10 @@ class Curve:
             If fewer than three points lie in the window.
         """
         if window is None:
-            inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT)
+            inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
         else:
-            inside = (self.force >= window[0]) & (self.force <= window[1]) & (self.stiffness > 0)
+            low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
+            inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale

@@ -76,15 +76,27 @@ def solve_cells(operator: Operator, cells: Cells, right: Array) -> Array:
 class _System:
     """A symmetric positive definite system from which unknowns are let go one by one.
 
-    The influence matrix is symmetric under the weights; scaled by their roots it is so under none.
+    The influence matrix is symmetric under the weights; scaled by their roots it is so under none. Its first
+    factor overwrites the upper triangle, so that no copy is made (a fresh page costs more than its numbers);
+    the lower triangle and a note of the diagonal keep the matrix.
     """
 
     def __init__(self, matrix: Array, weights: Array, right: Array) -> None:
-        self._matrix, self._right = matrix, right
-        root = np.sqrt(weights / weights[0])
-        self._root = None if (root == 1).all() else root[:, None]
+        root = np.sqrt(weights / weights[0])[:, None]
+        self._root = None if (root == 1).all() else root
+        if self._root is not None:
+            matrix *= root
+            matrix /= root.T
+            right = right * root
+        self._matrix, self._right, self._diagonal = matrix, right, matrix.diagonal().copy()
         self.kept = np.ones(len(right), dtype=bool)
-        self._factorise()
+        self._base: Cells
+        self._gone: Cells
+        self._free: Array
+        self._columns: Array
+        # LAPACK wants Fortran order: the transpose, of which "lower" is what is the upper triangle here.
+        self._factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
+        self._restart(np.arange(len(right)))
 
     @property
     def solution(self) -> Array:
@@ -95,15 +107,15 @@ class _System:
             x = x - self._columns @ np.linalg.solve(self._columns[self._gone], x[self._gone])
             x[self._gone] = 0.0
         whole = np.zeros(self._right.shape)
-        whole[self._base] = x if self._root is None else x / self._root[self._base]
-        return whole
+        whole[self._base] = x
+        return whole if self._root is None else whole / self._root
 
     def release(self, unknowns: npt.NDArray[np.bool_]) -> None:
         """Let go of `unknowns`: of a few by their columns of the inverse, of many by a new factorisation."""
         self.kept = self.kept & ~unknowns
         gone = np.flatnonzero(~self.kept[self._base])
         if len(gone) > FEW * len(self._base):
-            self._factorise()
+            self._refactorise()
             return
         new = np.setdiff1d(gone, self._gone)
         unit = np.zeros((len(self._base), len(new)))
@@ -113,18 +125,23 @@ class _System:
 
     def error(self, x: Array, value: float) -> float:
         """Return the largest deviation of the product with `x` from `value` on the kept unknowns."""
-        return float(np.abs(self._matrix @ x - value)[self.kept].max())
-
-    def _factorise(self) -> None:
-        base = np.flatnonzero(self.kept)
-        matrix, right = self._matrix[np.ix_(base, base)], self._right[base]
+        scaled = x if self._root is None else x * self._root[:, 0]
+        product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
+        product += (self._diagonal - self._matrix.diagonal()) * scaled
         if self._root is not None:
-            root = self._root[base]
-            matrix, right = matrix * root / root.T, right * root
-        # The transpose of a symmetric matrix in C order is itself in Fortran order: LAPACK works in place.
-        self._factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
+            product /= self._root[:, 0]
+        return float(np.abs(product - value)[self.kept].max())
+
+    def _refactorise(self) -> None:
+        base = np.flatnonzero(self.kept)
+        matrix = self._matrix[np.ix_(base, base)]
+        np.fill_diagonal(matrix, self._diagonal[base])
+        self._factor = scipy.linalg.cho_factor(matrix.T, lower=False, overwrite_a=True, check_finite=False)
+        self._restart(base)
+
+    def _restart(self, base: Cells) -> None:
         self._base, self._gone = base, np.zeros(0, np.intp)
-        self._free, self._columns = self._solve(right), np.zeros((len(base), 0))
+        self._free, self._columns = self._solve(self._right[base]), np.zeros((len(base), 0))
 
     def _solve(self, right: Array) -> Array:
         return np.asarray(scipy.linalg.cho_solve(self._factor, right, check_finite=False))

@@ -94,17 +94,17 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
     guess: tuple[Array, float] | None = None
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here = problem.under(control)
-        state, box = solve_state(here, solver, guess, windows)
-        frozen = frozen_contact(windows.part(box), state.pressure > 0, tangent=state.tangent)
+        state, place = solve_state(here, solver, guess, windows)
+        frozen = frozen_contact(windows.part(place), state.pressure > 0, tangent=state.tangent)
         shape = problem.grid.shape
         solution = Solution(
             here,
-            embed(state.pressure, box, shape),
+            embed(state.pressure, place, shape),
             state.depth,
             state.status,
             state.residual,
             state.steps,
-            FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, box, shape)),
+            FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, place, shape)),
         )
         yield solution
         if following is not None:

@@ -13,6 +13,7 @@ from roughcontact.contact.direct import solve_cells
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box, embed
 from roughcontact.halfspace.operator import Operator
+from roughcontact.threads import one_blas_thread
 
 __all__ = ["Prescribed", "prescribed_displacement"]
 
@@ -85,7 +86,8 @@ def prescribed_displacement(
     part = operator.restrict(box)
     inside, wanted = region[box], np.where(region, target, 0.0)[box]
     start = None if initial is None else np.where(region, initial, 0.0)[box]
-    pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
+    with one_blas_thread():
+        pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
     measure = Measure(operator.weights)
     whole = embed(pressure, box, region.shape)
     return Prescribed(whole, measure.total(whole), error / largest, steps)

@@ -11,7 +11,8 @@ from roughcontact.contact.problem import ContactProblem, Depth
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.state import Solver, State
 from roughcontact.contact.status import Status
-from roughcontact.contact.window import Box, Windows, embed
+from roughcontact.contact.window import Place, Windows, embed
+from roughcontact.threads import one_blas_thread
 
 __all__ = ["solve"]
 
@@ -37,22 +38,23 @@ def solve(
     windows : Windows, optional
         Keeps restricted operators from one load to the next.
     """
-    state, box = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
-    pressure = embed(state.pressure, box, problem.grid.shape)
+    state, place = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
+    pressure = embed(state.pressure, place, problem.grid.shape)
     return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
 
 
 def solve_state(
     problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, windows: Windows
-) -> tuple[State, Box]:
-    """Return the solver's last state on its window, and the window."""
+) -> tuple[State, Place]:
+    """Return the solver's last state on its window, and where that lies."""
     if isinstance(problem.control, Depth) and problem.control.value == 0:
         return _untouched(problem)
-    guess = initial or coarse_guess(problem.operator, problem.separation, problem.control, solver)
-    return windows.solve(solver, problem.separation, problem.control, guess, problem.tolerance)
+    with one_blas_thread():
+        guess = initial or coarse_guess(problem.operator, problem.separation, problem.control, solver)
+        return windows.solve(solver, problem.separation, problem.control, guess, problem.tolerance)
 
 
-def _untouched(problem: ContactProblem) -> tuple[State, Box]:
+def _untouched(problem: ContactProblem) -> tuple[State, Place]:
     """At depth 0 the bodies touch and carry nothing."""
     shape = problem.grid.shape
     zero = np.zeros(shape)

@@ -9,17 +9,24 @@ import numpy.typing as npt
 
 from roughcontact.contact.problem import Control
 from roughcontact.contact.state import Solver, State
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Listable, Operator
 
-__all__ = ["Box", "Windows", "bounding_box", "embed"]
+__all__ = ["Place", "Windows", "bounding_box", "embed", "take"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 Box = tuple[slice, ...]
+Place = Box | npt.NDArray[np.intp]
+"""Where a part of the grid lies: a box of cells, or a list of them (flat indices)."""
+
+# A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
+# is a quarter of the overlap) costs less than a transform of the padded box: measured in look-ups of the
+# influence table a cell of the padded box (benchmarks/transforms.py).
+LOOKUPS = 2.5
 
 
 def bounding_box(mask: Mask) -> Box | None:
-    """Return the smallest window that holds every cell of `mask`; None for an empty one."""
+    """Return the smallest box that holds every cell of `mask`; None for an empty one."""
     box = []
     for axis in range(mask.ndim):
         others = tuple(a for a in range(mask.ndim) if a != axis)
@@ -30,19 +37,19 @@ def bounding_box(mask: Mask) -> Box | None:
     return tuple(box)
 
 
-def embed(field: Array, box: Box, shape: tuple[int, ...]) -> Array:
-    """Return `field` in its place on the whole grid, zero elsewhere."""
+def take(field: Array, place: Place) -> Array:
+    """Return the part of a field at `place`."""
+    return field[place] if isinstance(place, tuple) else field.ravel()[place]
+
+
+def embed(part: Array, place: Place, shape: tuple[int, ...]) -> Array:
+    """Return `part` in its place on the whole grid, zero elsewhere."""
     whole = np.zeros(shape)
-    whole[box] = field
+    if isinstance(place, tuple):
+        whole[place] = part
+    else:
+        whole.ravel()[place] = part
     return whole
-
-
-def _union(a: Box, b: Box) -> Box:
-    return tuple(slice(min(s.start, t.start), max(s.stop, t.stop)) for s, t in zip(a, b, strict=True))
-
-
-def _holds(a: Box, b: Box) -> bool:
-    return all(s.start <= t.start and t.stop <= s.stop for s, t in zip(a, b, strict=True))
 
 
 @dataclass(slots=True)
@@ -56,7 +63,7 @@ class Windows:
     """
 
     operator: Operator
-    _last: tuple[tuple[int, ...], Operator] | None = field(default=None)
+    _box: tuple[tuple[int, ...], Operator] | None = field(default=None)
 
     def solve(
         self,
@@ -65,30 +72,49 @@ class Windows:
         control: Control,
         guess: tuple[Array, float],
         tolerance: float,
-    ) -> tuple[State, Box]:
-        """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state on its box."""
+    ) -> tuple[State, Place]:
+        """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state in its place."""
         pressure, depth = guess
-        whole = tuple(slice(0, n) for n in separation.shape)
         if not self.operator.positive:
+            whole = tuple(slice(0, n) for n in separation.shape)
             return solver.run(self.operator, separation, control, pressure, tolerance), whole
-        box = bounding_box((separation < depth) | (pressure > 0))
-        if box is None:
-            box = bounding_box(separation == separation.min())
-        assert box is not None  # a separation has a minimum
+        window = (separation < depth) | (pressure > 0)
+        if not window.any():
+            window = separation == separation.min()
         while True:
-            part = self.part(box)
-            state = solver.run(part, separation[box], control, pressure[box], tolerance)
-            overlap = bounding_box(separation < state.depth)
-            if overlap is None or _holds(box, overlap):
-                return state, box
-            pressure = embed(state.pressure, box, separation.shape)
-            box = _union(box, overlap)
+            place = self._place(window)
+            state = solver.run(
+                self.part(place), take(separation, place), control, take(pressure, place), tolerance
+            )
+            inside = np.zeros(window.shape, dtype=bool)
+            if isinstance(place, tuple):
+                inside[place] = True
+            else:
+                inside.ravel()[place] = True
+            beyond = (separation < state.depth) & ~inside
+            if not beyond.any():
+                return state, place
+            pressure = embed(state.pressure, place, separation.shape)
+            window |= beyond
 
-    def part(self, box: Box) -> Operator:
-        """Return the operator between the cells of `box`."""
-        shape = tuple(s.stop - s.start for s in box)
+    def part(self, place: Place) -> Operator:
+        """Return the operator between the cells of `place`."""
+        if not isinstance(place, tuple):
+            assert isinstance(self.operator, Listable)  # no list is made of others
+            return self.operator.between(place)
+        shape = tuple(s.stop - s.start for s in place)
         if shape == self.operator.grid.shape:
             return self.operator
-        if self._last is None or self._last[0] != shape:
-            self._last = (shape, self.operator.restrict(box))
-        return self._last[1]
+        if self._box is None or self._box[0] != shape:
+            self._box = (shape, self.operator.restrict(place))
+        return self._box[1]
+
+    def _place(self, window: Mask) -> Place:
+        """Return the box of a window, or the list of its cells where a direct sum costs less."""
+        box = bounding_box(window)
+        assert box is not None  # a window holds the lowest separation at least
+        count = int(window[box].sum())
+        padded = np.prod([2 * (s.stop - s.start) for s in box])
+        if isinstance(self.operator, Listable) and count * count / 4 < LOOKUPS * padded:
+            return np.flatnonzero(window)
+        return box

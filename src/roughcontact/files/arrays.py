@@ -18,7 +18,7 @@ from roughcontact.files.heightmap import HeightMap, as_heights
 __all__ = ["list_npz", "read_npy", "read_npz"]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
-_MEANINGS = ("spacing", "size", "unit")
+_MEANINGS = ("spacing", "size", "unit", "periodic")
 
 
 def read_npy(data: bytes, file: str) -> HeightMap:
@@ -30,8 +30,8 @@ def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     """Return one array of a ``.npz`` file.
 
     The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
-    name or metres per unit), ``spacing`` (dy, dx) [m] and ``size`` (Ly, Lx) [m] say what it means, where they
-    are present.
+    name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m] and ``periodic`` (one truth
+    value) say what it means, where they are present.
     """
     arrays = _arrays(data, file)
     names = _channels(arrays)
@@ -46,6 +46,7 @@ def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
         channel=chosen,
         unit=None if unit is None else _unit(unit, file),
         spacing=_spacing(arrays, heights.shape, file),
+        periodic=_periodic(arrays, file),
     )
 
 
@@ -109,6 +110,14 @@ def _unit(value: npt.NDArray[Any], file: str) -> str | float:
     raise ReadError(
         file, f"its key 'unit' holds {value!r}", "save one name such as 'um', or one number of metres"
     )
+
+
+def _periodic(arrays: Mapping[str, npt.NDArray[Any]], file: str) -> bool:
+    """Return whether the file says that the surface repeats itself."""
+    value = arrays.get("periodic", np.array(False))
+    if value.size != 1 or value.dtype.kind not in "biu":
+        raise ReadError(file, f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
+    return bool(value.reshape(-1)[0])
 
 
 def _spacing(

@@ -30,7 +30,7 @@ def assemble(
     *,
     unit: Length | None,
     size: Size | None,
-    periodic: bool | tuple[bool, bool],
+    periodic: bool | tuple[bool, bool] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and the doubts to speak aloud; the user's word goes before the file's."""
     _require(found, file, unit, size)
@@ -39,12 +39,12 @@ def assemble(
     if not all(np.isfinite(step) and step > 0 for step in spacing):
         raise ReadError(file, f"it states cells of {spacing[0]:g} m x {spacing[1]:g} m", f"pass {_SIZE_HINT}")
     doubts = found.doubts
-    if found.periodic and not np.any(periodic):
-        doubts = (
-            *doubts,
-            "the file says that the surface is periodic; it is read as a free one, pass periodic=True",
-        )
-    grid = Grid(found.heights.shape, spacing, periodic)
+    grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
+    periodic_note = (
+        ("read as free, though the file says that it is periodic",)
+        if found.periodic and not any(grid.periodic)
+        else ()
+    )
     with np.errstate(over="ignore"):  # what becomes infinite is refused below
         heights = found.heights * factor
     if (peak := highest(heights)) > IMPOSSIBLE:
@@ -63,6 +63,7 @@ def assemble(
         f"read from {file} ({found.format}{channel}, sha256 {digest})",
         *unit_note,
         *size_note,
+        *periodic_note,
         *found.notes,
         *doubts,
     )

@@ -21,7 +21,7 @@ def read(
     channel: str | int | None = None,
     unit: Length | None = None,
     size: Size | None = None,
-    periodic: bool | tuple[bool, bool] = False,
+    periodic: bool | tuple[bool, bool] | None = None,
 ) -> Surface:
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
@@ -40,8 +40,9 @@ def read(
     size : length or pair of lengths, optional
         Width Lx of a map of square cells, or ``(Ly, Lx)``: numbers [m] or texts such as ``"10 um"``. Lengths
         are those of all cells, ``n * spacing``. It goes before what the file states.
-    periodic : bool or pair of bool
-        Whether the surface repeats itself (along y and x).
+    periodic : bool or pair of bool, optional
+        Whether the surface repeats itself (along y and x). Without it the file decides; one that is silent
+        is read as free.
 
     Returns
     -------

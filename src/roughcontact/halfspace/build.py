@@ -6,7 +6,7 @@ from typing import Literal
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
-from roughcontact.halfspace.influence import Love, Periodic
+from roughcontact.halfspace.influence import Love, Periodic, Tables
 from roughcontact.halfspace.operator import Operator
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
@@ -42,7 +42,7 @@ def half_space(
     if all(grid.periodic):
         operator = PeriodicOperator(grid, Periodic(grid, value))
     else:
-        operator = FreeOperator(grid, Love(grid.spacing, value))
+        operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
         return DenseOperator(grid, operator.as_matrix(), operator.positive)
     if method != "fft":

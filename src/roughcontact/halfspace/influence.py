@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -11,11 +11,12 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.kernels import love_table, periodic_multiplier
+from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 
-__all__ = ["Influence", "Love", "Periodic"]
+__all__ = ["Influence", "Love", "Periodic", "Tables"]
 
 Array = npt.NDArray[np.float64]
+Offsets = npt.NDArray[np.intp]
 
 
 class Influence(Protocol):
@@ -23,6 +24,10 @@ class Influence(Protocol):
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the displacement per pressure [m/Pa] at offsets of whole cells from zero up to `shape`."""
+        ...
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return the displacement per pressure [m/Pa] at offsets of whole cells."""
         ...
 
     def coarsened(self, grid: Grid) -> Influence:
@@ -39,7 +44,14 @@ class Love:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        return love_table(shape, self.spacing) / (math.pi * self.modulus)
+        table = love_table(shape, self.spacing)
+        table /= math.pi * self.modulus
+        return table
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values [m/Pa]."""
+        dy, dx = self.spacing
+        return love(columns * dx, rows * dy, dx, dy) / (math.pi * self.modulus)
 
     def coarsened(self, grid: Grid) -> Love:
         """Return the same body on the cells of `grid`."""
@@ -71,13 +83,57 @@ class Periodic:
         table = scipy.fft.irfft2(full, s=(ny, nx))
         return np.ascontiguousarray(table[: shape[0], : shape[1]])
 
-    def coarsened(self, grid: Grid) -> Periodic:
-        """Return the same body on the cells of `grid`, of which a window of the period is made.
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values [m/Pa]."""
+        return np.asarray(self.table(self.grid.shape)[np.abs(rows), np.abs(columns)])
 
-        The period stays: cells of `grid` that do not divide it are stretched until they do.
-        """
-        shape = tuple(
-            max(1, round(length / step)) for length, step in zip(self.grid.lengths, grid.spacing, strict=True)
-        )
+    def coarsened(self, grid: Grid) -> Periodic:
+        """Return the same body with cells about the size of those of `grid`; the period stays."""
+        ratios = zip(self.grid.lengths, grid.spacing, strict=True)
+        shape = tuple(max(1, round(length / step)) for length, step in ratios)
         spacing = tuple(length / n for length, n in zip(self.grid.lengths, shape, strict=True))
         return Periodic(Grid(shape, spacing, periodic=True), self.modulus)
+
+
+@dataclass(slots=True, eq=False)
+class Tables:
+    """An influence function that keeps its largest table and cuts smaller ones out of it.
+
+    The windows of successive loads grow; each would make its table anew. `limit` is the shape of the whole
+    grid, beyond which no table is needed.
+    """
+
+    influence: Influence
+    limit: tuple[int, ...]
+    _largest: Array = field(default_factory=lambda: np.zeros((0, 0)))
+
+    def table(self, shape: tuple[int, ...]) -> Array:
+        """Return the table [m/Pa]; a view, not to be written to."""
+        if not self.has(shape):
+            room = tuple(
+                min(end, max(have, n + n // 4))
+                for n, have, end in zip(shape, self._largest.shape, self.limit, strict=True)
+            )
+            self._largest = self.influence.table(room)
+        return self._largest[: shape[0], : shape[1]]
+
+    def has(self, shape: tuple[int, ...]) -> bool:
+        """Whether a table of this shape is at hand."""
+        return all(n <= have for n, have in zip(shape, self._largest.shape, strict=True))
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values [m/Pa], from the table where it holds them."""
+        a, b = np.abs(rows), np.abs(columns)
+        needed = (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
+        if not self.has(needed):
+            # A closed form costs some ten times as much as a look-up.
+            if needed[0] * needed[1] > 4 * np.broadcast(a, b).size:
+                return self.influence.at(a, b)
+            self.table(needed)
+        a = a * self._largest.shape[1]
+        a += b
+        return np.asarray(self._largest.ravel().take(a))
+
+    def coarsened(self, grid: Grid) -> Tables:
+        """Return the influence function of the same body on the cells of `grid`."""
+        return Tables(self.influence.coarsened(grid), grid.shape)

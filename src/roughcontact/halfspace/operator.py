@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 
-__all__ = ["Coarsenable", "Operator"]
+__all__ = ["Coarsenable", "Listable", "Operator"]
 
 Array = npt.NDArray[np.float64]
 
@@ -56,4 +56,13 @@ class Coarsenable(Protocol):
 
     def coarsened(self, grid: Grid) -> Operator:
         """Return the same body on `grid`, whose cells are larger."""
+        ...
+
+
+@runtime_checkable
+class Listable(Protocol):
+    """An operator that can state itself between a list of its cells, at a cost that follows the list."""
+
+    def between(self, cells: npt.NDArray[np.intp]) -> Operator:
+        """Return the map between `cells` (flat indices), with no pressure elsewhere; fields have one axis."""
         ...

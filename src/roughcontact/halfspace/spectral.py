@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from roughcontact.arrays import convolve, even_multiplier, fast_even_length
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence import Influence, Periodic
+from roughcontact.halfspace.cells import CellsOperator
+from roughcontact.halfspace.influence import Influence, Periodic, Tables
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -42,11 +43,6 @@ class FreeOperator:
         return self.grid.cell_area
 
     @cached_property
-    def table(self) -> Array:
-        """Displacement per pressure [m/Pa] at offsets of whole cells from zero up."""
-        return self.influence.table(self.grid.shape)
-
-    @cached_property
     def _padded(self) -> tuple[int, int]:
         # Offsets n - 1 and -(n - 1) may share a place, since the kernel is even: 2n - 2 is enough.
         ny, nx = self.grid.shape
@@ -54,7 +50,7 @@ class FreeOperator:
 
     @cached_property
     def _multiplier(self) -> Array:
-        return even_multiplier(self.table, self._padded)
+        return even_multiplier(self.influence.table(self.grid.shape), self._padded)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -62,15 +58,15 @@ class FreeOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return gather(self.table, self.grid.shape, cells)
+        return CellsOperator.of(self.grid, self.influence, cells, self.positive).as_matrix()
 
     def restrict(self, window: tuple[slice, ...]) -> FreeOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
-        restricted = FreeOperator(self.grid.window(window), self.influence, self.positive)
-        if "table" in self.__dict__:  # a table at hand is cut, not made again
-            ny, nx = restricted.grid.shape
-            restricted.__dict__["table"] = np.ascontiguousarray(self.table[:ny, :nx])
-        return restricted
+        return FreeOperator(self.grid.window(window), self.influence, self.positive)
+
+    def between(self, cells: Cells) -> CellsOperator:
+        """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
+        return CellsOperator.of(self.grid, self.influence, cells, self.positive)
 
     def coarsened(self, grid: Grid) -> FreeOperator:
         """Return the same body on `grid`, whose cells are larger."""
@@ -93,15 +89,14 @@ class PeriodicOperator:
     influence: Periodic
     positive: bool = False
 
+    @cached_property
+    def _tables(self) -> Tables:
+        return Tables(self.influence, self.grid.shape)
+
     @property
     def weights(self) -> float:
         """Area of a cell [m^2]."""
         return self.grid.cell_area
-
-    @cached_property
-    def table(self) -> Array:
-        """Displacement per pressure [m/Pa] at offsets of whole cells from zero up."""
-        return self.influence.table(self.grid.shape)
 
     @cached_property
     def _multiplier(self) -> Array:
@@ -114,29 +109,12 @@ class PeriodicOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return gather(self.table, self.grid.shape, cells)
+        return CellsOperator.of(self.grid, self._tables, cells, self.positive).as_matrix()
 
     def restrict(self, window: tuple[slice, ...]) -> FreeOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
-        return FreeOperator(self.grid.window(window), self.influence, self.positive)
+        return FreeOperator(self.grid.window(window), self._tables, self.positive)
 
     def coarsened(self, grid: Grid) -> PeriodicOperator:
         """Return the same body on `grid`, whose cells are larger."""
         return PeriodicOperator(grid, self.influence.coarsened(grid))
-
-
-def gather(table: Array, shape: tuple[int, ...], cells: Cells | None = None) -> Array:
-    """Return the matrix [m/Pa] between `cells` from the `table` of offsets."""
-    width = shape[1]
-    flat = np.arange(shape[0] * width) if cells is None else cells
-    y, x = np.divmod(flat, width)
-    matrix, values = np.empty((len(flat), len(flat))), table.ravel()
-    for start in range(0, len(flat), 16):  # a few rows at a time, so that their indices stay in cache
-        rows = slice(start, start + 16)
-        index = np.abs(y[rows, None] - y)
-        index *= width
-        index += np.abs(x[rows, None] - x)
-        values.take(
-            index, out=matrix[rows], mode="clip"
-        )  # "clip" writes without a buffer; none is out of range
-    return matrix

@@ -1,0 +1,79 @@
+# Everything a checkout can do, on a machine with Python (3.11 or later), pip and make.
+#
+#   make demo               press two rough surfaces: tables, files and pictures in out/demo/
+#   make demo FILE=part.x3p the same with a measured surface of yours (ARGS="--size 1mm" where the file has none)
+#   make test               run the tests                 (ARGS="-k curve" for some of them)
+#   make lint               style and types
+#   make bench              compare with other programs, where they can be installed
+#   make clean              remove what the above have made
+#
+# PYTHON=python3.12 picks the interpreter of the environment that the first call builds in .venv.
+
+PYTHON ?= python3
+FILE ?=
+ARGS ?=
+
+ENV := .venv
+BIN := $(ENV)/bin
+BENCH_ENV := build/bench-env
+# Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
+INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
+# A process a core, so one thread for the linear algebra of each.
+ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
+
+.PHONY: help demo test lint bench clean
+.DEFAULT_GOAL := help
+
+help:
+	@sed -n '3,10s/^# *//p' Makefile
+
+demo: $(ENV)/.ready
+	@$(BIN)/python examples/demo.py $(if $(FILE),--file "$(FILE)") $(ARGS) \
+	  && echo "demo: OK - see out/demo/" || { echo "demo: FAILED"; exit 1; }
+
+test: $(ENV)/.ready-to-test
+	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
+	  && echo "test: OK" || { echo "test: FAILED"; exit 1; }
+
+lint: $(ENV)/.ready-to-test
+	@$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python -m mypy \
+	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
+
+bench: $(BENCH_ENV)/.ready
+	@$(BENCH_ENV)/bin/python benchmarks/peers.py $(ARGS) \
+	  && echo "bench: OK" || { echo "bench: FAILED"; exit 1; }
+
+clean:
+	rm -rf $(ENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+	@echo "clean: OK"
+
+$(ENV)/.ready: pyproject.toml
+	@$(call create,$(ENV))
+	@echo "Installing roughcontact into $(ENV) ..."
+	@$(BIN)/python $(INSTALL) -e .
+	@touch $@
+
+$(ENV)/.ready-to-test: $(ENV)/.ready
+	@echo "Installing what the tests need ..."
+	@$(BIN)/python $(INSTALL) -e ".[formats,test,lint]"
+	@touch $@
+
+# The other programs live in an environment of their own; some of them are under licences that this
+# project does not take in. One that cannot be installed is left out of the comparison.
+$(BENCH_ENV)/.ready: pyproject.toml
+	@$(call create,$(BENCH_ENV))
+	@echo "Installing roughcontact and its peers into $(BENCH_ENV) ..."
+	@$(BENCH_ENV)/bin/python $(INSTALL) -e .
+	@for peer in tamaas ContactMechanics; do \
+	  $(BENCH_ENV)/bin/python $(INSTALL) $$peer || echo "$$peer: cannot be installed here, not shown"; done
+	@touch $@
+
+# $(call create,FOLDER): an environment with pip. Some systems ship Python without ensurepip; their pip then serves.
+define create
+$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+  || { echo "Python 3.11 or later is needed, and '$(PYTHON)' is not: name one, as in 'make PYTHON=python3.12'"; exit 1; }; \
+test -x $(1)/bin/python && $(1)/bin/python -m pip --version >/dev/null 2>&1 \
+  || $(PYTHON) -m venv --clear $(1) 2>/dev/null \
+  || { $(PYTHON) -m venv --clear --without-pip $(1) && $(PYTHON) -m pip --python $(1)/bin/python install -qq pip; }
+endef

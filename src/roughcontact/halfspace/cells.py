@@ -1,0 +1,88 @@
+"""The half-space between a list of cells: the cost follows the contact, not the domain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+from roughcontact.halfspace.influence import Influence
+
+__all__ = ["CellsOperator"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+BLOCK = 16  # rows of a matrix that are made in one go, so that their offsets stay in cache
+
+
+@dataclass(frozen=True, eq=False)
+class CellsOperator:
+    """A direct sum over the cells that carry pressure, for a list of cells of a grid (thesis, eq. A.6).
+
+    Parameters
+    ----------
+    grid : Grid
+        A line of as many cells as the list holds, each as long as a cell of the list is large.
+    influence : Influence
+        Influence function on the cells.
+    rows, columns : int arrays, shape (n,)
+        Where the cells are.
+    positive : bool
+        Whether the influence function is nowhere negative.
+    """
+
+    grid: Grid
+    influence: Influence
+    rows: Cells
+    columns: Cells
+    positive: bool = True
+
+    @classmethod
+    def of(cls, grid: Grid, influence: Influence, cells: Cells | None, positive: bool) -> CellsOperator:
+        """Return the operator between `cells` (flat indices; all without) of a grid of two axes."""
+        flat = np.arange(grid.size) if cells is None else cells
+        rows, columns = np.divmod(flat, grid.shape[1])
+        return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive)
+
+    @property
+    def weights(self) -> float:
+        """Area of a cell [m^2]."""
+        return self.grid.cell_area
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
+        loaded = np.flatnonzero(pressure)
+        p = pressure[loaded]
+        displacement = np.empty(len(pressure))
+        for part in self._blocks(len(loaded)):
+            displacement[part] = self._influences(part, loaded) @ p
+        return displacement
+
+    def as_matrix(self, cells: Cells | None = None) -> Array:
+        """Return the matrix [m/Pa] between `cells` of the list (all without)."""
+        some = self if cells is None else self._some(cells)
+        matrix = np.empty((len(some.rows), len(some.rows)))
+        everything = slice(None)
+        for part in some._blocks(len(some.rows)):
+            matrix[part] = some._influences(part, everything)
+        return matrix
+
+    def restrict(self, window: tuple[slice, ...]) -> CellsOperator:
+        """Return the map between a part of the list."""
+        return self._some(np.arange(len(self.rows))[window])
+
+    def _some(self, cells: Cells) -> CellsOperator:
+        grid = Grid(max(1, len(cells)), self.grid.spacing)
+        return CellsOperator(grid, self.influence, self.rows[cells], self.columns[cells], self.positive)
+
+    def _influences(self, to: slice, of: Cells | slice) -> Array:
+        return self.influence.at(
+            self.rows[to, None] - self.rows[of], self.columns[to, None] - self.columns[of]
+        )
+
+    def _blocks(self, width: int) -> list[slice]:
+        size = max(BLOCK, 8192 // max(1, width))
+        return [slice(start, start + size) for start in range(0, len(self.rows), size)]
