@@ -22,7 +22,7 @@ Place = Box | npt.NDArray[np.intp]
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
 # is a quarter of the overlap) costs less than a transform of the padded box: measured in look-ups of the
 # influence table a cell of the padded box (benchmarks/transforms.py).
-LOOKUPS = 2.5
+LOOKUPS = 1.5
 
 
 def bounding_box(mask: Mask) -> Box | None:

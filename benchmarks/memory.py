@@ -1,0 +1,48 @@
+"""Peak memory of a solve beyond its surface, in bytes a cell: python benchmarks/memory.py [n]."""
+
+import resource
+import subprocess
+import sys
+
+import numpy as np
+
+import roughcontact as rc
+from roughcontact.halfspace.build import memory_needed
+
+CASES = {
+    "free, full contact": (False, "press", 100.0),
+    "free, fractal": (False, "press", 0.046),
+    "free, fractal, curve": (False, "curve", 0.07),
+    "periodic, full contact": (True, "press", 100.0),
+    "periodic, half in contact": (True, "press", 3.0),
+}
+
+
+def peak() -> int:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def measure(case: str, n: int) -> None:
+    periodic, verb, load = CASES[case]
+    small = rc.self_affine(rc.Grid((16, 16), 1 / 16, periodic), 0.8, 0.01, np.random.default_rng(0))
+    rc.loading_curve(small, 1.0, forces=[1e-5, 1e-4])  # whatever is loaded late is loaded now
+    surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0))
+    before = peak()
+    if verb == "press":
+        rc.press(surface, 1.0, force=load * 0.01)
+    else:
+        rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-4, load, 20) * 0.01)
+    used = peak() - before
+    estimate = memory_needed(surface.grid) / n**2
+    print(
+        f"{case:28s} {used / n**2:7.0f} bytes a cell (estimate {estimate:.0f}), {peak() / 2**20:6.0f} MB in all"
+    )
+
+
+if __name__ == "__main__":
+    n = int(sys.argv[1]) if len(sys.argv) > 1 else 1024
+    if len(sys.argv) > 2:
+        measure(sys.argv[2], n)
+    else:
+        for case in CASES:
+            subprocess.run([sys.executable, __file__, str(n), case], check=True)

@@ -1,0 +1,65 @@
+"""What a product costs: slabs against plain transforms, and direct sums against transforms.
+
+python benchmarks/transforms.py; single-threaded, best of several runs, in milliseconds.
+"""
+
+import time
+
+import numpy as np
+import scipy.fft
+
+import roughcontact.arrays as arrays
+from roughcontact.halfspace.cells import CellsOperator
+from roughcontact.halfspace.influence import Love, Tables
+from roughcontact.grid import Grid
+
+
+def best(function, *arguments, repeats=7):
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        function(*arguments)
+        times.append(time.perf_counter() - start)
+    return 1e3 * min(times)
+
+
+def plain(field, whole, padded):
+    spectrum = scipy.fft.rfft2(field, padded)
+    return scipy.fft.irfft2(spectrum * whole, padded)[: field.shape[0], : field.shape[1]]
+
+
+def slabs():
+    print("a product with an n x n field: plain transforms, and slabs of columns of several widths")
+    rng = np.random.default_rng(0)
+    for n in (64, 128, 256, 512, 1024):
+        padded = (arrays.fast_even_length(2 * n - 2),) * 2
+        field, table = rng.random((n, n)), rng.random((n, n))
+        multiplier = arrays.even_multiplier(table, padded)
+        whole = np.concatenate([multiplier, multiplier[-2:0:-1]])
+        row = [f"plain {best(plain, field, whole, padded):7.2f}"]
+        for width in (8, 16, 32, 64, 128):
+            arrays.SLAB = width
+            row.append(f"{width}: {best(arrays.convolve, field, multiplier, padded):7.2f}")
+        print(f"{n:6d}  " + "   ".join(row))
+
+
+def lookups():
+    print("look-ups of the influence table in the time of one cell of the padded box")
+    rng = np.random.default_rng(0)
+    arrays.SLAB = 32
+    for n in (128, 256, 512, 1024):
+        padded = (arrays.fast_even_length(2 * n - 2),) * 2
+        multiplier = arrays.even_multiplier(rng.random((n, n)), padded)
+        transform = best(arrays.convolve, rng.random((n, n)), multiplier, padded) / (4 * n * n)
+        influence = Tables(Love((1.0, 1.0), 1.0), (n, n))
+        influence.table((n, n))
+        cells = np.sort(rng.choice(n * n, 1000, replace=False))
+        operator = CellsOperator.of(Grid((n, n), 1.0), influence, cells, True)
+        pressure = np.where(rng.random(1000) < 0.25, 1.0, 0.0)
+        lookup = best(operator.apply, pressure) / (1000 * np.count_nonzero(pressure))
+        print(f"{n:6d}  {transform / lookup:5.2f}")
+
+
+if __name__ == "__main__":
+    slabs()
+    lookups()
