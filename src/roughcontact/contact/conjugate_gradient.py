@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Invertible, Operator
 
 __all__ = ["Relaxed", "relax"]
 
@@ -70,9 +71,11 @@ def relax(
         d = measure.mean(gap, region) if depth is None else depth
         return np.where(region, d - gap, 0.0), d
 
+    precondition = _preconditioner(operator, region, measure, free=depth is None)
     r, d = errors()
-    t = r.copy()
-    rho = measure.dot(r, r)
+    z = precondition(r)
+    t = z.copy()
+    rho = measure.dot(r, z)
     steps = 0
     while (error := float(np.abs(r).max())) > limit and steps < max_steps and rho > 0:
         v = operator.apply(t)
@@ -86,9 +89,31 @@ def relax(
         p += alpha * t
         u += alpha * v
         r -= alpha * q
-        rho, previous = measure.dot(r, r), rho
+        z = precondition(r)
+        rho, previous = measure.dot(r, z), rho
         t *= rho / previous
-        t += r
+        t += z
         steps += 1
     r, d = errors()
     return Relaxed(p, u, d, error, steps)
+
+
+def _preconditioner(
+    operator: Operator, region: Mask, measure: Measure, *, free: bool
+) -> Callable[[Array], Array]:
+    """Return a map from errors [m] to directions of pressure [Pa] on the region, without resultant if `free`."""
+    if not isinstance(operator, Invertible):
+        return np.copy
+    if not free:
+        return lambda r: np.where(region, operator.approximate_inverse(r), 0.0)
+    uniform = np.where(region, operator.approximate_inverse(np.where(region, 1.0, 0.0)), 0.0)
+    resultant = measure.total(uniform)
+    # Where every cell of a periodic grid is in contact, no direction has a resultant.
+    share = 1 / resultant if resultant > 0 else 0.0
+
+    def without_resultant(r: Array) -> Array:
+        z = np.where(region, operator.approximate_inverse(r), 0.0)
+        z -= measure.total(z) * share * uniform
+        return z
+
+    return without_resultant

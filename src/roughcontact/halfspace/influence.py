@@ -34,6 +34,10 @@ class Influence(Protocol):
         """Return the influence function of the same body on the cells of `grid`."""
         ...
 
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return the pressure per displacement wave [Pa/m] on a box of `shape` cells, rows and columns from 0."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class Love:
@@ -53,6 +57,10 @@ class Love:
         dy, dx = self.spacing
         return love(columns * dx, rows * dy, dx, dy) / (math.pi * self.modulus)
 
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""
+        return self.modulus / 2 * _wavenumbers(shape, self.spacing)
+
     def coarsened(self, grid: Grid) -> Love:
         """Return the same body on the cells of `grid`."""
         return Love(grid.spacing, self.modulus)
@@ -70,10 +78,7 @@ class Periodic:
 
     def multiplier(self) -> Array:
         """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
-        (ny, nx), (dy, dx) = self.grid.shape, self.grid.spacing
-        qy = 2 * np.pi * scipy.fft.rfftfreq(ny, dy)
-        qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
-        return periodic_multiplier(np.hypot(qy[:, None], qx)) / self.modulus
+        return periodic_multiplier(_wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
@@ -86,6 +91,10 @@ class Periodic:
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
         return np.asarray(self.table(self.grid.shape)[np.abs(rows), np.abs(columns)])
+
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return E* q/2 [Pa/m]."""
+        return self.modulus / 2 * _wavenumbers(shape, self.grid.spacing)
 
     def coarsened(self, grid: Grid) -> Periodic:
         """Return the same body with cells about the size of those of `grid`; the period stays."""
@@ -134,6 +143,16 @@ class Tables:
         a += b
         return np.asarray(self._largest.ravel().take(a))
 
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return the pressure per displacement wave [Pa/m]."""
+        return self.influence.inverse(shape)
+
     def coarsened(self, grid: Grid) -> Tables:
         """Return the influence function of the same body on the cells of `grid`."""
         return Tables(self.influence.coarsened(grid), grid.shape)
+
+
+def _wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
+    """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
+    qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
+    return np.asarray(np.hypot(qy[:, None], qx))

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 
-__all__ = ["Coarsenable", "Listable", "Operator"]
+__all__ = ["Coarsenable", "Invertible", "Listable", "Operator"]
 
 Array = npt.NDArray[np.float64]
 
@@ -65,4 +65,13 @@ class Listable(Protocol):
 
     def between(self, cells: npt.NDArray[np.intp]) -> Operator:
         """Return the map between `cells` (flat indices), with no pressure elsewhere; fields have one axis."""
+        ...
+
+
+@runtime_checkable
+class Invertible(Protocol):
+    """An operator that knows roughly what pressure a displacement takes: a preconditioner."""
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
         ...

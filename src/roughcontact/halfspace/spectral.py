@@ -56,6 +56,15 @@ class FreeOperator:
         """Return the displacement [m] under `pressure` [Pa]."""
         return convolve(pressure, self._multiplier, self._padded)
 
+    @cached_property
+    def _inverse(self) -> tuple[Array, tuple[int, int]]:
+        box = (fast_even_length(self.grid.shape[0]), fast_even_length(self.grid.shape[1]))
+        return self.influence.inverse(box), box
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
+        return convolve(displacement, *self._inverse)
+
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
         return CellsOperator.of(self.grid, self.influence, cells, self.positive).as_matrix()
@@ -106,6 +115,16 @@ class PeriodicOperator:
         """Return the displacement [m] under `pressure` [Pa]."""
         ny, nx = self.grid.shape
         return convolve(pressure, self._multiplier, (ny, nx))
+
+    @cached_property
+    def _inverse(self) -> Array:
+        ny, nx = self.grid.shape
+        return self.influence.inverse((ny, nx))
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return the pressure [Pa] that causes this `displacement` [m], but for its mean."""
+        ny, nx = self.grid.shape
+        return convolve(displacement, self._inverse, (ny, nx))
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
