@@ -67,6 +67,8 @@ $(BENCH_ENV)/.ready: pyproject.toml
 	@$(BENCH_ENV)/bin/python $(INSTALL) -e .
 	@for peer in tamaas ContactMechanics; do \
 	  $(BENCH_ENV)/bin/python $(INSTALL) $$peer || echo "$$peer: cannot be installed here, not shown"; done
+	@CMAKE_ARGS="-DASPHER_NATIVE=ON" $(BENCH_ENV)/bin/python -m pip install -qq --no-binary=aspher aspher \
+	  || echo "aspher: needs g++, cmake and Eigen (Debian: libeigen3-dev) to build, not shown"
 	@touch $@
 
 # $(call create,FOLDER): an environment with pip. Some systems ship Python without ensurepip; their pip then serves.
