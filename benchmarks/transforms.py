@@ -9,9 +9,9 @@ import numpy as np
 import scipy.fft
 
 import roughcontact.arrays as arrays
+from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Love, Tables
-from roughcontact.grid import Grid
 
 
 def best(function, *arguments, repeats=7):

@@ -107,9 +107,7 @@ def _preconditioner(
     if not free:
         return lambda r: np.where(region, operator.approximate_inverse(r), 0.0)
     uniform = np.where(region, operator.approximate_inverse(np.where(region, 1.0, 0.0)), 0.0)
-    resultant = measure.total(uniform)
-    # Where every cell of a periodic grid is in contact, no direction has a resultant.
-    share = 1 / resultant if resultant > 0 else 0.0
+    share = 1 / measure.total(uniform)
 
     def without_resultant(r: Array) -> Array:
         z = np.where(region, operator.approximate_inverse(r), 0.0)

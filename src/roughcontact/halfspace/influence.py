@@ -59,7 +59,7 @@ class Love:
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""
-        return self.modulus / 2 * _wavenumbers(shape, self.spacing)
+        return self.modulus / 2 * _definite(_wavenumbers(shape, self.spacing))
 
     def coarsened(self, grid: Grid) -> Love:
         """Return the same body on the cells of `grid`."""
@@ -94,7 +94,7 @@ class Periodic:
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]."""
-        return self.modulus / 2 * _wavenumbers(shape, self.grid.spacing)
+        return self.modulus / 2 * _definite(_wavenumbers(shape, self.grid.spacing))
 
     def coarsened(self, grid: Grid) -> Periodic:
         """Return the same body with cells about the size of those of `grid`; the period stays."""
@@ -156,3 +156,10 @@ def _wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     return np.asarray(np.hypot(qy[:, None], qx))
+
+
+def _definite(wavenumber: Array) -> Array:
+    """Give the mean the wavenumber of half the longest wave: an inverse without it would miss the mean for good."""
+    waves = wavenumber[wavenumber > 0]
+    wavenumber[0, 0] = 0.5 * waves.min() if waves.size else 1.0
+    return wavenumber
