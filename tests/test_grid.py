@@ -17,6 +17,11 @@ def test_one_number_serves_every_axis():
     assert rc.Grid(7, 0.5) == rc.Grid((7,), (0.5,))
 
 
+def test_arrays_and_their_numbers_serve_too():
+    assert rc.Grid(np.array([4, 5]), np.array([0.5, 2.0])) == rc.Grid((4, 5), (0.5, 2.0))
+    assert rc.Grid(np.int64(7), np.float64(1.0)) == rc.Grid(7, 1.0)
+
+
 def test_a_window_is_free():
     window = rc.Grid((8, 9), (1.0, 2.0), True).window((slice(2, 5), slice(0, 9)))
     assert window == rc.Grid((3, 9), (1.0, 2.0), False)

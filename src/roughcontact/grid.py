@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 __all__ = ["Grid"]
 
 
@@ -44,7 +46,7 @@ class Grid:
         spacing: float | Sequence[float],
         periodic: bool | Sequence[bool] = False,
     ) -> None:
-        sizes = (shape,) if isinstance(shape, int) else tuple(shape)
+        sizes: tuple[int, ...] = tuple(np.atleast_1d(shape).tolist())
         if len(sizes) not in (1, 2):
             raise ValueError(f"shape must have one or two axes, not {len(sizes)}: {sizes}")
         if any(int(n) != n or n < 1 for n in sizes):
@@ -91,7 +93,7 @@ class Grid:
 
 def _per_axis(value: Any, ndim: int, name: str) -> tuple[Any, ...]:
     """Return `value` once for every axis."""
-    if not isinstance(value, Sequence):
+    if np.ndim(value) == 0:
         return (value,) * ndim
     if len(value) != ndim:
         raise ValueError(f"{name} needs one value or {ndim}, not {len(value)}: {value}")

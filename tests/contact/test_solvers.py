@@ -132,3 +132,78 @@ def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     rough = surface((32, 32))
     solution = rc.press(rough, 1.0, force=1e-3, solver=rc.ActiveSet(dense_limit=0))
     assert oracles.certificate(rough, 1.0, solution.pressure, solution.depth) <= 1e-8
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_spike_does_not_run_in_circles(periodic, solver):
+    """One cell first, all the others at once after it: a common factor on the pressure would alternate."""
+    heights = np.zeros((16, 16))
+    heights[5, 4] = 1.0
+    spike = rc.Surface(heights, rc.Grid((16, 16), 1 / 16, periodic))
+    for force in (0.01, 0.05, 0.1, 0.2, 1.0):
+        solution = rc.press(spike, 1.0, force=force, solver=SOLVERS[solver])
+        assert oracles.certificate(spike, 1.0, solution.pressure, solution.depth) <= 1e-8
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_slender_periodic_grid_at_given_depth(solver):
+    heights = 1e-6 * np.random.default_rng(0).standard_normal((1, 12))
+    line = rc.Surface(heights, rc.Grid((1, 12), 1.0, True))
+    solution = rc.press(line, 1.0, depth=0.8 * (heights.max() - heights.mean()), solver=SOLVERS[solver])
+    assert oracles.certificate(line, 1.0, solution.pressure, solution.depth) <= 1e-8
+    assert solution.pressure.max() < 1e-4
+
+
+@dataclass(frozen=True)
+class Weighted:
+    """A dense operator whose cells have different sizes: symmetric under its weights, and only under them."""
+
+    grid: rc.Grid
+    weights: np.ndarray
+    kernel: np.ndarray
+
+    def apply(self, pressure):
+        return self.kernel @ (self.weights * pressure)
+
+    def as_matrix(self, cells=None):
+        matrix = self.kernel * self.weights
+        return matrix if cells is None else matrix[np.ix_(cells, cells)]
+
+    def restrict(self, window):
+        [part] = window
+        return Weighted(self.grid.window(window), self.weights[part], self.kernel[part, part])
+
+
+def weighted(n=60):
+    x = np.linspace(0, 1, n)
+    kernel = np.exp(-8 * np.abs(x[:, None] - x))  # positive definite
+    return Weighted(rc.Grid(n, 1 / n), (1 + x) / n, kernel), rc.Surface(-((x - 0.4) ** 2), rc.Grid(n, 1 / n))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_operator_of_the_users_with_varying_weights(solver):
+    """Only what the protocol asks for: grid, weights, apply, as_matrix, restrict."""
+    operator, profile = weighted()
+    solution = rc.press(profile, 1.0, force=0.02, operator=operator, solver=SOLVERS[solver], tolerance=1e-10)
+    assert solution.force == pytest.approx(0.02, rel=1e-12)
+    assert solution.force == pytest.approx((operator.weights * solution.pressure).sum(), rel=1e-14)
+    gap = operator.apply(solution.pressure) - profile.heights + profile.heights.max() - solution.depth
+    largest = operator.apply(solution.pressure).max()
+    assert np.abs(gap[solution.contact]).max() <= 1e-10 * largest
+    assert gap.min() >= -1e-10 * largest
+    mean = np.average(gap, weights=operator.weights)
+    assert solution.mean_gap == pytest.approx(mean, rel=1e-9)
+    assert solution.spots.loads.sum() == pytest.approx(0.02, rel=1e-12)
+    assert solution.contact_area == pytest.approx(operator.weights[solution.contact].sum(), rel=1e-14)
+    cells = np.flatnonzero(solution.contact)
+    tangent = np.linalg.solve(operator.as_matrix(cells), np.ones(len(cells)))
+    assert solution.stiffness == pytest.approx(operator.weights[cells] @ tangent, rel=1e-7)
+
+
+def test_an_indefinite_matrix_is_not_a_crash():
+    """Cholesky's method refuses it; the iteration still answers, or says that it has not."""
+    operator, profile = weighted()
+    bent = Weighted(operator.grid, operator.weights, operator.kernel - 0.05 * np.eye(60))
+    solution = solve(make_problem(profile, 1.0, rc.Force(0.02), bent, 1e-8))
+    assert solution.status.converged == (solution.residual <= 1e-8)

@@ -7,7 +7,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace.operator import Operator
 
-SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20)]
+SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
 CASES = [
     (shape, periodic, method) for shape in SHAPES for periodic in (False, True) for method in ("fft", "dense")
 ]
@@ -72,6 +72,15 @@ def test_equal_to_its_restriction(operator):
     inside = np.zeros_like(p)
     inside[window] = p[window]
     close(operator.restrict(window).apply(p[window]), operator.apply(inside)[window], 3)
+
+
+def test_the_whole_is_not_a_part(operator):
+    """A restriction to all cells keeps what the boundary condition says."""
+    whole = operator.restrict(tuple(slice(0, n) for n in operator.grid.shape))
+    p = fields(operator)[0]
+    assert whole.grid.shape == operator.grid.shape
+    assert whole.grid.periodic == operator.grid.periodic
+    np.testing.assert_array_equal(whole.apply(p), operator.apply(p))
 
 
 def test_loads_in_corners_meet(operator):

@@ -8,15 +8,15 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.conjugate_gradient import relax
-from roughcontact.contact.direct import press_cells
+from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.optimality import displacement_scale, residual
+from roughcontact.contact.optimality import Judge
 from roughcontact.contact.polonsky_keer import PolonskyKeer
 from roughcontact.contact.problem import Control, Force
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 
 __all__ = ["ActiveSet"]
 
@@ -34,17 +34,19 @@ class ActiveSet:
     """
 
     max_steps: int = 5000
-    dense_limit: int = 2000
+    dense_limit: int = DENSE_LIMIT
 
     def run(
         self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float
     ) -> State:
         """Solve for the pressure from an `initial` one, down to a residual of `tolerance`."""
         measure = Measure(operator.weights)
-        self_influence = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
-        singular = all(operator.grid.periodic)  # with every cell in contact, that is
+        judge = Judge.of(operator, control)
+        own = judge.self_influence
+        singular = is_semidefinite(operator)  # with every cell in contact, that is
+        dense_limit = self.dense_limit
         given = None if isinstance(control, Force) else control.value
-        p = start_pressure(measure, separation, control, initial)
+        p = start_pressure(measure, separation, control, initial, own)
         u, fresh, steps = operator.apply(p), True, 1
         tangent: Tangent | None = None
         best, idle = np.inf, 0
@@ -52,10 +54,10 @@ class ActiveSet:
         while True:
             d = measure.mean(u + separation, p > 0) if given is None else given
             gap = u + separation - d
-            scale = displacement_scale(p, u, self_influence)
-            r = residual(p, gap, scale)
+            scale = judge.scale(u)
+            r = judge.residual(p, u, gap)
             if r <= tolerance and fresh:
-                return State(p, u, d, r, steps, Status.CONVERGED, tangent)
+                return State(p, d, r, steps, Status.CONVERGED, tangent)
             if r <= tolerance:  # the certificate stands on a product of the returned pressure
                 u, fresh, steps = operator.apply(p), True, steps + 1
                 continue
@@ -65,14 +67,23 @@ class ActiveSet:
                 break
             region = (p > 0) | (gap < -0.5 * tolerance * scale)
             if guessed:  # a guess from other cells or loads: what a projected step of one cell leaves of it
-                region &= p * self_influence >= gap
+                region &= p * own >= gap
                 guessed = False
             cells = np.flatnonzero(region)
             if not len(cells):  # too shallow a depth for this grid
                 p, u, fresh = np.zeros_like(p), np.zeros_like(p), True
                 continue
-            if len(cells) <= self.dense_limit and not (singular and region.all()):
-                pressed = press_cells(operator, separation, control, cells)
+            if singular and len(cells) == region.size and given is not None:
+                # Up to the mean separation one cell may always go without pressure; with all of them the
+                # mean pressure would be free.
+                region.ravel()[np.argmin(p)] = False
+                cells = np.flatnonzero(region)
+            if len(cells) <= dense_limit and len(cells) < region.size + (not singular):
+                try:
+                    pressed = press_cells(operator, separation, control, cells)
+                except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
+                    dense_limit = 0
+                    continue
                 p = _scatter(pressed.cells, pressed.pressure, region.shape)
                 tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
                 u, fresh, steps = operator.apply(p), True, steps + 1
@@ -95,7 +106,7 @@ class ActiveSet:
                 None,
             )
             if (p < 0).any():  # these would pull: let go
-                p = start_pressure(measure, separation, control, p)
+                p = start_pressure(measure, separation, control, p, own)
                 u, fresh, steps = operator.apply(p), True, steps + 1
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, control, p, tolerance)
         return replace(rest, steps=rest.steps + steps)

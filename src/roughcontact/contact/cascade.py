@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.problem import Control
+from roughcontact.contact.problem import Control, Depth
 from roughcontact.contact.state import Solver
 from roughcontact.contact.window import Windows, embed
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operator import Coarsenable, Operator
+from roughcontact.halfspace.operator import Coarsenable, Operator, is_semidefinite
 
 __all__ = ["coarse_guess", "coarse_operator", "pooled"]
 
@@ -32,6 +32,8 @@ def coarse_guess(
         return np.zeros_like(separation), 0.0
     part, factors = coarser
     heights = pooled(separation, factors)
+    if isinstance(control, Depth) and is_semidefinite(part):
+        control = _reachable(control, separation, heights)
     guess = coarse_guess(part, heights, control, solver)
     state, place = Windows(part).solve(solver, heights, control, guess, COARSE_TOLERANCE)
     pressure = embed(state.pressure, place, heights.shape)
@@ -47,7 +49,8 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
         return None
     factors = tuple(2 if n > COARSEST // 2 else 1 for n in shape)
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
-    return operator.coarsened(_coarse_grid(operator.grid, coarse_shape, factors)), factors
+    coarse = operator.coarsened(_coarse_grid(operator.grid, coarse_shape, factors))
+    return None if coarse is None else (coarse, factors)
 
 
 def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
@@ -60,6 +63,16 @@ def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
     count = there.sum(axis=axes)
     total = np.where(there, blocks, 0.0).sum(axis=axes)
     return np.where(count > 0, total / np.maximum(count, 1), np.inf)
+
+
+def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:
+    """Return a depth as far from full contact on the coarse cells as on the fine ones.
+
+    Blocks over the edge of an odd grid count fewer cells as much as others, so that the means differ.
+    """
+    if np.isinf(fine).any():
+        return depth
+    return Depth(depth.value * min(1.0, float(coarse.mean() / fine.mean())))
 
 
 def _coarse_grid(grid: Grid, shape: tuple[int, ...], factors: tuple[int, ...]) -> Grid:

@@ -111,8 +111,12 @@ class Curve:
 
     @property
     def secant_stiffness(self) -> Array:
-        """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,)."""
-        return np.diff(self.force) / np.diff(self.depth)
+        """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,).
+
+        Infinite where the depth does not grow, as in the full contact of a periodic surface.
+        """
+        force, depth = np.diff(self.force), np.diff(self.depth)
+        return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=depth > 0))
 
     def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
         """Return the power law k ~ F^alpha (thesis, eq. 4.53) through the points of a window of force.
@@ -182,8 +186,8 @@ def collect(path: Iterable[Solution]) -> Curve:
         rms=float(np.std(problem.separation[measured])) if surface is None else surface.rms,
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
-        # A hundredth in the displacement is a ten-thousandth in the stiffness, more than a limit needs.
-        saturation=frozen_contact(problem.operator, measured, tolerance=1e-2).stiffness,
+        # A thousandth in the displacement is enough for a limit of nine tenths.
+        saturation=frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness,
     )
 
 

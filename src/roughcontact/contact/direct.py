@@ -12,10 +12,12 @@ from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Control, Force
 from roughcontact.halfspace.operator import Operator
 
-__all__ = ["Pressed", "press_cells", "solve_cells"]
+__all__ = ["DENSE_LIMIT", "Pressed", "press_cells", "solve_cells"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
+
+DENSE_LIMIT = 2000  # cells: above, conjugate gradients need less time and less memory (benchmarks/memory.py)
 
 # Letting go of one cell costs two triangular solves, a new factorisation a sixth of the cells as many.
 FEW = 1 / 8

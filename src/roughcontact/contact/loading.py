@@ -1,4 +1,4 @@
-"""A sequence of loads, each solved from the one before: Newton's method in the depth."""
+"""A sequence of loads, each solved from what the tangent of the one before predicts."""
 
 from __future__ import annotations
 
@@ -97,9 +97,11 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
         state, place = solve_state(here, solver, guess, windows)
         frozen = frozen_contact(windows.part(place), state.pressure > 0, tangent=state.tangent)
         shape = problem.grid.shape
+        pressure = embed(state.pressure, place, shape)
+        pressure.flags.writeable = False
         solution = Solution(
             here,
-            embed(state.pressure, place, shape),
+            pressure,
             state.depth,
             state.status,
             state.residual,

@@ -19,7 +19,7 @@ class Measure:
 
     weights: float | Array
 
-    def total(self, field: Array) -> float:
+    def total(self, field: Array | Mask) -> float:
         """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
         return float((self.weights * field).sum()) if self.varies else float(self.weights * field.sum())
 

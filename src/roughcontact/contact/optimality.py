@@ -3,34 +3,67 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["displacement_scale", "residual"]
+from roughcontact.contact.problem import Control, Force
+from roughcontact.halfspace.operator import Operator
+
+__all__ = ["Judge"]
 
 Array = npt.NDArray[np.float64]
 
-# Below this part of what the largest pressure does in its own cell, a displacement is rounding: a flat
-# periodic surface under uniform pressure does not move at all, and nothing could be relative to that.
-FLOOR = 1e-7
+# A pressure is stored to half a unit in its last place, and so is its displacement: at given force the gap
+# can be no better than some units in the last place of what the largest pressure does in its own cell. Where
+# uniform pressure moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
+UNITS = 16 * float(np.finfo(np.float64).eps)
 
 
-def displacement_scale(pressure: Array, displacement: Array, self_influence: float) -> float:
-    """Return the displacement that residuals are relative to [m]: the largest one."""
-    floor = FLOOR * self_influence * float(pressure.max(initial=0.0))
-    return max(float(np.abs(displacement).max(initial=0.0)), floor)
+@dataclass(frozen=True, slots=True)
+class Judge:
+    """Measures by how much a pressure violates the conditions of contact.
 
-
-def residual(pressure: Array, gap: Array, scale: float) -> float:
-    """Return by how much the conditions of contact are violated, relative to `scale`.
-
-    The largest of ``|gap|`` where there is pressure and of ``-gap`` where there is none. It is infinite for
-    a negative pressure, or for numbers that are none. It speaks of the algebra, not of the grid.
+    Parameters
+    ----------
+    self_influence : float
+        Displacement of a cell per unit pressure on itself [m/Pa].
+    allowance : float
+        Part of a cell's own displacement that is rounding.
     """
-    if not np.isfinite(pressure).all() or (pressure < 0).any():
-        return math.inf
-    violation = np.where(pressure > 0, np.abs(gap), -gap).max()
-    if np.isnan(violation):
-        return math.inf
-    return max(0.0, float(violation)) / scale if scale > 0 else (0.0 if violation <= 0 else math.inf)
+
+    self_influence: float
+    allowance: float
+
+    @classmethod
+    def of(cls, operator: Operator, control: Control) -> Judge:
+        """Return the judge of an operator under a control.
+
+        At given depth nothing is allowed for rounding: the pressure has no given size there, and one that
+        has run away could excuse itself.
+        """
+        own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
+        return cls(own, UNITS if isinstance(control, Force) else 0.0)
+
+    def scale(self, displacement: Array) -> float:
+        """Return what residuals are relative to [m]: the largest displacement."""
+        return float(np.abs(displacement).max(initial=0.0))
+
+    def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
+        """Return the largest violation of the conditions of contact, relative to the largest displacement.
+
+        That is the largest of ``|gap|`` where there is pressure and of ``-gap`` where there is none. It is
+        infinite for a negative pressure, or for numbers that are none. It speaks of the algebra, not of the
+        grid.
+        """
+        if not np.isfinite(pressure).all() or (pressure < 0).any():
+            return math.inf
+        violation = float(np.where(pressure > 0, np.abs(gap), -gap).max())
+        if math.isnan(violation):
+            return math.inf
+        violation -= self.allowance * self.self_influence * float(pressure.max(initial=0.0))
+        if violation <= 0:
+            return 0.0
+        scale = self.scale(displacement)
+        return violation / scale if scale > 0 else math.inf

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,18 +10,16 @@ import numpy.typing as npt
 
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
-from roughcontact.contact.direct import solve_cells
+from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box, embed
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["Prescribed", "prescribed_displacement"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
-
-DENSE_LIMIT = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,9 +65,29 @@ def prescribed_displacement(
     Raises
     ------
     ValueError
-        If the region is empty, of a wrong shape, or the whole of a periodic grid, or the displacement is
-        zero or not finite on it.
+        If the region is empty, of a wrong shape, or the whole of a periodic grid, if the displacement is zero
+        or not finite on it, or if the initial pressure is not finite.
+    RuntimeError
+        If the tolerance was missed.
     """
+    answer = prescribe(operator, region, displacement, tolerance, max_steps, initial)
+    if not answer.residual <= tolerance:
+        raise RuntimeError(
+            f"the displacement was met to {answer.residual:.1e} only after {answer.steps} products, tolerance "
+            f"{tolerance:.1e}: allow more steps (max_steps) or a larger tolerance"
+        )
+    return answer
+
+
+def prescribe(
+    operator: Operator,
+    region: Mask,
+    displacement: float | Array,
+    tolerance: float,
+    max_steps: int = 5000,
+    initial: Array | None = None,
+) -> Prescribed:
+    """Return what `prescribed_displacement` does, with whatever residual was reached."""
     region = np.asarray(region, dtype=bool)
     if region.shape != operator.grid.shape:
         raise ValueError(
@@ -77,7 +96,7 @@ def prescribed_displacement(
     box = bounding_box(region)
     if box is None:
         raise ValueError("the region holds no cell: nothing can be displaced")
-    if all(operator.grid.periodic) and region.all():
+    if is_semidefinite(operator) and region.all():
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
     target = np.broadcast_to(np.asarray(displacement, dtype=np.float64), region.shape)
     largest = float(np.abs(target[region]).max())
@@ -85,6 +104,8 @@ def prescribed_displacement(
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     part = operator.restrict(box)
     inside, wanted = region[box], np.where(region, target, 0.0)[box]
+    if initial is not None and not np.isfinite(initial).all():
+        raise ValueError("the initial pressure must be finite [Pa]")
     start = None if initial is None else np.where(region, initial, 0.0)[box]
     with one_blas_thread():
         pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
@@ -131,15 +152,16 @@ def _first(
     cells = np.flatnonzero(region)
     pressure = np.zeros(region.shape)
     if len(cells) <= DENSE_LIMIT:
-        pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
-        return pressure, 0
+        with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
+            pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
+            return pressure, 0
     coarser = coarse_operator(operator, region.shape)
     if coarser is None:
         return pressure, 0
     part, factors = coarser
     heights = pooled(np.where(region, wanted, np.inf), factors)
     covered = np.isfinite(heights)
-    if covered.all() and all(part.grid.periodic):
+    if covered.all() and is_semidefinite(part):
         return pressure, 0
     coarse, _, steps = _solve(part, covered, np.where(covered, heights, 0.0), None, 10 * limit, max_steps)
     for axis, factor in enumerate(factors):

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.contact.measure import Measure
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 from roughcontact.surface.surface import Surface
 
 __all__ = ["ContactProblem", "Control", "Depth", "Force"]
@@ -44,6 +45,10 @@ class Depth:
 
 Control = Force | Depth
 
+ROUNDING = (
+    1e-12  # of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed
+)
+
 
 @dataclass(frozen=True, eq=False)
 class ContactProblem:
@@ -71,7 +76,7 @@ class ContactProblem:
     tolerance: float = 1e-8
     surface: Surface | None = None
     modulus: float = math.nan
-    _memo: dict[str, Any] = field(default_factory=dict, repr=False)
+    _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         if self.separation.shape != self.grid.shape:
@@ -83,7 +88,7 @@ class ContactProblem:
         if not isinstance(self.control, Depth) or not self.semidefinite or np.isinf(self.separation).any():
             return  # missing cells never touch and may bulge: contact is never full
         mean = self.mean_separation
-        if self.control.value > mean:
+        if self.control.value > mean * (1 + ROUNDING):
             raise ValueError(
                 f"a depth of {self.control.value:.6g} m exceeds the mean separation {mean:.6g} m: there a periodic "
                 "surface is in full contact and its stiffness infinite; give a smaller depth, or a force"
@@ -97,23 +102,28 @@ class ContactProblem:
     @property
     def semidefinite(self) -> bool:
         """Whether a constant pressure moves nothing."""
-        return all(self.grid.periodic)
+        return is_semidefinite(self.operator)
+
+    @property
+    def _measure(self) -> Measure:
+        return Measure(self.operator.weights)
 
     def under(self, control: Control) -> ContactProblem:
         """Return the same bodies under another control."""
-        return replace(self, control=control)
+        other = replace(self, control=control)
+        object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
+        return other
 
     @property
     def mean_response(self) -> Array:
-        """Mean displacement of the measured cells per unit pressure on each cell [m/Pa], by reciprocity.
+        """Mean displacement of the measured cells per unit force on each cell [m/N], by reciprocity.
 
         Shape of the grid; found once for all loads on the same bodies.
         """
         if "mean_response" not in self._memo:
-            measured = np.isfinite(self.separation)
-            # The mean deflection is itself under the uniform pressure that weighs the measured cells.
-            lifted = self.operator.apply(measured.astype(np.float64))
-            self._memo["mean_response"] = lifted / measured.sum()
+            measured = np.isfinite(self.separation).astype(np.float64)
+            # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
+            self._memo["mean_response"] = self.operator.apply(measured) / self._measure.total(measured)
         response: Array = self._memo["mean_response"]
         return response
 
@@ -121,7 +131,8 @@ class ContactProblem:
     def mean_separation(self) -> float:
         """Mean undeformed gap of the measured cells [m]."""
         if "mean_separation" not in self._memo:
-            self._memo["mean_separation"] = float(self.separation[np.isfinite(self.separation)].mean())
+            measured = np.isfinite(self.separation)
+            self._memo["mean_separation"] = self._measure.mean(self.separation, measured)
         return float(self._memo["mean_separation"])
 
 
@@ -129,4 +140,5 @@ def separation_of(surface: Surface) -> Array:
     """Return the undeformed gap at first touch [m]; infinite where nothing was measured."""
     separation = np.nanmax(surface.heights) - surface.heights
     separation[np.isnan(separation)] = np.inf
+    separation.flags.writeable = False
     return separation

@@ -112,7 +112,7 @@ class Solution:
     def interfacial_stiffness(self) -> float:
         """Stiffness against the mean gap, -dF/d(mean gap) at fixed contact region [N/m].
 
-        1/k = 1/K + d(mean displacement)/dF; on a periodic grid it equals `stiffness`.
+        1/k = 1/K + d(mean displacement)/dF; on a periodic grid without missing cells it equals `stiffness`.
         """
         k = self.stiffness
         if not 0 < k < np.inf:
@@ -124,7 +124,7 @@ class Solution:
     @cached_property
     def spots(self) -> Spots:
         """The connected parts of the contact (cells that share an edge)."""
-        return find_spots(self.contact, self.pressure, self.problem.grid)
+        return find_spots(self.contact, self.pressure, self.problem.grid, self._measure)
 
     @property
     def missing(self) -> int:
@@ -191,7 +191,8 @@ class Solution:
         if self.problem.semidefinite and not self.missing:
             return 0.0
         cells = self._cells
-        return float(pressure.ravel()[cells] @ self.problem.mean_response.ravel()[cells])
+        force = self._measure.on(cells) * pressure.ravel()[cells]
+        return float(force @ self.problem.mean_response.ravel()[cells])
 
 
 def _density(values: Array, bins: int) -> tuple[Array, Array]:

@@ -40,6 +40,7 @@ def solve(
     """
     state, place = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
     pressure = embed(state.pressure, place, problem.grid.shape)
+    pressure.flags.writeable = False
     return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
 
 
@@ -59,4 +60,4 @@ def _untouched(problem: ContactProblem) -> tuple[State, Place]:
     shape = problem.grid.shape
     zero = np.zeros(shape)
     whole = tuple(slice(0, n) for n in shape)
-    return State(zero, zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole
+    return State(zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole

@@ -9,6 +9,7 @@ import numpy.typing as npt
 import scipy.ndimage
 import scipy.sparse
 
+from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
 
@@ -38,7 +39,7 @@ class Spots:
     labels: npt.NDArray[np.intp]
 
 
-def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> Spots:
+def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid, measure: Measure) -> Spots:
     """Return the spots of a contact; along a periodic axis they go on across the edge."""
     labels = np.zeros(contact.shape, np.intp)
     box = bounding_box(contact)
@@ -58,6 +59,7 @@ def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid) -> S
         labels, count = compact[labels], int(compact.max())
     cells = np.flatnonzero(contact)
     spot = labels.ravel()[cells] - 1
-    sizes = np.bincount(spot, minlength=count)
-    sums = np.bincount(spot, weights=pressure.ravel()[cells], minlength=count)
-    return Spots(int(count), np.asarray(sizes * grid.cell_area), np.asarray(sums * grid.cell_area), labels)
+    weights = measure.on(cells)
+    areas = np.bincount(spot, weights=weights, minlength=count).astype(np.float64)
+    loads = np.bincount(spot, weights=weights * pressure.ravel()[cells], minlength=count).astype(np.float64)
+    return Spots(int(count), areas, loads, labels)

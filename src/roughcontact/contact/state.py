@@ -33,7 +33,6 @@ class State:
     """
 
     pressure: Array
-    displacement: Array
     depth: float
     residual: float
     steps: int

@@ -35,8 +35,8 @@ _MESSAGES = {
     Status.NO_CONTACT: "The bodies do not touch at this depth.",
     Status.MAX_STEPS: "The solver ran out of steps above the tolerance; allow it more steps.",
     Status.STAGNATED: (
-        "The residual stopped falling above the tolerance: rounding allows no more for these heights. "
-        "Ask for a larger tolerance, or take a large offset out of the heights before they are stored."
+        "The residual stopped falling above the tolerance. Often rounding allows no more: ask for a larger "
+        "tolerance, or take a large offset out of the heights before they are stored; else try another solver."
     ),
 }
 

@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.prescribed import prescribed_displacement
+from roughcontact.contact.prescribed import prescribe
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import Grid
 from roughcontact.halfspace.build import half_space
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 from roughcontact.material import Solid
 
 __all__ = ["FrozenContact", "cell_stiffness", "contact_stiffness", "frozen_contact"]
@@ -49,14 +49,14 @@ def frozen_contact(
     """Return the response of `region` to a unit displacement; a `tangent` at hand is used or improved."""
     if not region.any():
         return FrozenContact(0.0, 0.0, np.zeros(region.shape))
-    if all(operator.grid.periodic) and region.all():
+    if is_semidefinite(operator) and region.all():
         return FrozenContact(math.inf, 0.0, np.full(region.shape, math.inf))
     if tangent is not None and tangent.error <= tolerance:
         return FrozenContact(
             Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure
         )
     initial = None if tangent is None else tangent.pressure
-    answer = prescribed_displacement(operator, region, 1.0, tolerance=tolerance, initial=initial)
+    answer = prescribe(operator, region, 1.0, tolerance, initial=initial)
     return FrozenContact(answer.force, answer.residual, answer.pressure)
 
 

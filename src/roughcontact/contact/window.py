@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.problem import Control
 from roughcontact.contact.state import Solver, State
-from roughcontact.halfspace.operator import Listable, Operator
+from roughcontact.halfspace.operator import Listable, Operator, is_positive
 
 __all__ = ["Place", "Windows", "bounding_box", "embed", "take"]
 
@@ -63,7 +63,7 @@ class Windows:
     """
 
     operator: Operator
-    _box: tuple[tuple[int, ...], Operator] | None = field(default=None)
+    _box: tuple[Box, Operator] | None = field(default=None)
 
     def solve(
         self,
@@ -75,12 +75,13 @@ class Windows:
     ) -> tuple[State, Place]:
         """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state in its place."""
         pressure, depth = guess
-        if not self.operator.positive:
+        if not is_positive(self.operator):
             whole = tuple(slice(0, n) for n in separation.shape)
             return solver.run(self.operator, separation, control, pressure, tolerance), whole
         window = (separation < depth) | (pressure > 0)
         if not window.any():
             window = separation == separation.min()
+        steps = 0
         while True:
             place = self._place(window)
             state = solver.run(
@@ -92,8 +93,9 @@ class Windows:
             else:
                 inside.ravel()[place] = True
             beyond = (separation < state.depth) & ~inside
+            steps += state.steps
             if not beyond.any():
-                return state, place
+                return replace(state, steps=steps), place
             pressure = embed(state.pressure, place, separation.shape)
             window |= beyond
 
@@ -105,8 +107,8 @@ class Windows:
         shape = tuple(s.stop - s.start for s in place)
         if shape == self.operator.grid.shape:
             return self.operator
-        if self._box is None or self._box[0] != shape:
-            self._box = (shape, self.operator.restrict(place))
+        if self._box is None or self._box[0] != place:
+            self._box = (place, self.operator.restrict(place))
         return self._box[1]
 
     def _place(self, window: Mask) -> Place:

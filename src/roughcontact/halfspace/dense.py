@@ -48,5 +48,7 @@ class DenseOperator:
 
     def restrict(self, window: tuple[slice, ...]) -> DenseOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
+        if self.grid.window(window).shape == self.grid.shape:
+            return self  # the whole keeps its period
         cells = np.arange(self.grid.size).reshape(self.grid.shape)[window].ravel()
         return DenseOperator(self.grid.window(window), self.as_matrix(cells), self.positive)

@@ -30,8 +30,8 @@ class Influence(Protocol):
         """Return the displacement per pressure [m/Pa] at offsets of whole cells."""
         ...
 
-    def coarsened(self, grid: Grid) -> Influence:
-        """Return the influence function of the same body on the cells of `grid`."""
+    def coarsened(self, grid: Grid) -> Influence | None:
+        """Return the influence function of the same body on the cells of `grid`; None if there is none."""
         ...
 
     def inverse(self, shape: tuple[int, int]) -> Array:
@@ -96,12 +96,8 @@ class Periodic:
         """Return E* q/2 [Pa/m]."""
         return self.modulus / 2 * _definite(_wavenumbers(shape, self.grid.spacing))
 
-    def coarsened(self, grid: Grid) -> Periodic:
-        """Return the same body with cells about the size of those of `grid`; the period stays."""
-        ratios = zip(self.grid.lengths, grid.spacing, strict=True)
-        shape = tuple(max(1, round(length / step)) for length, step in ratios)
-        spacing = tuple(length / n for length, n in zip(self.grid.lengths, shape, strict=True))
-        return Periodic(Grid(shape, spacing, periodic=True), self.modulus)
+    def coarsened(self, grid: Grid) -> None:
+        """Return None: the cells of `grid`, which lie in a window, need not divide the period."""
 
 
 @dataclass(slots=True, eq=False)
@@ -147,9 +143,10 @@ class Tables:
         """Return the pressure per displacement wave [Pa/m]."""
         return self.influence.inverse(shape)
 
-    def coarsened(self, grid: Grid) -> Tables:
-        """Return the influence function of the same body on the cells of `grid`."""
-        return Tables(self.influence.coarsened(grid), grid.shape)
+    def coarsened(self, grid: Grid) -> Tables | None:
+        """Return the influence function of the same body on the cells of `grid`; None if there is none."""
+        coarse = self.influence.coarsened(grid)
+        return None if coarse is None else Tables(coarse, grid.shape)
 
 
 def _wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 
-__all__ = ["Coarsenable", "Invertible", "Listable", "Operator"]
+__all__ = ["Coarsenable", "Invertible", "Listable", "Operator", "is_positive", "is_semidefinite"]
 
 Array = npt.NDArray[np.float64]
 
@@ -20,6 +20,9 @@ class Operator(Protocol):
 
     Symmetric under its weights. On a free grid positive definite; on a periodic one semidefinite, since a
     constant pressure moves nothing.
+
+    What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`. Each
+    makes solves faster and none changes an answer.
     """
 
     @property
@@ -30,11 +33,6 @@ class Operator(Protocol):
     @property
     def weights(self) -> float | Array:
         """Force of a unit pressure on each cell [m^2]: ``force = sum(weights * pressure)``."""
-        ...
-
-    @property
-    def positive(self) -> bool:
-        """Whether no pressure lifts any cell, so that contact lies where the bodies overlap."""
         ...
 
     def apply(self, pressure: Array) -> Array:
@@ -50,12 +48,22 @@ class Operator(Protocol):
         ...
 
 
+def is_positive(operator: Operator) -> bool:
+    """Whether no pressure lifts any cell, so that contact lies where the bodies overlap; no, unless it says so."""
+    return bool(getattr(operator, "positive", False))
+
+
+def is_semidefinite(operator: Operator) -> bool:
+    """Whether a constant pressure on all cells moves nothing: the whole of a periodic grid, never a part."""
+    return all(operator.grid.periodic)
+
+
 @runtime_checkable
 class Coarsenable(Protocol):
     """An operator that can state itself on coarser cells."""
 
-    def coarsened(self, grid: Grid) -> Operator:
-        """Return the same body on `grid`, whose cells are larger."""
+    def coarsened(self, grid: Grid) -> Operator | None:
+        """Return the same body on `grid`, whose cells are larger; None where it cannot be stated there."""
         ...
 
 

@@ -77,9 +77,10 @@ class FreeOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self.influence, cells, self.positive)
 
-    def coarsened(self, grid: Grid) -> FreeOperator:
-        """Return the same body on `grid`, whose cells are larger."""
-        return FreeOperator(grid, self.influence.coarsened(grid), self.positive)
+    def coarsened(self, grid: Grid) -> FreeOperator | None:
+        """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""
+        coarse = self.influence.coarsened(grid)
+        return None if coarse is None else FreeOperator(grid, coarse, self.positive)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +115,10 @@ class PeriodicOperator:
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         ny, nx = self.grid.shape
-        return convolve(pressure, self._multiplier, (ny, nx))
+        # The mean moves nothing; taken out first, its rounding moves nothing either.
+        displacement = convolve(pressure - pressure.mean(), self._multiplier, (ny, nx))
+        displacement -= displacement.mean()
+        return displacement
 
     @cached_property
     def _inverse(self) -> Array:
@@ -130,10 +134,12 @@ class PeriodicOperator:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
         return CellsOperator.of(self.grid, self._tables, cells, self.positive).as_matrix()
 
-    def restrict(self, window: tuple[slice, ...]) -> FreeOperator:
+    def restrict(self, window: tuple[slice, ...]) -> FreeOperator | PeriodicOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
+        if self.grid.window(window).shape == self.grid.shape:
+            return self  # the whole keeps its period
         return FreeOperator(self.grid.window(window), self._tables, self.positive)
 
     def coarsened(self, grid: Grid) -> PeriodicOperator:
         """Return the same body on `grid`, whose cells are larger."""
-        return PeriodicOperator(grid, self.influence.coarsened(grid))
+        return PeriodicOperator(grid, Periodic(grid, self.influence.modulus))
