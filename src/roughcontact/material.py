@@ -73,7 +73,11 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:
-    return (first,) if second is None else (first, second)
+    bodies = (first,) if second is None else (first, second)
+    for body in bodies:
+        if not isinstance(body, Solid):
+            raise ValueError(f"a Solid is wanted (young_modulus, poisson_ratio), not {body!r}")
+    return bodies
 
 
 def _inverse(compliance: float) -> float:

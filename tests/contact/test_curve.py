@@ -188,7 +188,6 @@ def test_dimensionless_numbers_do_not_depend_on_scale():
         ({"forces": [-1.0, 1.0]}, "force must be positive"),
         ({"forces": [[1.0, 2.0]]}, "one row"),
         ({"depths": [-1.0]}, "first touch"),
-        ({}, "exactly one of forces"),
         ({"forces": [1.0], "depths": [1.0]}, "force and depth"),
     ],
 )
@@ -203,6 +202,22 @@ def test_too_deep_for_a_periodic_surface_is_refused_at_once():
 
 
 def test_too_few_points_for_a_law():
-    curve = rc.loading_curve(rough(16), 1.0, forces=[1e-5, 1e-4])
-    with pytest.raises(ValueError, match="at least 3 resolved points, not 0"):
+    """The message names forces in newtons that would serve."""
+    curve = rc.loading_curve(rough(16), 3.0, forces=[1e-5, 1e-4])
+    with pytest.raises(ValueError, match=r"not 0: try forces from 3e-06 N to 0.0021 N"):
         curve.fit()
+
+
+def test_loads_nobody_named():
+    surface = rough(128)
+    curve = rc.loading_curve(surface, 2.0)
+    np.testing.assert_allclose(curve.dimensionless_force, np.geomspace(1e-4, 0.07, 30), rtol=1e-9)
+    np.testing.assert_allclose(curve.force, rc.suggested_forces(surface, 2.0), rtol=1e-10)
+    flat = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1.0))
+    with pytest.raises(ValueError, match="flat surface"):
+        rc.loading_curve(flat, 1.0)
+
+
+def test_a_curve_says_what_it_spans():
+    curve = rc.loading_curve(rough(128), 1.0, forces=[1e-6, 7e-4])
+    assert repr(curve) == "Curve(1 of 2 points resolved, force 1e-06 to 0.0007 N)"

@@ -24,8 +24,9 @@ def coarse_guess(
 ) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on cells of twice the size, recursively.
 
-    The coarse heights are means of the fine ones: the long waves carry the contact, and the cells that the
-    short waves take out of it are found by the fine solve. Without coarser cells the guess is no pressure.
+    The coarse heights are the highest of the fine ones: it is the summits that touch. (Means would serve
+    where long waves carry the contact, and mislead where short ones do.) Without coarser cells the guess is
+    no pressure.
     """
     coarser = coarse_operator(operator, separation.shape)
     if coarser is None:
@@ -54,23 +55,19 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
 
 
 def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
-    """Return the means over blocks; infinite cells do not count, a block of nothing else is infinite."""
+    """Return the lowest value of each block; infinite for a block of missing cells."""
     pad = [(0, -n % f) for n, f in zip(separation.shape, factors, strict=True)]
     padded = np.pad(separation, pad, constant_values=np.inf)
     blocks = padded.reshape([m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f)])
-    axes = tuple(range(1, 2 * separation.ndim, 2))
-    there = np.isfinite(blocks)
-    count = there.sum(axis=axes)
-    total = np.where(there, blocks, 0.0).sum(axis=axes)
-    return np.where(count > 0, total / np.maximum(count, 1), np.inf)
+    return np.asarray(blocks.min(axis=tuple(range(1, 2 * separation.ndim, 2))))
 
 
 def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:
     """Return a depth as far from full contact on the coarse cells as on the fine ones.
 
-    Blocks over the edge of an odd grid count fewer cells as much as others, so that the means differ.
+    Otherwise the coarse problem might have no solution: its highest cells stand higher above its mean.
     """
-    if np.isinf(fine).any():
+    if np.isinf(fine).any() or not fine.any():
         return depth
     return Depth(depth.value * min(1.0, float(coarse.mean() / fine.mean())))
 

@@ -14,7 +14,7 @@ from roughcontact.contact.power_law import PowerLaw, fit_power_law
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import Status
-from roughcontact.contact.stiffness import cell_stiffness, frozen_contact
+from roughcontact.contact.stiffness import CELLS, SATURATED, cell_stiffness, saturation
 
 if TYPE_CHECKING:
     import xarray
@@ -23,13 +23,12 @@ __all__ = ["Curve", "PowerLaw", "collect"]
 
 Array = npt.NDArray[np.float64]
 
-CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
 ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
+SUGGESTED = (1e-4, 0.07)  # dimensionless forces from the first cells to the end of the power law
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Curve:
     """Points of a loading curve, in the order of the loads.
 
@@ -129,7 +128,7 @@ class Curve:
         Raises
         ------
         ValueError
-            If fewer than three points lie in the window.
+            If fewer than three points lie in the window; the message names forces that would.
         """
         if window is None:
             inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
@@ -137,9 +136,20 @@ class Curve:
             low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
+        if inside.sum() < 3:
+            low, high = (part * self.force_scale for part in SUGGESTED)
+            raise ValueError(
+                f"a power law needs at least 3 resolved points, not {int(inside.sum())}: try forces from {low:.3g} N "
+                f"to {high:.3g} N, a finer grid, or a window of forces"
+            )
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
         )
+
+    def __repr__(self) -> str:
+        """Say what the curve spans, not its numbers."""
+        resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
+        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} N)"
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the curve as an `xarray.Dataset` with units and long names."""
@@ -187,7 +197,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
-        saturation=frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness,
+        saturation=saturation(problem),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.active_set import ActiveSet
-from roughcontact.contact.curve import Curve, collect
+from roughcontact.contact.curve import SUGGESTED, Curve, collect
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
@@ -18,10 +18,10 @@ from roughcontact.contact.stiffness import FrozenContact, frozen_contact
 from roughcontact.contact.window import Windows, embed
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operator import Operator
-from roughcontact.material import Solid
+from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.surface import Surface
 
-__all__ = ["loading_curve", "loading_path"]
+__all__ = ["loading_curve", "loading_path", "suggested_forces"]
 
 Array = npt.NDArray[np.float64]
 Loads = Sequence[float] | Array
@@ -45,7 +45,8 @@ def loading_path(
     surface, modulus, operator, solver, tolerance
         As for `press`.
     forces, depths, pressures : array
-        Exactly one: strictly increasing forces [N], depths [m] or nominal pressures [Pa].
+        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 30
+        forces from the first cells to the end of the power law, see `suggested_forces`.
 
     Yields
     ------
@@ -57,6 +58,8 @@ def loading_path(
     ValueError
         If the input makes no sense, at once and not at the first load.
     """
+    if forces is None and depths is None and pressures is None:
+        forces = suggested_forces(surface, modulus)
     controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
     problem = make_problem(surface, modulus, controls[0], operator, tolerance)
     for control in controls[1:]:
@@ -87,6 +90,27 @@ def loading_curve(
         tolerance=tolerance,
     )
     return collect(path)
+
+
+def suggested_forces(
+    surface: Surface, modulus: float | Solid | tuple[Solid, Solid], count: int = 30
+) -> Array:
+    """Return forces [N] over the range in which a rough surface is worth looking at.
+
+    From 1e-4 to 0.07 of E* h L in equal ratios: from the first cells in contact to where the thesis ends its
+    fits of the power law (section 4.5).
+
+    Raises
+    ------
+    ValueError
+        If the surface is flat, so that its rms height h gives no scale.
+    """
+    grid = grid_of(surface)
+    if not surface.rms > 0:
+        raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
+    scale = as_modulus(modulus) * surface.rms * (grid.lengths[0] * grid.lengths[-1]) ** 0.5
+    low, high = SUGGESTED
+    return np.geomspace(low * scale, high * scale, count)
 
 
 def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:

@@ -62,8 +62,9 @@ class Judge:
         violation = float(np.where(pressure > 0, np.abs(gap), -gap).max())
         if math.isnan(violation):
             return math.inf
-        violation -= self.allowance * self.self_influence * float(pressure.max(initial=0.0))
         if violation <= 0:
             return 0.0
         scale = self.scale(displacement)
-        return violation / scale if scale > 0 else math.inf
+        relative = violation / scale if scale > 0 else math.inf
+        rounding = self.allowance * self.self_influence * float(pressure.max(initial=0.0))
+        return min(relative, UNITS) if violation <= rounding else relative

@@ -59,7 +59,7 @@ class PolonskyKeer:
                 return State(p, d, r, steps, Status.CONVERGED)
             if steps >= self.max_steps:
                 return State(p, d, r, steps, Status.MAX_STEPS)
-            if idle > PATIENCE:
+            if idle > PATIENCE or not np.isfinite(p).all():
                 return State(p, d, r, steps, Status.STAGNATED)
             errors = np.where(inside, g, 0.0)
             norm = measure.dot(errors, errors)
@@ -80,7 +80,7 @@ class PolonskyKeer:
             overlap = (p == 0) & (g < 0)
             p[overlap] = -tau * g[overlap]
             delta = 0.0 if overlap.any() else 1.0
-            if forced:
+            if forced and 0 < measure.total(p) < np.inf:
                 p = _under_force(measure, p, control.value)
 
 

@@ -50,13 +50,8 @@ def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_
     Raises
     ------
     ValueError
-        If there are fewer than three points, or no rms height that could scale the force.
+        If there is no rms height that could scale the force.
     """
-    if len(force) < 3:
-        raise ValueError(
-            f"a power law needs at least 3 resolved points, not {len(force)}: add loads between the one-cell "
-            "limit and saturation, use a finer grid, or name a window of forces"
-        )
     if not force_scale > 0:
         raise ValueError("a flat surface has no rms height to scale the force by")
     x, y = np.log(force / force_scale), np.log(stiffness / stiffness_scale)

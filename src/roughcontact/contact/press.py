@@ -98,6 +98,10 @@ def control_of(
         raise ValueError(
             f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
         )
+    numbers: dict[str, object] = {"force": force, "depth": depth, "pressure": pressure}
+    for name, value in numbers.items():
+        if isinstance(value, str):  # the command line reads units, this does not
+            raise ValueError(f"{name} must be a number in SI units, not {value!r}")
     if force is not None:
         return Force(float(force))
     if depth is not None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,7 @@ from roughcontact.surface.surface import Surface
 __all__ = ["ContactProblem", "Control", "Depth", "Force"]
 
 Array = npt.NDArray[np.float64]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +47,8 @@ class Depth:
 
 Control = Force | Depth
 
-ROUNDING = (
-    1e-12  # of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed
-)
+# Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,22 +119,29 @@ class ContactProblem:
     def mean_response(self) -> Array:
         """Mean displacement of the measured cells per unit force on each cell [m/N], by reciprocity.
 
-        Shape of the grid; found once for all loads on the same bodies.
+        Shape of the grid.
         """
-        if "mean_response" not in self._memo:
+
+        def respond() -> Array:
             measured = np.isfinite(self.separation).astype(np.float64)
             # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
-            self._memo["mean_response"] = self.operator.apply(measured) / self._measure.total(measured)
-        response: Array = self._memo["mean_response"]
-        return response
+            return self.operator.apply(measured) / self._measure.total(measured)
+
+        return self.once("mean_response", respond)
 
     @property
     def mean_separation(self) -> float:
         """Mean undeformed gap of the measured cells [m]."""
-        if "mean_separation" not in self._memo:
-            measured = np.isfinite(self.separation)
-            self._memo["mean_separation"] = self._measure.mean(self.separation, measured)
-        return float(self._memo["mean_separation"])
+        return self.once(
+            "mean_separation", lambda: self._measure.mean(self.separation, np.isfinite(self.separation))
+        )
+
+    def once(self, name: str, compute: Callable[[], T]) -> T:
+        """Return what depends on the bodies alone, computed once for all loads on them."""
+        if name not in self._memo:
+            self._memo[name] = compute()
+        value: T = self._memo[name]
+        return value
 
 
 def separation_of(surface: Surface) -> Array:

@@ -13,7 +13,14 @@ from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, find_spots
 from roughcontact.contact.status import Status
-from roughcontact.contact.stiffness import FrozenContact, frozen_contact
+from roughcontact.contact.stiffness import (
+    CELLS,
+    SATURATED,
+    FrozenContact,
+    cell_stiffness,
+    frozen_contact,
+    saturation,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -22,8 +29,11 @@ __all__ = ["Solution"]
 
 Array = npt.NDArray[np.float64]
 
+STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
+OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution:
     """A pressure, its depth and its certificate; the rest is computed when asked for, once.
 
@@ -140,6 +150,11 @@ class Solution:
             if not periodic
         )
 
+    @cached_property
+    def resolved(self) -> bool:
+        """Whether the stiffness stands above the one-cell artefact and below saturation."""
+        return self._above_cells and self.stiffness < SATURATED * saturation(self.problem)
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of these numbers should know, in sentences."""
@@ -150,11 +165,48 @@ class Solution:
             notes.append(f"{self.missing} cells hold no height; they were kept out of contact.")
         if self.touches_edge and self.problem.surface is not None:
             notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
-        if self.contact.sum() == 1:
+        if len(self._cells) == 1:
             notes.append(
                 "A single cell is in contact: stiffness and area are those of the grid, not of the body."
             )
-        return tuple(notes)
+        elif len(self._cells) and not self._above_cells:
+            notes.append(
+                f"Not resolved: the stiffness is below that of {CELLS} cells, so that the grid speaks, not the surface."
+            )
+        return (*notes, *self._doubts())
+
+    def _doubts(self) -> tuple[str, ...]:
+        """Return what an engineer would doubt in these numbers."""
+        doubts = []
+        modulus, surface = self.problem.modulus, self.problem.surface
+        largest = float(self.pressure.max())
+        if largest > STRAINED * modulus:
+            doubts.append(
+                f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
+                "bodies yield or break before, and the theory of small strains ends."
+            )
+        if self.depth > max(self.problem.grid.lengths):
+            doubts.append(
+                f"The depth, {self.depth:.3g} m, exceeds the map: check the units of load and modulus."
+            )
+        summit = self.problem.mean_separation
+        if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
+            doubts.append(
+                f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
+                "if it is an outlier of the measurement, it carries the load."
+            )
+        return tuple(doubts)
+
+    @property
+    def _above_cells(self) -> bool:
+        return self.stiffness >= CELLS * cell_stiffness(self.problem.operator)
+
+    def __repr__(self) -> str:
+        """Say what was found, not the field."""
+        return (
+            f"Solution({self.status.value}, force {self.force:.4g} N, depth {self.depth:.4g} m, "
+            f"{len(self._cells)} cells in contact, residual {self.residual:.1e})"
+        )
 
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa]."""

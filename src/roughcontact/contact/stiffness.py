@@ -10,17 +10,28 @@ import numpy.typing as npt
 
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.prescribed import prescribe
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import Grid
 from roughcontact.halfspace.build import half_space
 from roughcontact.halfspace.operator import Operator, is_semidefinite
 from roughcontact.material import Solid
 
-__all__ = ["FrozenContact", "cell_stiffness", "contact_stiffness", "frozen_contact"]
+__all__ = [
+    "CELLS",
+    "SATURATED",
+    "FrozenContact",
+    "cell_stiffness",
+    "contact_stiffness",
+    "frozen_contact",
+    "saturation",
+]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
+SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -103,3 +114,14 @@ def cell_stiffness(operator: Operator) -> float:
     """Return the stiffness of a single cell in contact [N/m] (thesis, eq. 4.16 and its neighbour 4.15)."""
     influence = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
     return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf
+
+
+def saturation(problem: ContactProblem) -> float:
+    """Return the stiffness with all measured cells in contact [N/m]; infinite for a whole periodic surface.
+
+    To a thousandth in the displacement: enough for a limit.
+    """
+    measured = np.isfinite(problem.separation)
+    return problem.once(
+        "saturation", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
+    )

@@ -15,6 +15,8 @@ from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 
 __all__ = ["Influence", "Love", "Periodic", "Tables"]
 
+NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
+
 Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 
@@ -111,10 +113,11 @@ class Tables:
     influence: Influence
     limit: tuple[int, ...]
     _largest: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    _computed: int = 0  # single values that no table held
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]; a view, not to be written to."""
-        if not self.has(shape):
+        if not self._has(shape):
             room = tuple(
                 min(end, max(have, n + n // 4))
                 for n, have, end in zip(shape, self._largest.shape, self.limit, strict=True)
@@ -122,22 +125,32 @@ class Tables:
             self._largest = self.influence.table(room)
         return self._largest[: shape[0], : shape[1]]
 
-    def has(self, shape: tuple[int, ...]) -> bool:
-        """Whether a table of this shape is at hand."""
-        return all(n <= have for n, have in zip(shape, self._largest.shape, strict=True))
-
     def at(self, rows: Offsets, columns: Offsets) -> Array:
-        """Return single values [m/Pa], from the table where it holds them."""
+        """Return single values [m/Pa], from the table where it holds them.
+
+        A table is made as soon as single values have cost as much as it would.
+        """
         a, b = np.abs(rows), np.abs(columns)
         needed = (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
-        if not self.has(needed):
-            # A closed form costs some ten times as much as a look-up.
-            if needed[0] * needed[1] > 4 * np.broadcast(a, b).size:
-                return self.influence.at(a, b)
-            self.table(needed)
-        a = a * self._largest.shape[1]
-        a += b
-        return np.asarray(self._largest.ravel().take(a))
+        if not self._has(needed):
+            if min(self._largest.shape) < NEAR:
+                self.table(tuple(min(NEAR, end) for end in self.limit))
+            self._computed += np.broadcast(a, b).size
+            if needed[0] * needed[1] <= self._computed:
+                self.table(needed)
+        if self._has(needed):
+            a = a * self._largest.shape[1]
+            a += b
+            return np.asarray(self._largest.ravel().take(a))
+        a, b = np.broadcast_arrays(a, b)
+        near = (a < self._largest.shape[0]) & (b < self._largest.shape[1])
+        values = np.empty(a.shape)
+        values[near] = self._largest[a[near], b[near]]
+        values[~near] = self.influence.at(a[~near], b[~near])
+        return values
+
+    def _has(self, shape: tuple[int, ...]) -> bool:
+        return all(n <= have for n, have in zip(shape, self._largest.shape, strict=True))
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return the pressure per displacement wave [Pa/m]."""

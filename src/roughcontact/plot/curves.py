@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import CELLS
+from roughcontact.contact.stiffness import CELLS
 from roughcontact.contact.variables import VARIABLES
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.units import Scale, scale
