@@ -119,16 +119,12 @@ def test_the_residual_belongs_to_the_returned_pressure():
 def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     """A run without progress is handed over, and the answer still certified."""
     import roughcontact.contact.active_set as module
+    from roughcontact.contact.conjugate_gradient import Relaxed
 
-    def stuck(operator, region, separation, pressure, displacement, **settings):
-        return module_relaxed(pressure, displacement)
-
-    def module_relaxed(pressure, displacement):
-        from roughcontact.contact.conjugate_gradient import Relaxed
-
+    def stuck(operator, separation, control, region, pressure, displacement, **settings):
         return Relaxed(pressure, displacement, 0.0, 1.0, 1)
 
-    monkeypatch.setattr(module, "relax", stuck)
+    monkeypatch.setattr(module, "press_region", stuck)
     rough = surface((32, 32))
     solution = rc.press(rough, 1.0, force=1e-3, solver=rc.ActiveSet(dense_limit=0))
     assert oracles.certificate(rough, 1.0, solution.pressure, solution.depth) <= 1e-8

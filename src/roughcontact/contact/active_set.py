@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
+from roughcontact.contact.iterative import press_region
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.polonsky_keer import PolonskyKeer
@@ -21,6 +21,9 @@ from roughcontact.halfspace.operator import Operator, is_semidefinite
 __all__ = ["ActiveSet"]
 
 Array = npt.NDArray[np.float64]
+
+
+DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved that is but a guess
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,27 +90,18 @@ class ActiveSet:
                 p = _scatter(pressed.cells, pressed.pressure, region.shape)
                 tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
                 u, fresh, steps = operator.apply(p), True, steps + 1
-                continue
-            relaxed = relax(
-                operator,
-                region,
-                separation,
-                p,
-                u,
-                depth=given,
-                limit=scale * max(0.3 * tolerance, min(0.1 * r, 1e-2)),
-                max_steps=self.max_steps - steps,
-            )
-            p, u, fresh, steps, tangent = (
-                relaxed.pressure,
-                relaxed.displacement,
-                False,
-                steps + relaxed.steps,
-                None,
-            )
-            if (p < 0).any():  # these would pull: let go
-                p = start_pressure(measure, separation, control, p, own)
-                u, fresh, steps = operator.apply(p), True, steps + 1
+            else:
+                goal = 0.3 * tolerance
+                if not np.array_equal(
+                    region, p > 0
+                ):  # a region that still changes deserves no more than a part
+                    goal = max(goal, min(DEPTH_OF_SOLVE * r, 1e-2))
+                limit = scale * goal
+                relaxed = press_region(
+                    operator, separation, control, region, p, u, limit=limit, max_steps=self.max_steps - steps
+                )
+                p, u, tangent = relaxed.pressure, relaxed.displacement, None
+                fresh, steps = False, steps + relaxed.steps
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, control, p, tolerance)
         return replace(rest, steps=rest.steps + steps)
 

@@ -1,0 +1,72 @@
+"""Large contact regions by conjugate gradients."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.conjugate_gradient import Relaxed, relax
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.problem import Control, Force
+from roughcontact.halfspace.operator import Operator
+
+__all__ = ["press_region"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+
+def press_region(
+    operator: Operator,
+    separation: Array,
+    control: Control,
+    region: Mask,
+    pressure: Array,
+    displacement: Array,
+    *,
+    limit: float,
+    max_steps: int,
+) -> Relaxed:
+    """Press on a region alone and let go of cells that would pull, until none does.
+
+    The counterpart of `press_cells`: both end with a pressure that is nowhere negative, so that cells are
+    added only to a region whose answer is known. (Adding while letting go, as the method does where each
+    region is solved exactly, runs in circles where it is not.)
+
+    Parameters
+    ----------
+    operator, separation, control
+        The problem.
+    region : bool array
+        Cells that may carry pressure.
+    pressure, displacement : array
+        Where to start [Pa], and its image [m].
+    limit : float
+        Largest error of the displacement on the cells that are kept [m].
+    max_steps : int
+        Largest number of products.
+    """
+    measure = Measure(operator.weights)
+    depth = None if isinstance(control, Force) else control.value
+    p, u, steps = pressure, displacement, 0
+    while True:
+        kept = np.where(region, np.maximum(p, 0.0), 0.0)
+        if isinstance(control, Force):
+            if not kept.any():  # nothing of the guess is left
+                kept = np.where(region, 1.0, 0.0)
+            kept *= control.value / measure.total(kept)
+        if (kept != p).any():
+            u, steps = operator.apply(kept), steps + 1
+        found = relax(
+            operator, region, separation, kept, u, depth=depth, limit=limit, max_steps=max_steps - steps
+        )
+        p, u, steps = found.pressure, found.displacement, steps + found.steps
+        pulls = p < 0
+        if not pulls.any():
+            return replace(found, steps=steps)
+        region = region & ~pulls
+        if steps >= max_steps or not region.any():
+            p = np.maximum(p, 0.0)
+            return replace(found, pressure=p, displacement=operator.apply(p), steps=steps + 1)
