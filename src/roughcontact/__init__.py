@@ -16,6 +16,43 @@ _ROOMS = {
     "Surface": "surface.surface",
     "self_affine": "surface.fourier",
     "SelfAffineSpectrum": "surface.spectrum",
+    "synthesise": "surface.fourier",
+    "RadialSpectrum": "surface.spectrum",
+    "StretchedSpectrum": "surface.spectrum",
+    "DirectionalSpectrum": "surface.spectrum",
+    "Moments": "surface.moments",
+    "grid_moments": "surface.moments",
+    "surface_moments": "surface.moments",
+    "midpoint_line": "surface.midpoint",
+    "midpoint_surface": "surface.midpoint",
+    "magnify": "surface.fractal",
+    "fractal_dimension": "surface.fractal",
+    "box_counting_dimension": "surface.fractal",
+    "combined": "surface.combine",
+    "resampled": "surface.combine",
+    "PowerSpectrum": "surface.analysis.power",
+    "power_spectrum": "surface.analysis.spectra",
+    "PowerMap": "surface.analysis.power_map",
+    "power_map": "surface.analysis.power_map",
+    "HurstFit": "surface.analysis.hurst",
+    "hurst_exponent": "surface.analysis.hurst",
+    "fit_spectrum": "surface.analysis.hurst",
+    "fit_structure": "surface.analysis.structure_fit",
+    "merge_spectra": "surface.analysis.merge",
+    "spectra_ratio": "surface.analysis.merge",
+    "surface_spectrum": "surface.analysis.cut",
+    "profile_spectrum": "surface.analysis.cut",
+    "cut_factor": "surface.analysis.cut",
+    "autocorrelation": "surface.analysis.correlation",
+    "structure_function": "surface.analysis.correlation",
+    "structure_profile": "surface.analysis.correlation",
+    "height_histogram": "surface.analysis.histogram",
+    "spectrum_moments": "surface.analysis.spectrum_moments",
+    "find_summits": "surface.analysis.summits",
+    "areal_parameters": "surface.parameters.areal",
+    "profile_parameters": "surface.parameters.profile",
+    "material_ratio": "surface.parameters.material_ratio",
+    "stratified_parameters": "surface.parameters.material_ratio",
     "half_space": "halfspace.build",
     "Force": "contact.problem",
     "Depth": "contact.problem",
@@ -30,13 +67,21 @@ _ROOMS = {
     "prescribed_displacement": "contact.prescribed",
     "loading_path": "contact.loading",
     "loading_curve": "contact.loading",
+    "suggested_forces": "contact.loading",
     "Curve": "contact.curve",
     "PowerLaw": "contact.curve",
     "read": "files.read",
+    "read_line": "files.read",
+    "write": "files.save",
+    "WriteError": "files.aside",
+    "SurfaceWarning": "files.errors",
     "ReadError": "files.errors",
 }
 
-__all__ = ["__version__", *_ROOMS]
+# Public names that are modules themselves.
+_MODULES = {"shapes": "surface.shapes"}
+
+__all__ = ["__version__", *_ROOMS, *_MODULES]
 
 if TYPE_CHECKING:
     from roughcontact.contact.active_set import ActiveSet as ActiveSet
@@ -44,6 +89,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import PowerLaw as PowerLaw
     from roughcontact.contact.loading import loading_curve as loading_curve
     from roughcontact.contact.loading import loading_path as loading_path
+    from roughcontact.contact.loading import suggested_forces as suggested_forces
     from roughcontact.contact.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.contact.prescribed import prescribed_displacement as prescribed_displacement
     from roughcontact.contact.press import press as press
@@ -54,19 +100,63 @@ if TYPE_CHECKING:
     from roughcontact.contact.status import ConvergenceError as ConvergenceError
     from roughcontact.contact.status import Status as Status
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
+    from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.errors import ReadError as ReadError
+    from roughcontact.files.errors import SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read
+    from roughcontact.files.read import read_line as read_line
+    from roughcontact.files.save import write as write
     from roughcontact.grid import Grid as Grid
     from roughcontact.halfspace.build import half_space as half_space
     from roughcontact.material import Solid as Solid
     from roughcontact.material import reduced_modulus as reduced_modulus
     from roughcontact.material import reduced_shear_modulus as reduced_shear_modulus
+    from roughcontact.surface import shapes as shapes
+    from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
+    from roughcontact.surface.analysis.correlation import structure_function as structure_function
+    from roughcontact.surface.analysis.correlation import structure_profile as structure_profile
+    from roughcontact.surface.analysis.cut import cut_factor as cut_factor
+    from roughcontact.surface.analysis.cut import profile_spectrum as profile_spectrum
+    from roughcontact.surface.analysis.cut import surface_spectrum as surface_spectrum
+    from roughcontact.surface.analysis.histogram import height_histogram as height_histogram
+    from roughcontact.surface.analysis.hurst import HurstFit as HurstFit
+    from roughcontact.surface.analysis.hurst import fit_spectrum as fit_spectrum
+    from roughcontact.surface.analysis.hurst import hurst_exponent as hurst_exponent
+    from roughcontact.surface.analysis.merge import merge_spectra as merge_spectra
+    from roughcontact.surface.analysis.merge import spectra_ratio as spectra_ratio
+    from roughcontact.surface.analysis.power import PowerSpectrum as PowerSpectrum
+    from roughcontact.surface.analysis.power_map import PowerMap as PowerMap
+    from roughcontact.surface.analysis.power_map import power_map as power_map
+    from roughcontact.surface.analysis.spectra import power_spectrum as power_spectrum
+    from roughcontact.surface.analysis.spectrum_moments import spectrum_moments as spectrum_moments
+    from roughcontact.surface.analysis.structure_fit import fit_structure as fit_structure
+    from roughcontact.surface.analysis.summits import find_summits as find_summits
+    from roughcontact.surface.combine import combined as combined
+    from roughcontact.surface.combine import resampled as resampled
     from roughcontact.surface.fourier import self_affine as self_affine
+    from roughcontact.surface.fourier import synthesise as synthesise
+    from roughcontact.surface.fractal import box_counting_dimension as box_counting_dimension
+    from roughcontact.surface.fractal import fractal_dimension as fractal_dimension
+    from roughcontact.surface.fractal import magnify as magnify
+    from roughcontact.surface.midpoint import midpoint_line as midpoint_line
+    from roughcontact.surface.midpoint import midpoint_surface as midpoint_surface
+    from roughcontact.surface.moments import Moments as Moments
+    from roughcontact.surface.moments import grid_moments as grid_moments
+    from roughcontact.surface.moments import surface_moments as surface_moments
+    from roughcontact.surface.parameters.areal import areal_parameters as areal_parameters
+    from roughcontact.surface.parameters.material_ratio import material_ratio as material_ratio
+    from roughcontact.surface.parameters.material_ratio import stratified_parameters as stratified_parameters
+    from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
+    from roughcontact.surface.spectrum import DirectionalSpectrum as DirectionalSpectrum
+    from roughcontact.surface.spectrum import RadialSpectrum as RadialSpectrum
     from roughcontact.surface.spectrum import SelfAffineSpectrum as SelfAffineSpectrum
+    from roughcontact.surface.spectrum import StretchedSpectrum as StretchedSpectrum
     from roughcontact.surface.surface import Surface as Surface
 
 
 def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return import_module(f"roughcontact.{_MODULES[name]}")
     if name not in _ROOMS:
         raise AttributeError(f"module 'roughcontact' has no attribute {name!r}")
     value = getattr(import_module(f"roughcontact.{_ROOMS[name]}"), name)

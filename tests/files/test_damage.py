@@ -60,7 +60,7 @@ MUTATIONS = {
     "cut at 97 %": lambda data: data[: int(0.97 * len(data))],
     "256 bytes": lambda data: data[:256],
     "garbage": lambda data: np.random.default_rng(0).bytes(len(data)),
-    "header and garbage": lambda data: data[:128] + np.random.default_rng(1).bytes(len(data) - 128),
+    "header and garbage": lambda data: data[:128] + np.random.default_rng(1).bytes(max(0, len(data) - 128)),
     "zeros": lambda data: bytes(len(data)),
     **{f"flipped bytes {seed}": (lambda data, seed=seed: flip(data, seed)) for seed in range(FLIPS)},
     "0xFF over the header": lambda data: b"\xff" * 64 + data[64:],

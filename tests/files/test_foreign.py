@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from scipy.io import netcdf_file, savemat
+from scipy.io import savemat
 
 import roughcontact as rc
 from roughcontact.files.errors import SurfaceWarning
@@ -20,61 +20,6 @@ def mat(**arrays):
     stream = io.BytesIO()
     savemat(stream, arrays)
     return stream.getvalue()
-
-
-def netcdf(path, *, unit="um", periodic=0, line=False):
-    """Write heights (x, y), the transposed picture."""
-    with netcdf_file(path, "w") as file:
-        for name, size in (("x", 4), ("y", 3)):
-            file.createDimension(name, size)
-            variable = file.createVariable(name, "f8", (name,))
-            variable[:] = np.arange(size)
-            variable.length = float(size)
-            variable.periodic = periodic
-            if unit:
-                variable.unit = unit
-        heights = file.createVariable("heights", "f8", ("x",) if line else ("x", "y"))
-        heights[:] = HEIGHTS[0] if line else HEIGHTS.T
-        if unit:
-            heights.unit = unit
-    return path
-
-
-def test_the_picture_is_upright_and_in_metres(tmp_path):
-    surface = rc.read(netcdf(tmp_path / "a.nc"))
-    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-12)
-    np.testing.assert_allclose(surface.grid.lengths, (3e-6, 4e-6), rtol=1e-12)
-    assert surface.provenance[0].startswith(
-        "read from a.nc (nc by SurfaceTopography, channel 'Default', sha256 "
-    )
-
-
-def test_a_periodic_file_is_read_as_free_only_by_choice(tmp_path):
-    path = netcdf(tmp_path / "a.nc", periodic=1)
-    assert rc.read(path).grid.periodic == (True, True)
-    free = rc.read(path, periodic=False)
-    assert free.grid.periodic == (False, False)
-    assert "read as free, though the file says that it is periodic" in free.provenance
-    assert rc.read(netcdf(tmp_path / "b.nc"), periodic=True).grid.periodic == (True, True)
-
-
-def test_no_unit_or_an_arbitrary_one_is_refused(tmp_path):
-    with pytest.raises(
-        rc.ReadError, match=r"a\.nc: it states no unit of its heights and no size; pass unit="
-    ):
-        rc.read(netcdf(tmp_path / "a.nc", unit=None))
-    with pytest.raises(rc.ReadError, match=r"b\.nc: no channel is a height by its name and unit: .*a\.u\."):
-        rc.read(netcdf(tmp_path / "b.nc", unit="a.u."))
-    surface = rc.read(tmp_path / "b.nc", channel="Default", unit="nm", size=4e-6)
-    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-9, rtol=1e-12)
-
-
-def test_a_line_scan_is_refused(tmp_path):
-    path = netcdf(tmp_path / "line.nc", line=True)
-    with pytest.raises(rc.ReadError, match=r"line\.nc"):
-        rc.read(path)
-    with pytest.raises(rc.ReadError, match=r"line\.nc"):
-        rc.read(path, channel=0)
 
 
 def test_a_bare_matrix_keeps_its_rows(put):
@@ -102,6 +47,13 @@ def test_heights_are_told_by_name_and_not_by_place(put):
     with pytest.warns(SurfaceWarning, match="2 channels are heights .* pass channel="):
         surface = rc.read(both, unit="um", size=1e-5)
     assert any("2 channels are heights" in line for line in surface.provenance)
+
+
+def test_a_channel_of_something_else_is_read_aloud(put):
+    path = put("a.mat", mat(Phase=HEIGHTS, Z_sensor=HEIGHTS + 1))
+    with pytest.warns(SurfaceWarning, match=r"channel 'Phase' is not marked as heights"):
+        surface = rc.read(path, unit="um", size=1e-5, channel="Phase")
+    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-15)
 
 
 def test_missing_points_are_nan(tmp_path):

@@ -1,7 +1,9 @@
 """The keywords of `read`, its errors and its doubts."""
 
 import hashlib
+import os
 import pickle
+import re
 import subprocess
 import sys
 
@@ -21,7 +23,7 @@ def test_a_missing_file_a_folder_and_an_empty_file(tmp_path, put):
             rc.ReadError, match=r"nowhere\.x3p: it cannot be opened \(No such file.*check the path"
         ):
             function(tmp_path / "nowhere.x3p")
-        with pytest.raises(rc.ReadError, match="cannot be opened"):
+        with pytest.raises(rc.ReadError, match="it is a folder; name a file in it"):
             function(tmp_path)
         with pytest.raises(rc.ReadError, match="cannot be opened"):
             function(str(tmp_path / "a\0b.txt"))
@@ -77,7 +79,9 @@ def test_a_wrong_keyword_is_an_error_before_the_file_is_touched(tmp_path, keywor
 def test_the_users_word_goes_before_the_files(put):
     header = "# Width: 4 mm\n# Height: 2 mm\n# Value units: nm\n"
     path = put("a.txt", header + TEXT)
-    given = rc.read(path, unit="um", size=(2e-6, 8e-6))
+    with pytest.warns(SurfaceWarning, match="as given, instead of the file's") as spoken:
+        given = rc.read(path, unit="um", size=(2e-6, 8e-6))
+    assert len(spoken) == 2
     np.testing.assert_allclose(given.heights[0, 0], 1e-6, rtol=1e-15)
     np.testing.assert_allclose(given.grid.spacing, (1e-6, 2e-6), rtol=1e-15)
     digest = hashlib.sha256(path.read_bytes()).hexdigest()[:16]
@@ -87,6 +91,8 @@ def test_the_users_word_goes_before_the_files(put):
         "size 2e-06 x 8e-06 m (y, x) as given, instead of the file's 0.002 x 0.004",
     )
     assert len(rc.read(path).provenance) == 1
+    # Who repeats the file's own words hears nothing: a warning would be an error here.
+    assert rc.read(path, unit=1e-9, size=("2 mm", "4 mm")).grid == rc.read(path).grid
 
 
 def test_a_file_with_one_map_has_one_channel(put):
@@ -145,8 +151,19 @@ def test_without_the_other_library_the_remedy_is_named(put, monkeypatch):
     for name in [n for n in sys.modules if n.split(".")[0] == "SurfaceTopography"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
-    with pytest.raises(rc.ReadError, match=r"a\.opd: .*pip install roughcontact\[formats\]"):
+    with pytest.raises(rc.ReadError, match=r"a\.opd: .*-m pip install 'roughcontact\[formats\]'"):
         rc.read(put("a.opd", b"anything"))
+    with pytest.raises(rc.ReadError, match=f"run: {re.escape(sys.executable)} -m pip"):
+        rc.read(put("a.opd", b"anything"))
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names of files are letters there")
+def test_a_name_that_is_no_text_reads_and_leaves_text(tmp_path):
+    path = os.fsencode(tmp_path / "r") + b"\xff.txt"
+    with open(path, "w") as stream:
+        stream.write(TEXT)
+    surface = rc.read(os.fsdecode(path), unit="um", size=1e-3)
+    assert surface.provenance[0].startswith("read from r?.txt (")
 
 
 def test_reading_needs_no_heavy_library():

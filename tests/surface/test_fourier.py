@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.fourier import wavenumbers
+from roughcontact.surface.fourier import synthesise, wavenumbers
+from roughcontact.surface.moments import surface_moments
+from roughcontact.surface.spectrum import DirectionalSpectrum, SelfAffineSpectrum, StretchedSpectrum
 
 SQUARE = rc.Grid((64, 64), (0.1, 0.1))
 
@@ -102,7 +104,11 @@ def test_the_same_generator_gives_the_same_surface():
         ({"short_wavelength": 2.0, "cutoff_wavelength": 1.0}, "no wave is left"),
         ({"cutoff_wavelength": 1e-3}, "no wave of this grid"),
         ({"grid": rc.Grid((64, 64), 0.1, True), "nodal": True}, "nodal"),
-        ({"grid": rc.Grid(64, 0.1)}, "two axes"),
+        ({"grid": rc.Grid(64, 0.1), "anisotropy": (2.0, 0.0)}, "a line has no direction"),
+        ({"anisotropy": (0.0, 0.0)}, "ratio of an anisotropy"),
+        ({"anisotropy": (2.0, np.inf)}, "angle of an anisotropy"),
+        ({"grid": rc.Grid((1, 1), 0.1)}, "no wave of this grid"),
+        ({"grid": rc.Grid(2, 0.1), "nodal": True}, "at least 3 nodes"),
     ],
 )
 def test_nonsense_is_refused(more, message):
@@ -113,3 +119,157 @@ def test_nonsense_is_refused(more, message):
 def test_a_seed_is_not_a_generator():
     with pytest.raises(ValueError, match="default_rng"):
         rc.self_affine(SQUARE, 0.8, 0.3, 7)
+
+
+def estimated(surface):
+    """C2D [m^4] or C1D [m^3] at all waves: (L/2pi)^2 |fft2(h)/n^2|^2, (L/2pi) |fft(h)/n|^2."""
+    cell = np.prod([length / (2 * np.pi) for length in surface.grid.lengths])
+    return cell * np.abs(np.fft.fftn(surface.heights) / surface.grid.size) ** 2
+
+
+def all_waves(grid):
+    """Wave vectors of the full transform, and which of them are neither the mean nor at a Nyquist wavenumber."""
+    parts = [np.fft.fftfreq(n, d) for n, d in zip(grid.shape, grid.spacing, strict=True)]
+    mesh = np.meshgrid(*(2 * np.pi * part for part in parts), indexing="ij")
+    free = np.ones(grid.shape, dtype=bool)
+    free.flat[0] = False
+    for axis, n in enumerate(grid.shape):
+        if n % 2 == 0:
+            free[(slice(None),) * axis + (n // 2,)] = False
+    return mesh, free
+
+
+RECTANGLE = rc.Grid((48, 35), (0.1e-6, 0.2e-6), True)
+LINE = rc.Grid(128, 0.1e-6, True)
+
+
+@pytest.mark.parametrize("grid", [RECTANGLE, LINE, rc.Grid(129, 2.0)])
+@pytest.mark.parametrize("hurst", [-0.5, 0.3, 0.8])
+def test_spectrum_to_surface_to_spectrum(grid, hurst):
+    """Eqs 2.10, 2.11, 2.13, 2.14 in absolute size, and back, to 1e-12; Parseval."""
+    law = SelfAffineSpectrum(hurst, dimension=grid.ndim, scale=3e-19)
+    surface = synthesise(grid, law, np.random.default_rng(1))
+    mesh, free = all_waves(grid)
+    exact = np.zeros(grid.shape)
+    exact[free] = 3e-19 * np.sqrt(sum(q**2 for q in mesh))[free] ** (-2 * hurst - grid.ndim)
+    estimate = estimated(surface)
+    np.testing.assert_allclose(estimate[free], exact[free], rtol=1e-12)
+    assert estimate[~free].max() < 1e-25 * estimate.max()
+    element = np.prod([2 * np.pi / length for length in grid.lengths])
+    assert surface.rms**2 == pytest.approx((exact * element).sum(), rel=1e-12)
+
+
+@pytest.mark.parametrize("grid", [rc.Grid(16, 0.5, True), rc.Grid((7, 6), (0.5, 0.25), True)])
+def test_heights_are_the_sum_of_cosines(grid):
+    """Eqs 2.12 and 2.15 as corrected: each cosine with its place in it, both signs of q, B = sqrt((2 pi)^n C/A)."""
+    surface = synthesise(grid, lambda q: 2 * q**-3.0, np.random.default_rng(2))
+    mesh, free = all_waves(grid)
+    phase = np.angle(np.fft.fftn(surface.heights))
+    places = np.meshgrid(
+        *(np.arange(n) * d for n, d in zip(grid.shape, grid.spacing, strict=True)), indexing="ij"
+    )
+    total = np.zeros(grid.shape)
+    for index in zip(*np.nonzero(free), strict=True):
+        q = [part[index] for part in mesh]
+        density = 2 * np.linalg.norm(q) ** -3
+        amplitude = np.sqrt(np.prod([2 * np.pi / length for length in grid.lengths]) * density)
+        total += amplitude * np.cos(sum(a * x for a, x in zip(q, places, strict=True)) + phase[index])
+    np.testing.assert_allclose(surface.heights, total, rtol=0, atol=1e-13 * np.abs(total).max())
+    assert np.ptp(surface.heights) > 0  # eq. 2.12 as printed is the same everywhere
+
+
+@pytest.mark.parametrize("ndim", [1, 2])
+@pytest.mark.parametrize("hurst", [0.2, 1.3])
+def test_one_spectrum_on_one_and_on_two_metres(ndim, hurst):
+    """Eqs 2.1 and 2.7: with the same C(q) in m^4 (m^3) a length of 2 m carries 2^H the heights of 1 m."""
+    law = SelfAffineSpectrum(hurst, dimension=ndim, scale=1e-6)
+    one, two = (
+        synthesise(rc.Grid((32,) * ndim, length / 32, True), law, np.random.default_rng(3))
+        for length in (1, 2)
+    )
+    np.testing.assert_allclose(two.heights, 2**hurst * one.heights, rtol=1e-11, atol=1e-15)
+
+
+@pytest.mark.parametrize("hurst", [-0.5, 0.0, 0.7, 2.0])
+def test_lines_follow_their_own_law(hurst):
+    """Eq. 2.10: C1D ~ q^-(2H+1), and a plateau where a roll-off asks for one."""
+    line = make(LINE, hurst, rms=1e-7, rolloff_wavelength=LINE.lengths[0] / 4)
+    assert line.rms == pytest.approx(1e-7, rel=1e-12)
+    assert abs(line.heights.mean()) < 1e-19
+    estimate = estimated(line)[1:64]
+    scaled = estimate / np.maximum(np.arange(1, 64), 4.0) ** (-2 * hurst - 1)
+    np.testing.assert_allclose(scaled, scaled[0], rtol=1e-8)
+
+
+def test_lines_keep_their_phases_and_may_be_nodal():
+    rough, smooth = (np.angle(np.fft.rfft(make(LINE, h).heights))[1:64] for h in (0.2, 1.5))
+    np.testing.assert_allclose(np.exp(1j * rough), np.exp(1j * smooth), atol=1e-8)
+    nodal = make(rc.Grid(65, 0.1), nodal=True)
+    assert nodal.heights[0] == nodal.heights[-1]
+    assert nodal.heights[:-1].std() == pytest.approx(0.3, rel=1e-12)
+
+
+def test_gaussian_amplitudes_have_the_right_size():
+    """The mean of |B|^2 over its law is 1, of exponential scatter: 4 standard errors of 100 lines of 63 waves."""
+    law = SelfAffineSpectrum(0.5, dimension=1, scale=1e-6)
+    rng = np.random.default_rng(4)
+    samples = [estimated(synthesise(LINE, law, rng, amplitudes="gaussian"))[1:64] for _ in range(100)]
+    exact = law(wavenumbers(LINE.shape, LINE.spacing)[1:64])
+    assert np.mean(samples / exact) == pytest.approx(1, abs=4 / np.sqrt(6300))
+
+
+def test_stretched_surfaces():
+    """The spectrum is the isotropic one at the stretched wave vectors; the process is longer along the angle."""
+    angle, ratio = 0.4, 3.0
+    surface = make(RECTANGLE, 0.8, rms=1e-8, anisotropy=(ratio, angle))
+    (qy, qx), free = all_waves(RECTANGLE)
+    along = qx * np.cos(angle) + qy * np.sin(angle)
+    across = -qx * np.sin(angle) + qy * np.cos(angle)
+    law = np.zeros(RECTANGLE.shape)
+    law[free] = (ratio * along**2 + across**2 / ratio)[free] ** -1.8
+    np.testing.assert_allclose(
+        estimated(surface) / estimated(surface).sum(), law / law.sum(), rtol=1e-9, atol=1e-18
+    )
+    lengthwise = make(anisotropy=(4.0, 0.0)).heights
+    assert (np.diff(lengthwise, axis=1) ** 2).mean() < 0.25 * (np.diff(lengthwise, axis=0) ** 2).mean()
+    assert make(anisotropy=(1.0, 0.7)).heights == pytest.approx(make().heights, abs=1e-13)
+
+
+def test_a_stretched_spectrum_keeps_its_power():
+    """int C2D d2q does not change, as the stretch has determinant 1; the slopes become steeper across the lay."""
+    grid = rc.Grid((256, 256), 1 / 256)
+    ring = SelfAffineSpectrum(0.5, cutoff_wavelength=1 / 16, short_wavelength=1 / 32)
+    base, stretched = (
+        surface_moments(synthesise(grid, s, np.random.default_rng(5)), "spectral")
+        for s in (ring, StretchedSpectrum(ring, 2.0, 0.3))
+    )
+    # Waves on the rim of the band are in or out: some sqrt(rim) of the pi (32^2 - 16^2) waves, 1 %.
+    assert stretched.m0 == pytest.approx(base.m0, rel=0.02)
+    assert stretched.m2 == pytest.approx(base.m2 * (2 + 1 / 2) / 2, rel=0.02)
+
+
+def test_a_spectrum_of_the_wave_vector():
+    spectrum = DirectionalSpectrum(lambda qy, qx: 1e-33 * np.exp(-((qy / 2e7) ** 2)) / (1 + (qx / 1e7) ** 2))
+    surface = synthesise(RECTANGLE, spectrum, np.random.default_rng(6))
+    mesh, free = all_waves(RECTANGLE)
+    np.testing.assert_allclose(estimated(surface)[free], spectrum.at(*mesh)[free], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "more", "message"),
+    [
+        (DirectionalSpectrum(lambda qy, qx: 2 + np.sign(qx + 1e-3 * qy)), {}, r"the same at \(qy, qx\)"),
+        (lambda q: -q, {}, "not negative"),
+        (lambda q: q * np.nan, {}, "must be finite"),
+        (lambda q: np.ones(3), {}, "returned shape"),
+        (SelfAffineSpectrum(0.8, dimension=1), {}, "make it with dimension=2"),
+        (SelfAffineSpectrum(0.8), {"rms": -1.0}, "rms must be positive"),
+        (SelfAffineSpectrum(0.8), {"amplitudes": "loud"}, "amplitudes must be"),
+        (SelfAffineSpectrum(0.8), {"grid": LINE}, "make it with dimension=1"),
+        (StretchedSpectrum(SelfAffineSpectrum(0.8), 2.0), {"grid": LINE}, "two axes"),
+    ],
+)
+def test_nonsense_spectra_are_refused(spectrum, more, message):
+    options = {"grid": SQUARE, **more}
+    with pytest.raises(ValueError, match=message):
+        synthesise(options.pop("grid"), spectrum, np.random.default_rng(0), **options)

@@ -18,7 +18,7 @@ from roughcontact.files.heightmap import HeightMap, as_heights
 __all__ = ["list_npz", "read_npy", "read_npz"]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
-_MEANINGS = ("spacing", "size", "unit", "periodic")
+_MEANINGS = ("spacing", "size", "unit", "periodic", "history")
 
 
 def read_npy(data: bytes, file: str) -> HeightMap:
@@ -30,8 +30,8 @@ def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     """Return one array of a ``.npz`` file.
 
     The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
-    name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m] and ``periodic`` (one truth
-    value) say what it means, where they are present.
+    name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m], ``periodic`` (one truth value, or
+    one an axis) and ``history`` (lines of text) say what it means, where they are present.
     """
     arrays = _arrays(data, file)
     names = _channels(arrays)
@@ -46,7 +46,8 @@ def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
         channel=chosen,
         unit=None if unit is None else _unit(unit, file),
         spacing=_spacing(arrays, heights.shape, file),
-        periodic=_periodic(arrays, file),
+        periodic=_periodic(arrays, heights.ndim, file),
+        history=_history(arrays, file),
     )
 
 
@@ -58,7 +59,7 @@ def list_npz(data: bytes, file: str) -> tuple[Channel, ...]:
     for channel in _channels(arrays):
         size = None
         if channel.is_height and (spacing := _spacing(arrays, channel.shape, file)) is not None:
-            size = (spacing[0] * channel.shape[0], spacing[1] * channel.shape[1])
+            size = tuple(step * n for step, n in zip(spacing, channel.shape, strict=True))
         found.append(
             Channel(channel.name, channel.shape, unit if channel.is_height else None, size, channel.is_height)
         )
@@ -112,28 +113,37 @@ def _unit(value: npt.NDArray[Any], file: str) -> str | float:
     )
 
 
-def _periodic(arrays: Mapping[str, npt.NDArray[Any]], file: str) -> bool:
-    """Return whether the file says that the surface repeats itself."""
+def _periodic(arrays: Mapping[str, npt.NDArray[Any]], ndim: int, file: str) -> bool | tuple[bool, ...]:
+    """Return whether the file says that the surface repeats itself: one word, or one for each axis."""
     value = arrays.get("periodic", np.array(False))
-    if value.size != 1 or value.dtype.kind not in "biu":
+    if value.size not in (1, ndim) or value.dtype.kind not in "biu":
         raise ReadError(file, f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
-    return bool(value.reshape(-1)[0])
+    words = tuple(bool(word) for word in value.reshape(-1))
+    return words if len(words) == ndim else words[0]
+
+
+def _history(arrays: Mapping[str, npt.NDArray[Any]], file: str) -> tuple[str, ...]:
+    value = arrays.get("history", np.array([], dtype="U1"))
+    if value.dtype.kind != "U":
+        raise ReadError(file, f"its key 'history' is of type {value.dtype}", "save lines of text")
+    return tuple(str(line) for line in value.reshape(-1))
 
 
 def _spacing(
     arrays: Mapping[str, npt.NDArray[Any]], shape: tuple[int, ...], file: str
-) -> tuple[float, float] | None:
-    """Return the cell (dy, dx) [m] from the key ``spacing`` or ``size``; one number serves both axes."""
+) -> tuple[float, ...] | None:
+    """Return the cell (dy, dx) or (dx,) [m] from the key ``spacing`` or ``size``; one number serves all axes."""
     for key in ("spacing", "size"):
         if key in arrays:
             value = arrays[key]
-            if value.dtype.kind not in "fiu" or value.size not in (1, 2):
+            if value.dtype.kind not in "fiu" or value.size not in (1, len(shape)):
                 raise ReadError(
                     file, f"its key {key!r} holds {value!r}", "save one number of metres, or two (y, x)"
                 )
-            y, x = (float(v) for v in np.broadcast_to(value.reshape(-1), 2))
+            given = tuple(float(v) for v in np.broadcast_to(value.reshape(-1), len(shape)))
             if key == "spacing":
-                return y, x
+                return given
             # One length is the width of square pixels, as in the keyword `size` of `read`.
-            return (x / shape[1] if value.size == 1 else y / shape[0]), x / shape[1]
+            counts = (shape[-1],) * len(shape) if value.size == 1 else shape
+            return tuple(length / n for length, n in zip(given, counts, strict=True))
     return None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,8 +20,10 @@ __all__ = ["Length", "Size", "assemble", "cell_of"]
 Length = float | str
 Size = Length | Iterable[Length]
 
+_SAME = 1e-6  # a size that is typed repeats one that is stored to its printed digits
 _UNIT_HINT = "unit= with the unit of the heights, such as unit='um'"
 _SIZE_HINT = "size= with the width or (Ly, Lx), such as size='500 um' or size=(4e-4, 5e-4)"
+_LENGTH_HINT = "size= with the length of the line, such as size='500 um'"
 
 
 def assemble(
@@ -30,19 +33,22 @@ def assemble(
     *,
     unit: Length | None,
     size: Size | None,
-    periodic: bool | tuple[bool, bool] | None,
+    periodic: bool | tuple[bool, ...] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and the doubts to speak aloud; the user's word goes before the file's."""
     _require(found, file, unit, size)
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
+    remarks = (*unit_note, *size_note)
+    contradictions = tuple(remark.text for remark in remarks if remark.contradicts)
     if not all(np.isfinite(step) and step > 0 for step in spacing):
-        raise ReadError(file, f"it states cells of {spacing[0]:g} m x {spacing[1]:g} m", f"pass {_SIZE_HINT}")
-    doubts = found.doubts
+        cells = " x ".join(f"{step:g} m" for step in spacing)
+        raise ReadError(file, f"it states cells of {cells}", f"pass {_size_hint(found)}")
     grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
+    claimed = any(found.periodic) if isinstance(found.periodic, tuple) else found.periodic
     periodic_note = (
         ("read as free, though the file says that it is periodic",)
-        if found.periodic and not any(grid.periodic)
+        if claimed and not any(grid.periodic)
         else ()
     )
     with np.errstate(over="ignore"):  # what becomes infinite is refused below
@@ -57,12 +63,12 @@ def assemble(
         surface = Surface(heights, grid)
     except ValueError as error:
         raise ReadError(file, str(error), "check that it is the right file and channel") from error
-    doubts = (*doubts, *doubts_about(surface.heights, grid.lengths))
+    doubts = (*contradictions, *found.doubts, *doubts_about(surface.heights, grid.spacing))
     channel = "" if found.channel is None else f", channel {found.channel!r}"
     provenance = (
+        *found.history,
         f"read from {file} ({found.format}{channel}, sha256 {digest})",
-        *unit_note,
-        *size_note,
+        *(remark.text for remark in remarks if not remark.contradicts),
         *periodic_note,
         *found.notes,
         *doubts,
@@ -82,16 +88,31 @@ def _require(found: HeightMap, file: str, unit: Length | None, size: object) -> 
         hints.append(_UNIT_HINT)
     if size is None and found.spacing is None and found.steps is None:
         problems.append("no size")
-        hints.append(_SIZE_HINT)
+        hints.append(_size_hint(found))
     if problems:
         raise ReadError(file, f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")
 
 
-def _factor(found: HeightMap, unit: Length | None) -> tuple[float, tuple[str, ...]]:
+def _size_hint(found: HeightMap) -> str:
+    return _SIZE_HINT if found.heights.ndim == 2 else _LENGTH_HINT
+
+
+@dataclass(frozen=True, slots=True)
+class _Remark:
+    """What the user states; spoken aloud where it contradicts the file."""
+
+    text: str
+    contradicts: bool
+
+
+def _factor(found: HeightMap, unit: Length | None) -> tuple[float, tuple[_Remark, ...]]:
     """Return the metres in one unit of the heights, and a remark where the user states it."""
     if unit is not None:
+        factor = length_factor(unit)
         stated = "the file states none" if found.unit is None else f"instead of the file's {found.unit}"
-        return length_factor(unit), (f"unit of the heights {unit} as given, {stated}",)
+        known = found.unit is not None and is_length(found.unit)
+        differs = known and not math.isclose(length_factor(found.unit or 1.0), factor, rel_tol=_SAME)
+        return factor, (_Remark(f"unit of the heights {unit} as given, {stated}", differs),)
     if found.unit is None:
         raise AssertionError("a missing unit is refused before")
     return length_factor(found.unit), ()
@@ -99,31 +120,34 @@ def _factor(found: HeightMap, unit: Length | None) -> tuple[float, tuple[str, ..
 
 def _spacing(
     found: HeightMap, factor: float, size: Size | None
-) -> tuple[tuple[float, float], tuple[str, ...]]:
-    """Return the cell (dy, dx) [m], and a remark where the user states the size."""
-    ny, nx = found.heights.shape
+) -> tuple[tuple[float, ...], tuple[_Remark, ...]]:
+    """Return the cell (dy, dx) or (dx,) [m], and a remark where the user states the size."""
+    shape = found.heights.shape
     stated = found.spacing
     if stated is None and found.steps is not None:
-        stated = (found.steps[0] * factor, found.steps[1] * factor)
+        stated = tuple(step * factor for step in found.steps)
     if size is None:
         if stated is None:
             raise AssertionError("a missing size is refused before")
         return stated, ()
-    spacing = cell_of(size, (ny, nx))
-    instead = (
-        "the file states none"
-        if stated is None
-        else f"instead of the file's {stated[0] * ny:.6g} x {stated[1] * nx:.6g}"
-    )
-    return spacing, (f"size {spacing[0] * ny:.6g} x {spacing[1] * nx:.6g} m (y, x) as given, {instead}",)
+    spacing = cell_of(size, shape)
+    instead = "the file states none" if stated is None else f"instead of the file's {_lengths(stated, shape)}"
+    axes = " (y, x)" if len(shape) == 2 else ""
+    # Numbers without a unit, the steps, state nothing that could be contradicted.
+    differs = found.spacing is not None and not np.allclose(found.spacing, spacing, rtol=_SAME, atol=0)
+    return spacing, (_Remark(f"size {_lengths(spacing, shape)} m{axes} as given, {instead}", differs),)
 
 
-def cell_of(size: Size, shape: tuple[int, int]) -> tuple[float, float]:
-    """Return the cell (dy, dx) [m] of a map (ny, nx) from its width (square cells) or from (Ly, Lx)."""
+def _lengths(spacing: tuple[float, ...], shape: tuple[int, ...]) -> str:
+    return " x ".join(f"{step * n:.6g}" for step, n in zip(spacing, shape, strict=True))
+
+
+def cell_of(size: Size, shape: tuple[int, ...]) -> tuple[float, ...]:
+    """Return the cell of a map (ny, nx) from its width (square cells) or from (Ly, Lx), of a line (n,) from Lx."""
     if isinstance(size, str) or not isinstance(size, Iterable):
-        step = parse_length(size) / shape[1]
-        return step, step
+        return (parse_length(size) / shape[-1],) * len(shape)
     lengths = tuple(size)
-    if len(lengths) != 2:
-        raise ValueError(f"size needs a width or two lengths (Ly, Lx), not {len(lengths)}: {lengths}")
-    return parse_length(lengths[0]) / shape[0], parse_length(lengths[1]) / shape[1]
+    if len(lengths) != len(shape):
+        wanted = "a width or two lengths (Ly, Lx)" if len(shape) == 2 else "one length"
+        raise ValueError(f"size needs {wanted}, not {len(lengths)}: {lengths}")
+    return tuple(parse_length(length) / n for length, n in zip(lengths, shape, strict=True))

@@ -31,7 +31,7 @@ class Channel:
     unit : str or float, optional
         Unit of its values, or metres per unit.
     size : tuple of float, optional
-        Size (Ly, Lx) [m].
+        Size (Ly, Lx) [m]; one length for a line scan.
     is_height : bool
         Whether it can be read as heights.
     """
@@ -39,7 +39,7 @@ class Channel:
     name: str
     shape: tuple[int, ...]
     unit: str | float | None
-    size: tuple[float, float] | None
+    size: tuple[float, ...] | None
     is_height: bool
 
 

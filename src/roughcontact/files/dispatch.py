@@ -5,34 +5,42 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from roughcontact.files.arrays import read_npy, read_npz
+from roughcontact.files.arrays import list_npz, read_npy, read_npz
 from roughcontact.files.channels import Channel, pick
 from roughcontact.files.errors import ReadError
-from roughcontact.files.foreign import read_foreign
-from roughcontact.files.heightmap import HeightMap
+from roughcontact.files.foreign import list_foreign, read_foreign
+from roughcontact.files.heightmap import HeightMap, require_line, require_map
+from roughcontact.files.netcdf import list_netcdf, read_netcdf
+from roughcontact.files.profile import read_profile
+from roughcontact.files.sur import read_sur
 from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
-__all__ = ["SINGLE", "content", "height_map", "only_channel", "suffix"]
+__all__ = ["channels_of", "content", "height_map", "line_scan"]
 
-# Readers of ours whose files hold a single map.
-SINGLE = {
+_TEXTS = (".txt", ".csv", ".tsv", ".asc")
+# Readers of ours whose files hold a single map or line scan, and those whose files hold channels.
+_SINGLE = {
     ".npy": read_npy,
-    ".txt": read_text,
-    ".csv": read_text,
-    ".tsv": read_text,
-    ".asc": read_text,
+    **dict.fromkeys(_TEXTS, read_text),
     ".xyz": read_xyz,
     ".x3p": read_x3p,
+    ".sur": read_sur,
+    ".pro": read_sur,
 }
+_SEVERAL = {".npz": read_npz, ".nc": read_netcdf, ".nc4": read_netcdf, ".cdf": read_netcdf}
+_LISTS = {".npz": list_npz, ".nc": list_netcdf, ".nc4": list_netcdf, ".cdf": list_netcdf}
 
 
 def content(path: str | os.PathLike[str]) -> tuple[str, bytes]:
     """Return the name of a file and its bytes; an empty one is refused."""
-    name = Path(path).name or str(path)
+    # A name may hold bytes that are no letters; in messages and provenance they become question marks.
+    name = (Path(path).name or str(path)).encode("utf-8", "replace").decode("utf-8")
     try:
         data = Path(path).read_bytes()
+    except IsADirectoryError as error:
+        raise ReadError(name, "it is a folder", "name a file in it") from error
     except (OSError, ValueError, MemoryError) as error:  # ValueError: a zero byte in the name
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
         raise ReadError(
@@ -43,26 +51,86 @@ def content(path: str | os.PathLike[str]) -> tuple[str, bytes]:
     return name, data
 
 
-def suffix(file: str) -> str:
+def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return what the file says about its map of heights, by the reader of its extension."""
+    kind = _suffix(file)
+    try:
+        found = _found(data, file, channel)
+    except ReadError as error:
+        if kind in _TEXTS and (points := _points_on_a_line(data, file)):
+            raise ReadError(
+                file,
+                f"it is a line scan of {points} heights, not a map ({error.problem})",
+                "read it by read_line",
+            ) from None
+        raise
+    require_map(found, file)
+    return found
+
+
+def line_scan(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return what the file says about its line of heights, by the reader of its extension."""
+    kind = _suffix(file)
+    if kind in _TEXTS:
+        found = read_profile(data, file)
+    elif kind in _SINGLE or kind in _SEVERAL:
+        found = _found(data, file, channel)
+    else:
+        known = ", ".join([*_SINGLE, *_SEVERAL])
+        raise ReadError(
+            file,
+            f"line scans are not read from {kind or 'a file without extension'}",
+            f"export it as one of {known}",
+        )
+    require_line(found, file)
+    return found
+
+
+def channels_of(data: bytes, file: str) -> tuple[Channel, ...]:
+    """Return what the file holds, in its order."""
+    kind = _suffix(file)
+    if kind in _LISTS:
+        return _LISTS[kind](data, file)
+    if kind not in _SINGLE:
+        return list_foreign(data, file)
+    try:
+        found = _SINGLE[kind](data, file)
+    except ReadError:
+        if kind not in _TEXTS or not _points_on_a_line(data, file):
+            raise
+        found = read_profile(data, file)
+    return (_only_channel(found),)
+
+
+def _found(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    kind = _suffix(file)
+    if kind in _SEVERAL:
+        return _SEVERAL[kind](data, file, channel)
+    if kind not in _SINGLE:
+        return read_foreign(data, file, channel)
+    found = _SINGLE[kind](data, file)
+    if channel is not None:
+        pick((_only_channel(found),), channel, file)
+    return found
+
+
+def _points_on_a_line(data: bytes, file: str) -> int:
+    """Return the number of heights of a text that is a line scan, or 0."""
+    try:
+        return len(read_profile(data, file).heights)
+    except ReadError:
+        return 0
+
+
+def _only_channel(found: HeightMap) -> Channel:
+    """Describe the single map or line scan of a file."""
+    shape = found.heights.shape
+    size = None
+    if found.spacing is not None:
+        size = tuple(step * n for step, n in zip(found.spacing, shape, strict=True))
+    return Channel(found.channel or "heights", shape, found.unit, size, is_height=len(shape) == 2)
+
+
+def _suffix(file: str) -> str:
     """Return the extension in lower case."""
     return Path(file).suffix.casefold()
-
-
-def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:
-    """Return what the file says about its heights, by the reader of its extension."""
-    kind = suffix(file)
-    if kind in SINGLE:
-        found = SINGLE[kind](data, file)
-        if channel is not None:
-            pick((only_channel(found),), channel, file)
-        return found
-    if kind == ".npz":
-        return read_npz(data, file, channel)
-    return read_foreign(data, file, channel)
-
-
-def only_channel(found: HeightMap) -> Channel:
-    """Describe the single map of a file."""
-    ny, nx = found.heights.shape
-    size = None if found.spacing is None else (found.spacing[0] * ny, found.spacing[1] * nx)
-    return Channel(found.channel or "heights", (ny, nx), found.unit, size, is_height=True)

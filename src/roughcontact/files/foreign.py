@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import sys
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -24,7 +25,10 @@ __all__ = ["list_foreign", "read_foreign"]
 Result = TypeVar("Result")
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
-_OURS = {"asc": ".txt", "matrix": ".txt", "xyz": ".xyz", "npy": ".npy", "npz": ".npz", "x3p": ".x3p"}
+_OURS = {
+    **{"asc": ".txt", "matrix": ".txt", "xyz": ".xyz", "npy": ".npy", "npz": ".npz", "x3p": ".x3p"},
+    **{"nc": ".nc", "sur": ".sur"},
+}
 # Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
 _UNMARKED = {"hgt": ".hgt", "nms": ".nms"}
 # Formats whose lateral size comes out wrong (by 1e6): the size must be given.
@@ -63,7 +67,7 @@ def _with_reader(data: bytes, file: str, work: Callable[[Any], Result]) -> Resul
             raise ReadError(
                 file,
                 f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
-                "run: pip install roughcontact[formats]",
+                f"run: {sys.executable} -m pip install 'roughcontact[formats]'",
             ) from error
         try:
             # Bytes in memory leave no open file behind when a reader gives up half-way.
@@ -162,7 +166,8 @@ def _is_map(channel: Channel) -> bool:
 def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) -> tuple[int, tuple[str, ...]]:
     """Return the position of the channel to read, and a doubt where another would do as well."""
     if wanted is not None:
-        return pick(channels, wanted, file), ()
+        index = pick(channels, wanted, file)
+        return index, _doubts(channels[index])
     if not any(map(_is_map, channels)):
         raise ReadError(
             file,
@@ -185,6 +190,15 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) ->
     return heights[0], (
         f"{len(heights)} channels are heights ({names}); took {chosen!r}, pass channel= for another",
     )
+
+
+def _doubts(channel: Channel) -> tuple[str, ...]:
+    """Return a doubt about a map that the user chose and that speaks of something else than heights."""
+    other_unit = channel.unit is not None and not is_length(channel.unit)
+    if not _is_map(channel) or not (other_unit or names_something_else(channel.name)):
+        return ()
+    unit = f" in {channel.unit}" if other_unit else ""
+    return (f"channel {channel.name!r}{unit} is not marked as heights, and read as heights all the same",)
 
 
 def _map(reader: Any, index: int, channel: Channel, file: str, doubts: tuple[str, ...]) -> HeightMap:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.files.errors import ReadError
 
-__all__ = ["Array", "HeightMap", "as_heights"]
+__all__ = ["Array", "HeightMap", "as_heights", "require_line", "require_map"]
 
 Array = npt.NDArray[np.float64]
 
@@ -21,8 +21,9 @@ class HeightMap:
 
     Parameters
     ----------
-    heights : array, shape (ny, nx)
-        Heights in `unit`; the first row is the top of the picture; NaN where nothing was measured.
+    heights : array, shape (ny, nx) or (n,)
+        Heights of a map or of a line scan in `unit`; the first row is the top of the picture; NaN where nothing
+        was measured.
     format : str
         Name of the format, for the provenance.
     channel : str, optional
@@ -30,11 +31,13 @@ class HeightMap:
     unit : str or float, optional
         Unit of the heights as the file states it, or metres per unit; None where it is silent.
     spacing : tuple of float, optional
-        Size of a cell (dy, dx) [m]; None where the file is silent.
+        Size of a cell (dy, dx) or (dx,) [m]; None where the file is silent.
     steps : tuple of float, optional
-        Size of a cell (dy, dx) in the unit of the heights, where the file gives numbers without a unit.
-    periodic : bool
+        Size of a cell in the unit of the heights, where the file gives numbers without a unit.
+    periodic : bool or tuple of bool
         Whether the file says that the surface repeats itself.
+    history : tuple of str
+        The provenance that the file itself carries.
     notes, doubts : tuple of str
         Lines for the provenance; doubts are spoken aloud as well.
     """
@@ -43,29 +46,48 @@ class HeightMap:
     format: str
     channel: str | None = None
     unit: str | float | None = None
-    spacing: tuple[float, float] | None = None
-    steps: tuple[float, float] | None = None
-    periodic: bool = False
+    spacing: tuple[float, ...] | None = None
+    steps: tuple[float, ...] | None = None
+    periodic: bool | tuple[bool, ...] = False
+    history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
 
 
 def as_heights(values: npt.NDArray[Any], file: str) -> Array:
-    """Return `values` as a map of heights (ny, nx), or refuse it."""
+    """Return `values` as heights of a map (ny, nx) or of a line (n,), or refuse them."""
     if values.dtype.kind not in "fiu":
         raise ReadError(file, f"its values are of type {values.dtype}", "save the heights as real numbers")
-    if values.ndim != 2:
+    if values.ndim not in (1, 2):
         shape = " x ".join(map(str, values.shape)) or "one number"
-        what = "a line scan" if values.ndim == 1 else f"{values.ndim}-dimensional ({shape})"
-        raise ReadError(file, f"it is {what}", "give a two-dimensional map of heights, rows by columns")
-    if min(values.shape) < 2:
-        shape = " x ".join(map(str, values.shape))
+        raise ReadError(file, f"it is {values.ndim}-dimensional ({shape})", _MAP)
+    # A damaged file may hold signalling NaN or numbers beyond double precision.
+    with np.errstate(all="ignore"):
+        return values.astype(np.float64)
+
+
+def require_map(found: HeightMap, file: str) -> None:
+    """Refuse what is no map of at least 2 x 2 heights."""
+    shape = found.heights.shape
+    if len(shape) == 1:
+        raise ReadError(file, f"it is a line scan of {shape[0]} heights", f"{_MAP}, or use read_line")
+    if min(shape) < 2:
+        points = " x ".join(map(str, shape))
         raise ReadError(
             file,
-            f"it holds {shape} heights, a line scan at most",
-            "give a two-dimensional map of at least 2 x 2 heights",
+            f"it holds {points} heights, a line scan at most",
+            "give a two-dimensional map of at least 2 x 2 heights, or use read_line",
         )
-    with np.errstate(
-        all="ignore"
-    ):  # a damaged file may hold signalling NaN or numbers beyond double precision
-        return values.astype(np.float64)
+
+
+def require_line(found: HeightMap, file: str) -> None:
+    """Refuse what is no line of at least two heights."""
+    shape = found.heights.shape
+    if len(shape) != 1:
+        points = " x ".join(map(str, shape))
+        raise ReadError(file, f"it is a map of {points} heights, no line scan", "use read")
+    if shape[0] < 2:
+        raise ReadError(file, f"it holds {shape[0]} heights", "give a line scan of at least 2 heights")
+
+
+_MAP = "give a two-dimensional map of heights, rows by columns"

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import os
 
-from roughcontact.files.arrays import list_npz
 from roughcontact.files.channels import Channel
-from roughcontact.files.dispatch import SINGLE, content, only_channel, suffix
-from roughcontact.files.foreign import list_foreign
+from roughcontact.files.dispatch import channels_of, content
 
 __all__ = ["Channel", "channels"]
 
@@ -21,9 +19,4 @@ def channels(path: str | os.PathLike[str]) -> tuple[Channel, ...]:
         If the file cannot be read.
     """
     file, data = content(path)
-    kind = suffix(file)
-    if kind in SINGLE:
-        return (only_channel(SINGLE[kind](data, file)),)
-    if kind == ".npz":
-        return list_npz(data, file)
-    return list_foreign(data, file)
+    return channels_of(data, file)

@@ -11,10 +11,10 @@ import numpy as np
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import Array
 
-__all__ = ["Table", "parse_table"]
+__all__ = ["Table", "decode", "parse_table"]
 
 _HOLE = "write nan where a point was not measured, so that all rows are equally long"
-_PLAIN = "give rows of numbers only; lines of explanation before them start with #; a line scan is not a map"
+_PLAIN = "give rows of numbers only; lines of explanation before them start with #"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +40,7 @@ def parse_table(data: bytes, file: str) -> Table:
     rows: list[tuple[int, str]] = []
     interrupted = False
     interruption = 0  # the line of an empty line or comment after the first row
-    for number, line in enumerate(_decode(data, file).split("\n"), start=1):
+    for number, line in enumerate(decode(data, file).split("\n"), start=1):
         bare = line.strip()
         if bare.startswith("#") or not bare:
             if bare:
@@ -65,7 +65,7 @@ def parse_table(data: bytes, file: str) -> Table:
     return Table(values, tuple(comments))
 
 
-def _decode(data: bytes, file: str) -> str:
+def decode(data: bytes, file: str) -> str:
     """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
     utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:

@@ -65,7 +65,12 @@ def provenance(
     if command is not None:
         text = command if isinstance(command, str) else " ".join(command)
         lines["history"] = f"{now}: {text}"
-    return {name: value for name, value in lines.items() if value is not None}
+    return {name: _plain(value) for name, value in lines.items() if value is not None}
+
+
+def _plain(value: str | float) -> str | float:
+    """Return words that every file can hold: bytes of a file name that are no letters become question marks."""
+    return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 
 
 def surface_hash(surface: Surface) -> str:

@@ -1,18 +1,20 @@
-"""Read a measured surface from a file."""
+"""Read a measured surface, or a line scan, from a file."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import warnings
+from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
-from roughcontact.files.dispatch import content, height_map
+from roughcontact.files.dispatch import content, height_map, line_scan
 from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.units import length_factor
 from roughcontact.surface.surface import Surface
 
-__all__ = ["read"]
+__all__ = ["read", "read_line"]
 
 
 def read(
@@ -25,8 +27,9 @@ def read(
 ) -> Surface:
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
-    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz`` and ``.x3p`` are read strictly; every
-    other format needs SurfaceTopography, ``pip install roughcontact[formats]``.
+    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc`` and ``.sur`` are read
+    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A line scan is
+    refused: see `read_line`.
 
     Parameters
     ----------
@@ -59,16 +62,71 @@ def read(
     Warns
     -----
     SurfaceWarning
-        If several channels may be meant, or if the size or the heights are hardly those of a surface.
+        If several channels may be meant, or if the size or the heights are hardly those of a surface: lone
+        spikes, slopes or heights beyond measure, random numbers.
     """
+    return _read(path, height_map, 2, channel, unit, size, periodic)
+
+
+def read_line(
+    path: str | os.PathLike[str],
+    *,
+    channel: str | int | None = None,
+    unit: Length | None = None,
+    size: Size | None = None,
+    periodic: bool | None = None,
+) -> Surface:
+    """Return the line scan in a file as a surface on a grid of one axis, heights [m] of shape (n,).
+
+    Texts (``.txt``, ``.csv``, ``.tsv``, ``.asc``) hold one column of heights, or places and heights, under any
+    lines of words; ``.npy``, ``.npz``, ``.nc``, ``.x3p`` (profiles) and ``.pro`` (Digital Surf) are read as well.
+
+    Parameters
+    ----------
+    path, channel, unit, periodic
+        As for `read`.
+    size : length, optional
+        Length of the line, ``n * spacing``: a number [m] or a text such as ``"10 um"``. It goes before what the
+        file states.
+
+    Returns
+    -------
+    Surface
+        To be pressed, it needs an operator of its own kind: ``press(line, modulus, operator=...)``.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, empty, damaged, a map, unevenly spaced, or silent about a unit or size not given.
+    ValueError
+        If `unit` or `size` is not a length.
+
+    Warns
+    -----
+    SurfaceWarning
+        As for `read`.
+    """
+    return _read(path, line_scan, 1, channel, unit, size, periodic)
+
+
+def _read(
+    path: str | os.PathLike[str],
+    reader: Callable[[bytes, str, str | int | None], HeightMap],
+    ndim: int,
+    channel: str | int | None,
+    unit: Length | None,
+    size: Size | None,
+    periodic: bool | tuple[bool, ...] | None,
+) -> Surface:
     if unit is not None:
         length_factor(unit)  # a wrong keyword is refused before the file is touched
     if size is not None:
-        cell_of(size, (1, 1))
+        size = tuple(size) if isinstance(size, Iterable) and not isinstance(size, str) else size
+        cell_of(size, (1,) * ndim)
     file, data = content(path)
-    found = height_map(data, file, channel)
+    found = reader(data, file, channel)
     digest = hashlib.sha256(data).hexdigest()[:16]
     surface, doubts = assemble(found, file, digest, unit=unit, size=size, periodic=periodic)
     for doubt in doubts:
-        warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=2)
+        warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=3)
     return surface

@@ -44,7 +44,7 @@ def read_text(data: bytes, file: str) -> HeightMap:
         raise ReadError(
             file,
             f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
-            "name a list of x, y, z .xyz; a line scan is not a map",
+            "name a list of x, y, z .xyz; read a line scan by read_line",
         )
     spacing = None
     if header.width is not None and header.height is not None:

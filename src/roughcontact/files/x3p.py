@@ -27,14 +27,15 @@ def read_x3p(data: bytes, file: str) -> HeightMap:
     folder, main = _main(data, file)
     root = parse_xml(main, file)
     axes = root.child("Record1/Axes")
-    if (kind := root.text("Record1/FeatureType", "SUR")) != "SUR":
+    shape = _shape(root, file)
+    kind = root.text("Record1/FeatureType", "SUR")
+    if kind != "SUR" and not (kind == "PRF" and shape[0] == 1):
         raise ReadError(
             file, f"it holds a feature of type {kind}, not a surface (SUR)", "give a map of heights"
         )
-    for axis in ("CX", "CY"):
+    for axis in ("CX", "CY") if kind == "SUR" else ("CX",):
         if axes.text(f"{axis}/AxisType", "I") != "I":
             raise ReadError(file, f"its axis {axis} is not incremental", f"{_AGAIN} on a regular grid")
-    shape = _shape(root, file)
     values, notes = _values(data, file, folder, main, root, shape)
     # An absolute axis needs no increment, but writers of whole numbers put their scale there.
     with np.errstate(all="ignore"):
@@ -42,6 +43,9 @@ def read_x3p(data: bytes, file: str) -> HeightMap:
     if infinite := int(np.isinf(heights).sum()):  # some instruments mark missing points by infinity
         heights = np.where(np.isinf(heights), np.nan, heights)
         notes = (*notes, f"{infinite} infinite heights count as missing")
+    if kind == "PRF":
+        line = as_heights(heights[0], file)
+        return HeightMap(line, "X3P", unit="m", spacing=(axes.number("CX/Increment"),), notes=notes)
     return HeightMap(
         as_heights(heights, file),
         "X3P",

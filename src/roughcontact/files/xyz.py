@@ -53,7 +53,19 @@ def read_xyz(data: bytes, file: str) -> HeightMap:
         spacing=(dy * length_factor(units[1]), dx * length_factor(units[0])) if units else None,
         steps=(dy, dx),
         notes=("the first row has the smallest y",),
+        doubts=_cut_short(rows, columns, (ny, nx)),
     )
+
+
+def _cut_short(
+    rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], shape: tuple[int, int]
+) -> tuple[str, ...]:
+    """Return a doubt where points in the order of a scan end within its last line."""
+    ny, nx = shape
+    for places in (rows * nx + columns, columns * ny + rows):
+        if len(places) < ny * nx and np.array_equal(places, np.arange(len(places))):
+            return (f"it ends after {len(places)} of {ny * nx} points, within a line: it may be cut short",)
+    return ()
 
 
 def _places(coordinates: Array, file: str, axis: str) -> tuple[npt.NDArray[np.intp], float]:
@@ -61,7 +73,9 @@ def _places(coordinates: Array, file: str, axis: str) -> tuple[npt.NDArray[np.in
     levels, inverse = np.unique(coordinates, return_inverse=True)
     if len(levels) < 2:
         raise ReadError(
-            file, f"all its points share one {axis}: it is a line scan", "give a two-dimensional map"
+            file,
+            f"all its points share one {axis}: it is a line scan",
+            "give a two-dimensional map, or use read_line on places and heights",
         )
     gaps = np.diff(levels)
     # The smallest gap is off by the printed digits; the median of those like it is not.

@@ -1,4 +1,4 @@
-"""Self-affine surfaces by the inverse Fourier transform."""
+"""Random surfaces and lines by the inverse Fourier transform."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
+from roughcontact.surface.waves import Spectrum, Support, multiplicity, wave_powers, wavenumbers
 
-__all__ = ["self_affine", "wavenumbers"]
+__all__ = ["self_affine", "synthesise", "wavenumbers"]
 
 Array = npt.NDArray[np.float64]
 
@@ -27,11 +28,12 @@ def self_affine(
     rolloff_wavelength: float | None = None,
     cutoff_wavelength: float | None = None,
     short_wavelength: float | None = None,
-    support: Literal["square", "disc"] = "square",
+    anisotropy: tuple[float, float] | None = None,
+    support: Support = "square",
     amplitudes: Literal["exact", "gaussian"] = "exact",
     nodal: bool = False,
 ) -> Surface:
-    """Return a random self-affine surface (thesis, eqs 2.13 to 2.15 as corrected).
+    """Return a random self-affine surface or line (thesis, eqs 2.10 to 2.15 as corrected).
 
     The phases are random; the amplitudes follow the spectrum exactly, so that every sample has the same
     power spectrum and exactly the wanted rms height. The same generator state gives the
@@ -40,16 +42,19 @@ def self_affine(
     Parameters
     ----------
     grid : Grid
-        Two-dimensional grid of the surface.
+        Grid of the surface, ``(ny, nx)``, or of the line, ``(n,)``.
     hurst : float
-        Hurst exponent, from -1 to 3.
+        Hurst exponent, from -1 to 3: C2D ~ q^(-2(H+1)), on a line C1D ~ q^(-(2H+1)).
     rms : float
-        Root mean square height [m]: of this sample, set after synthesis; with Gaussian amplitudes that of
+        Root mean square height [m]: of this sample; with Gaussian amplitudes that of
         the process, about which samples scatter.
     rng : numpy.random.Generator
         Source of the phases.
     rolloff_wavelength, cutoff_wavelength, short_wavelength : float, optional
         Limits of the power law [m], see `SelfAffineSpectrum`.
+    anisotropy : tuple of float, optional
+        ``(ratio, angle)``: correlation length along over that across, and the direction
+        of the long one from x towards y [rad], see `StretchedSpectrum`. For surfaces only.
     support : {"square", "disc"}
         All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
     amplitudes : {"exact", "gaussian"}
@@ -66,65 +71,94 @@ def self_affine(
     Raises
     ------
     ValueError
-        If the grid has one axis, a parameter is out of range, or no wave is left.
+        If a parameter is out of range, or no wave is left.
     """
-    if grid.ndim != 2:
-        raise ValueError(f"self_affine makes surfaces: the grid needs two axes, not {grid.ndim}")
     if not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
-    if not isinstance(rng, np.random.Generator):
-        raise ValueError(f"rng must be a numpy.random.Generator, for example default_rng(0), not {rng!r}")
-    if nodal and any(grid.periodic):
-        raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
-    if nodal and min(grid.shape) < 3:
-        raise ValueError(f"a nodal grid needs at least 3 x 3 nodes, not {grid.shape}")
-    spectrum = SelfAffineSpectrum(hurst, rolloff_wavelength, cutoff_wavelength, short_wavelength)
-
-    shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
-    amplitude = np.sqrt(spectrum(wavenumbers(shape, grid.spacing)))  # B2D, eq. 2.14, up to its scale
-    _drop_nyquist(amplitude, shape)
-    if support == "disc":
-        limit = math.pi / max(grid.spacing)
-        amplitude[wavenumbers(shape, grid.spacing) > limit] = 0
-    elif support != "square":
-        raise ValueError(f"support must be 'square' or 'disc', not {support!r}")
-    if not amplitude.any():
-        raise ValueError(
-            "no wave of this grid lies inside the limits of the spectrum: widen them or the grid"
-        )
-
-    # The transform of real white noise has the Hermitian phases of eq. 2.15 built in.
-    noise = scipy.fft.rfft2(rng.standard_normal(shape))
-    if amplitudes == "exact":
-        modulus = np.abs(noise)
-        noise = np.divide(noise, modulus, out=np.zeros_like(noise), where=modulus > 0)
-    elif amplitudes != "gaussian":
-        raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
-    heights = scipy.fft.irfft2(noise * amplitude, s=shape, overwrite_x=True)
-    heights *= rms / (np.std(heights) if amplitudes == "exact" else _process_rms(amplitude, heights.size))
-    if nodal:
-        heights = np.pad(heights, ((0, 1), (0, 1)), mode="wrap")
+    law = SelfAffineSpectrum(hurst, rolloff_wavelength, cutoff_wavelength, short_wavelength, grid.ndim)
+    spectrum: Spectrum = law if anisotropy is None else StretchedSpectrum(law, *anisotropy)
+    heights = _heights(grid, spectrum, rng, rms, support, amplitudes, nodal)
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}, rms = {rms:g} m, inverse FFT",))
 
 
-def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
-    """Return |q| [rad/m] of the waves of a real transform over a grid of two axes, shape ``(ny, nx//2 + 1)``."""
-    (ny, nx), (dy, dx) = shape, spacing
-    qy = 2 * np.pi * scipy.fft.fftfreq(ny, dy)
-    qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
-    return np.asarray(np.hypot(qy[:, None], qx))
+def synthesise(
+    grid: Grid,
+    spectrum: Spectrum,
+    rng: np.random.Generator,
+    *,
+    rms: float | None = None,
+    support: Support = "square",
+    amplitudes: Literal["exact", "gaussian"] = "exact",
+    nodal: bool = False,
+) -> Surface:
+    """Return a random surface or line with a given power spectrum (thesis, eqs 2.11 to 2.15 as corrected).
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the surface, ``(ny, nx)``, or of the line, ``(n,)``.
+    spectrum : callable or object with a method ``at``
+        ``spectrum(q)``: C2D [m^4] of a surface at the wavenumbers |q| [rad/m], or the two-sided C1D [m^3] of a
+        line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction wrap a
+        function of ``(qy, qx)`` in `DirectionalSpectrum`. It is never asked for q = 0.
+    rng : numpy.random.Generator
+        Source of the phases.
+    rms : float, optional
+        Root mean square height [m]; without it the spectrum is taken as it is, and not just as a shape.
+    support, amplitudes, nodal
+        See `self_affine`.
+
+    Returns
+    -------
+    Surface
+        With zero mean (a nodal one over its period). Its moments are `grid_moments` of the spectrum,
+        with exact amplitudes to rounding.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, the spectrum is negative, not finite or not even, or no wave is left.
+    """
+    if rms is not None and not (math.isfinite(rms) and rms > 0):
+        raise ValueError(f"rms must be positive and finite [m], not {rms}")
+    heights = _heights(grid, spectrum, rng, rms, support, amplitudes, nodal)
+    size = "" if rms is None else f", rms = {rms:g} m"
+    return Surface(heights, grid, (f"random surface of a given spectrum{size}, inverse FFT",))
 
 
-def _process_rms(amplitude: Array, size: int) -> float:
-    """Return the rms of the Gaussian process whose white noise of unit variance is coloured by `amplitude`."""
-    # Columns beyond the first stand for two waves each; the Nyquist column is empty.
-    return math.sqrt((2 * (amplitude**2).sum() - (amplitude[:, 0] ** 2).sum()) / size)
+def _heights(
+    grid: Grid,
+    spectrum: Spectrum,
+    rng: np.random.Generator,
+    rms: float | None,
+    support: Support,
+    amplitudes: str,
+    nodal: bool,
+) -> Array:
+    """Return the heights of eqs 2.12 and 2.15; the border has looked at `rms`, the rest is looked at here."""
+    if not isinstance(rng, np.random.Generator):
+        raise ValueError(f"rng must be a numpy.random.Generator, for example default_rng(0), not {rng!r}")
+    if amplitudes not in ("exact", "gaussian"):
+        raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
+    if nodal and any(grid.periodic):
+        raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
+    if nodal and min(grid.shape) < 3:
+        raise ValueError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}")
 
+    shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
+    amplitude = wave_powers(spectrum, shape, grid.spacing, support)
+    scale = 1.0 if rms is None else rms / math.sqrt((amplitude * multiplicity(shape)).sum())
+    np.sqrt(amplitude, out=amplitude)  # B, eqs 2.11 and 2.14
 
-def _drop_nyquist(amplitude: Array, shape: tuple[int, ...]) -> None:
-    """Set the self-conjugate row and column of an even grid to zero: their phases could not be free."""
-    ny, nx = shape
-    if ny % 2 == 0:
-        amplitude[ny // 2, :] = 0
-    if nx % 2 == 0:
-        amplitude[:, nx // 2] = 0
+    # The transform of real white noise has the Hermitian phases of eq. 2.15 built in.
+    noise = scipy.fft.rfftn(rng.standard_normal(shape))
+    size = math.prod(shape)
+    if amplitudes == "exact":
+        modulus = np.abs(noise)
+        np.divide(noise, modulus, out=noise, where=modulus > 0)
+    else:
+        scale /= math.sqrt(size)  # to unit variance a wave
+    noise *= amplitude
+    heights = np.asarray(scipy.fft.irfftn(noise, s=shape, overwrite_x=True))
+    heights *= scale * size
+    return np.pad(heights, [(0, 1)] * grid.ndim, mode="wrap") if nodal else heights

@@ -1,45 +1,75 @@
-"""The power spectrum of a self-affine surface, up to its scale."""
+"""Power spectra: the self-affine law with its limits, and spectra that depend on the direction."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SelfAffineSpectrum"]
+from roughcontact.grid import Grid
+from roughcontact.surface.moments import Moments, grid_moments
+from roughcontact.surface.waves import Support
+
+__all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
 Array = npt.NDArray[np.float64]
 
 
+class RadialSpectrum(Protocol):
+    """What theories ask of an isotropic spectrum: its values, its band and its moments."""
+
+    @property
+    def q_min(self) -> float:
+        """Smallest wavenumber [rad/m]; 0 if there is none."""
+
+    @property
+    def q_max(self) -> float:
+        """Largest wavenumber [rad/m]; infinite if there is none."""
+
+    def __call__(self, wavenumber: Array) -> Array:
+        """Return C2D [m^4] at the wavenumbers [rad/m]; zero outside the band."""
+
+    def moments(self) -> Moments:
+        """Return the moments of the continuous spectrum."""
+
+
 @dataclass(frozen=True, slots=True)
 class SelfAffineSpectrum:
-    """The shape of C2D(q), a power law q^(-2(H+1)) between its limits (thesis, eqs 2.13 and fig. 34).
+    """C2D(q), a power law q^(-2(H+1)) between its limits (thesis, eqs 2.10, 2.13 and fig. 34).
 
-    Only the shape: the scale of a surface is its rms height, set after synthesis.
+    Without a scale it is a shape, and the scale of a surface is its rms height; `scaled` gives it one.
 
     Parameters
     ----------
     hurst : float
-        Hurst exponent H, from -1 (white) to 3.
+        Hurst exponent H, from -1 to 3. Heights are white at -1, on a line at -1/2.
     rolloff_wavelength : float, optional
         Longer waves than this [m] have the amplitude of this one (a plateau).
     cutoff_wavelength : float, optional
         Longer waves than this [m] are absent.
     short_wavelength : float, optional
         Shorter waves than this [m] are absent.
+    dimension : {2, 1}
+        C2D of a surface, or the two-sided C1D ~ q^(-2H-1) of a line.
+    scale : float
+        Value of the power law at 1 rad/m: of C2D in m^4, of C1D in m^3.
 
     Raises
     ------
     ValueError
-        If H is out of range, or a wavelength is not positive, or the limits leave no wave.
+        If H is out of range, or a wavelength or the scale is not positive, or the limits leave no wave.
     """
 
     hurst: float
     rolloff_wavelength: float | None = None
     cutoff_wavelength: float | None = None
     short_wavelength: float | None = None
+    dimension: int = 2
+    scale: float = 1.0
 
     def __post_init__(self) -> None:
         if not -1 <= self.hurst <= 3:
@@ -53,17 +83,166 @@ class SelfAffineSpectrum:
             raise ValueError(
                 f"short_wavelength {self.short_wavelength} m exceeds cutoff_wavelength {longest} m: no wave is left"
             )
+        if self.dimension not in (1, 2):
+            raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
+        if not (math.isfinite(self.scale) and self.scale > 0):
+            raise ValueError(f"scale must be positive and finite, not {self.scale}")
+
+    @property
+    def q_min(self) -> float:
+        """Smallest wavenumber [rad/m], that of `cutoff_wavelength`; 0 without one."""
+        return 0.0 if self.cutoff_wavelength is None else 2 * math.pi / self.cutoff_wavelength
+
+    @property
+    def q_max(self) -> float:
+        """Largest wavenumber [rad/m], that of `short_wavelength`; infinite without one."""
+        return math.inf if self.short_wavelength is None else 2 * math.pi / self.short_wavelength
+
+    @property
+    def q_rolloff(self) -> float:
+        """Wavenumber [rad/m] below which the spectrum is flat; 0 without a plateau."""
+        return 0.0 if self.rolloff_wavelength is None else 2 * math.pi / self.rolloff_wavelength
 
     def __call__(self, wavenumber: Array) -> Array:
-        """Return C2D(q)/C2D(1) at the `wavenumber` q [rad/m]; zero at q = 0."""
+        """Return C(q), m^4 on a surface and m^3 on a line, at the `wavenumber` q [rad/m]; zero at q = 0."""
         q = np.asarray(wavenumber, dtype=np.float64)
-        plateau = 0.0 if self.rolloff_wavelength is None else 2 * math.pi / self.rolloff_wavelength
-        bent = np.maximum(q, plateau)
+        bent = np.maximum(q, self.q_rolloff)
         with np.errstate(divide="ignore"):
-            shape = np.where(q > 0, bent ** (-2 * (self.hurst + 1)), 0.0)
+            shape = np.where(q > 0, self.scale * bent ** (-2 * self.hurst - self.dimension), 0.0)
         # A wave that sits on a limit belongs to the spectrum, whatever the last digit of its wavelength.
-        if self.cutoff_wavelength is not None:
-            shape[q < 2 * math.pi / self.cutoff_wavelength * (1 - 1e-9)] = 0
-        if self.short_wavelength is not None:
-            shape[q > 2 * math.pi / self.short_wavelength * (1 + 1e-9)] = 0
+        shape[q < self.q_min * (1 - 1e-9)] = 0
+        shape[q > self.q_max * (1 + 1e-9)] = 0
         return shape
+
+    def moments(self) -> Moments:
+        """Return the moments of the continuous spectrum, in closed form (thesis, eq. 4.18).
+
+        An integral that diverges for want of a limit is infinite: m0 without `cutoff_wavelength` or
+        `rolloff_wavelength` for H >= 0, and m2 without `short_wavelength` for H <= 1, for example.
+        """
+        # The angular mean of cos^n times the angle's range, and of a line its two sides.
+        factors = (2.0, 2.0, 2.0) if self.dimension == 1 else (2 * math.pi, math.pi, 3 * math.pi / 4)
+        m0, m2, m4 = (factor * self._integral(n) for n, factor in zip((0, 2, 4), factors, strict=True))
+        return Moments(m0, m2, m4, self.dimension)
+
+    def scaled(self, rms: float, grid: Grid | None = None, support: Support = "square") -> SelfAffineSpectrum:
+        """Return the spectrum with the scale that belongs to an rms height.
+
+        Parameters
+        ----------
+        rms : float
+            Root mean square height [m].
+        grid : Grid, optional
+            Of the waves of this grid, as `self_affine` makes them. By default of all waves between the limits;
+            the two differ, since a sum over a few long waves is no integral.
+        support : {"square", "disc"}
+            Which waves of the grid, see `self_affine`.
+
+        Raises
+        ------
+        ValueError
+            If `rms` is not positive, or the continuous spectrum has no finite rms height.
+        """
+        if not (math.isfinite(rms) and rms > 0):
+            raise ValueError(f"rms must be positive and finite [m], not {rms}")
+        m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
+        if not 0 < m0 < math.inf:
+            raise ValueError(
+                f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "
+                "give cutoff_wavelength or rolloff_wavelength, and short_wavelength, or a grid"
+            )
+        return replace(self, scale=self.scale * (rms**2 / m0))
+
+    def _integral(self, n: int) -> float:
+        """Return the integral of q^(n + dimension - 1) C(q) over the band."""
+        bend = min(max(self.q_rolloff, self.q_min), self.q_max)
+        total = _power_integral(n - 2 * self.hurst, bend, self.q_max)
+        if bend > self.q_min:
+            plateau = math.pow(self.q_rolloff, -2 * self.hurst - self.dimension)
+            total += plateau * _power_integral(n + self.dimension, self.q_min, bend)
+        return self.scale * total
+
+
+@dataclass(frozen=True, slots=True)
+class StretchedSpectrum:
+    """An isotropic spectrum of a surface that was stretched along one direction and shrunk across it.
+
+    ``C2D(qy, qx) = C(|q'|)`` with ``q'^2 = ratio q_along^2 + q_across^2 / ratio``: the rms height stays as it
+    is, and the ratio of the correlation lengths along and across is `ratio`.
+
+    Parameters
+    ----------
+    spectrum : callable
+        C2D(|q|) [m^4]. Its limits become ellipses.
+    ratio : float
+        Correlation length along over that across, positive.
+    angle : float
+        Direction along which the structures are long, from the x axis towards the y axis [rad]. As y
+        runs down the rows, positive angles turn clockwise in the picture.
+
+    Raises
+    ------
+    ValueError
+        If `ratio` is not positive or `angle` not finite, or the spectrum is that of a line.
+    """
+
+    spectrum: Callable[[Array], Array]
+    ratio: float
+    angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.ratio) and self.ratio > 0):
+            raise ValueError(f"the ratio of an anisotropy must be positive and finite, not {self.ratio}")
+        if not math.isfinite(self.angle):
+            raise ValueError(f"the angle of an anisotropy must be finite [rad], not {self.angle}")
+        if getattr(self.spectrum, "dimension", 2) != 2:
+            raise ValueError("a line has no direction: stretch the spectrum of a surface, dimension=2")
+
+    def at(self, qy: Array, qx: Array) -> Array:
+        """Return C2D [m^4] at the wave vectors ``(qy, qx)`` [rad/m]."""
+        cos, sin = math.cos(self.angle), math.sin(self.angle)
+        along, across = qx * cos + qy * sin, qy * cos - qx * sin
+        stretch = math.sqrt(self.ratio)
+        return self.spectrum(np.hypot(stretch * along, across / stretch))
+
+
+@dataclass(frozen=True, slots=True)
+class DirectionalSpectrum:
+    """A spectrum given as a function of the wave vector.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(qy, qx)`` returns C2D [m^4] for arrays of components [rad/m] of any shape. The first component
+        is that along y, as everywhere.
+    """
+
+    function: Callable[[Array, Array], Array]
+
+    def at(self, qy: Array, qx: Array) -> Array:
+        """Return C2D [m^4] at the wave vectors ``(qy, qx)`` [rad/m].
+
+        Raises
+        ------
+        ValueError
+            If the function is not even: heights are real, so q and -q are one wave.
+        """
+        there, back = np.asarray(self.function(qy, qx)), np.asarray(self.function(-qy, -qx))
+        if not np.allclose(there, back, rtol=1e-9, atol=0):
+            raise ValueError(
+                "the spectrum must be the same at (qy, qx) and (-qy, -qx): use the mean of the two"
+            )
+        return there
+
+
+def _power_integral(exponent: float, low: float, high: float) -> float:
+    """Return the integral of q^(exponent - 1) from `low` to `high`, infinite where it diverges."""
+    if not low < high:
+        return 0.0
+    if low == 0:
+        return math.pow(high, exponent) / exponent if exponent > 0 else math.inf
+    if high == math.inf:
+        return -math.pow(low, exponent) / exponent if exponent < 0 else math.inf
+    # Without the difference of two powers: exact down to exponent = 0, the logarithm (H = 0, 1, 2).
+    ratio = math.log(high / low)
+    return math.pow(low, exponent) * (math.expm1(exponent * ratio) / exponent if exponent else ratio)

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
+from roughcontact.surface.filters import filtered
+from roughcontact.surface.levelling import levelled, without_form
+from roughcontact.surface.missing import filled
+from roughcontact.surface.orientation import flipped, rotated, transposed
+from roughcontact.surface.sampling import averaged, cropped, downsampled
+from roughcontact.surface.taper import tapered
+from roughcontact.surface.tip import scanned
 
 __all__ = ["Surface"]
 
@@ -38,8 +46,11 @@ class Surface:
     grid: Grid
     provenance: tuple[str, ...] = ()
 
+    # NumPy's numbers leave a product with a surface to the surface.
+    __array_ufunc__: ClassVar[None] = None
+
     def __post_init__(self) -> None:
-        given = np.asarray(self.heights)
+        given = np.ma.filled(self.heights, np.nan) if np.ma.isMaskedArray(self.heights) else np.asarray(self.heights)
         if given.dtype.kind not in "fiu":
             raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
         heights = np.array(given, dtype=np.float64)  # a copy: a surface never changes
@@ -57,6 +68,40 @@ class Surface:
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
+    def __add__(self, other: Surface) -> Surface:
+        """Return the sum of the heights of two surfaces on one grid; missing where either is missing."""
+        return self._joined(other, 1) if isinstance(other, Surface) else NotImplemented
+
+    def __sub__(self, other: Surface) -> Surface:
+        """Return the difference of the heights of two surfaces on one grid; missing where either is missing."""
+        return self._joined(other, -1) if isinstance(other, Surface) else NotImplemented
+
+    def __mul__(self, factor: float) -> Surface:
+        """Return the surface with its heights times a number."""
+        if not isinstance(factor, int | float | np.integer | np.floating):
+            return NotImplemented
+        if not math.isfinite(factor):
+            raise ValueError(f"heights can be multiplied by a finite number, not by {factor}")
+        return replace(
+            self,
+            heights=self.heights * float(factor),
+            provenance=(*self.provenance, f"heights times {factor:g}"),
+        )
+
+    __rmul__ = __mul__
+
+    def _joined(self, other: Surface, sign: int) -> Surface:
+        mine, theirs = self.grid, other.grid
+        # Spacings that were computed in two ways differ in their last digits.
+        if (mine.shape, mine.periodic) != (theirs.shape, theirs.periodic) or not np.allclose(
+            mine.spacing, theirs.spacing, rtol=1e-9, atol=0
+        ):
+            raise ValueError(
+                f"surfaces are added on one grid, not {mine} and {theirs}: bring one onto the other by resampled()"
+            )
+        line = ("plus: " if sign > 0 else "minus: ") + ("; ".join(other.provenance) or "a surface")
+        return Surface(self.heights + sign * other.heights, mine, (*self.provenance, line))
+
     @property
     def measured(self) -> npt.NDArray[np.bool_]:
         """Mask of the points that hold a height, shape ``grid.shape``."""
@@ -72,28 +117,16 @@ class Surface:
         """Root mean square height about the mean, over the measured points [m] (thesis, eq. 4.12)."""
         return float(np.nanstd(self.heights))
 
-    def levelled(self, kind: Literal["mean", "plane"] = "plane") -> Surface:
-        """Return the surface less its mean height or its least-squares plane; missing points are ignored."""
-        if kind == "mean":
-            trend: Any = np.nanmean(self.heights)
-        elif kind == "plane":
-            trend = _plane(self.heights)
-        else:
-            raise ValueError(f"levelling must be 'mean' or 'plane', not {kind!r}")
-        return replace(
-            self, heights=self.heights - trend, provenance=(*self.provenance, f"levelled by its {kind}")
-        )
-
-
-def _plane(heights: Array) -> Array:
-    """Return the least-squares plane (on a line: the straight line) through the measured heights."""
-    # Centred coordinates in [-1, 1] keep the normal equations well conditioned at any size and unit.
-    axes = [np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in heights.shape]
-    basis = [np.ones(heights.shape), *np.broadcast_arrays(*np.meshgrid(*axes, indexing="ij"))]
-    measured = ~np.isnan(heights)
-    matrix = np.stack([b[measured] for b in basis], axis=1)
-    # The offset is taken out first, so that heights far from zero keep their digits.
-    offset = heights[measured].mean()
-    coefficients = np.linalg.lstsq(matrix, heights[measured] - offset, rcond=None)[0]
-    plane: Array = offset + sum(c * b for c, b in zip(coefficients, basis, strict=True))
-    return plane
+    # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
+    levelled = levelled
+    without_form = without_form
+    filtered = filtered
+    cropped = cropped
+    downsampled = downsampled
+    averaged = averaged
+    filled = filled
+    tapered = tapered
+    scanned = scanned
+    transposed = transposed
+    flipped = flipped
+    rotated = rotated

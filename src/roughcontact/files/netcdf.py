@@ -1,0 +1,236 @@
+"""NetCDF, classic or on HDF5: the layout of contact.engineering, our own, and maps with even coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.files.channels import Channel, names_a_height, names_something_else, pick
+from roughcontact.files.errors import ReadError
+from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.units import is_length, length_factor
+
+__all__ = ["list_netcdf", "read_netcdf"]
+
+_AGAIN = "copy the file again, or write it once more"
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+# Coordinates and lengths are often computed in single precision.
+_EVEN = 1e-5
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Variable:
+    dimensions: tuple[str, ...]
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    attributes: Mapping[str, Any]
+    load: Callable[[], npt.NDArray[Any]]
+
+    def word(self, *names: str) -> str | None:
+        """Return the first of these attributes that is there, as text."""
+        for name in names:
+            value = self.attributes.get(name)
+            if value is not None:
+                text = value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+                return text.strip() or None
+        return None
+
+    def numbers(self) -> npt.NDArray[np.float64]:
+        """Return the values as float64, NaN where they are marked as missing."""
+        values = self.load()
+        # What is odd about damaged numbers shows later, in the heights.
+        with np.errstate(all="ignore"):
+            result = values.astype(np.float64)
+            for name in ("_FillValue", "missing_value"):
+                if name in self.attributes:
+                    result[np.isin(values, np.asarray(self.attributes[name]))] = np.nan
+            for name, apply in (("scale_factor", np.multiply), ("add_offset", np.add)):
+                if name in self.attributes:
+                    result = apply(result, float(np.asarray(self.attributes[name]).reshape(-1)[0]))
+        return result
+
+
+def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return one variable of two dimensions, or of one for a line scan.
+
+    It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
+    rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
+    from the attribute ``length`` of the coordinates, or from coordinates with even steps.
+    """
+    with _opened(data, file) as (variables, attributes):
+        found = _channels(variables)
+        if channel is None and "heights" in variables:
+            channel = "heights"
+        name = found[pick(found, channel, file)].name
+        chosen = variables[name]
+        heights = as_heights(_checked(chosen, name, file), file)
+        if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
+            heights = np.where(variables["mask"].load() != 0, np.nan, heights)
+        axes = chosen.dimensions
+        if axes == ("x", "y"):
+            heights, axes = heights.T, ("y", "x")
+        return HeightMap(
+            heights,
+            "NetCDF",
+            channel=name,
+            unit=chosen.word("unit", "units"),
+            spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units"), file),
+            periodic=_periodic(variables, axes),
+            history=_history(attributes),
+        )
+
+
+def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
+    """Return the variables that can be maps or line scans."""
+    with _opened(data, file) as (variables, _):
+        return _channels(variables)
+
+
+@contextmanager
+def _opened(data: bytes, file: str) -> Iterator[tuple[dict[str, _Variable], Mapping[str, Any]]]:
+    """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
+    try:
+        if data.startswith(b"CDF"):
+            from scipy.io import netcdf_file
+
+            reader: Any = netcdf_file
+            with reader(BytesIO(data), "r", mmap=False) as classic:
+                yield _classic(classic), dict(classic._attributes)
+        elif data.startswith(_HDF5):
+            import h5py
+
+            with h5py.File(BytesIO(data), "r") as modern:
+                yield _modern(modern), dict(modern.attrs)
+        else:
+            raise ReadError(file, "it is not a NetCDF file", "check its extension; copy it again")
+    except ReadError:
+        raise
+    except Exception as error:  # damaged files fail in a dozen ways, down to OverflowError
+        reason = (str(error).strip().splitlines() or [""])[0][:120] or type(error).__name__
+        raise ReadError(file, f"it is damaged ({reason})", _AGAIN) from error
+
+
+def _classic(file: Any) -> dict[str, _Variable]:
+    return {
+        name: _Variable(
+            tuple(v.dimensions), tuple(v.shape), v.data.dtype, dict(v._attributes), partial(_values, v)
+        )
+        for name, v in file.variables.items()
+    }
+
+
+def _modern(file: Any) -> dict[str, _Variable]:
+    """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
+    found = {}
+    for name, values in file.items():
+        # Groups have no shape; a dimension without values says so in its own attribute NAME.
+        if not hasattr(values, "shape") or "not a netCDF variable" in str(values.attrs.get("NAME", "")):
+            continue
+        axes = [str(axis[0].name).lstrip("/") if len(axis) else "" for axis in values.dims]
+        if values.is_scale and values.ndim == 1:
+            axes = [name]
+        attributes = {key: value for key, value in values.attrs.items() if not key.isupper()}
+        found[name] = _Variable(tuple(axes), values.shape, values.dtype, attributes, partial(_values, values))
+    return found
+
+
+def _values(variable: Any) -> npt.NDArray[Any]:
+    return np.array(variable[...])
+
+
+def _channels(variables: Mapping[str, _Variable]) -> tuple[Channel, ...]:
+    """Return what can be pressed: maps, and the line scan named ``heights``."""
+    maps = {
+        name: v
+        for name, v in variables.items()
+        if (len(v.shape) == 2 or name == "heights") and v.dtype.kind in "fiu" and name != "mask"
+    }
+    return tuple(
+        Channel(
+            name,
+            v.shape[::-1] if v.dimensions == ("x", "y") else v.shape,
+            v.word("unit", "units"),
+            None,
+            names_a_height(name) or (len(maps) == 1 and not names_something_else(name)),
+        )
+        for name, v in maps.items()
+    )
+
+
+def _checked(variable: _Variable, name: str, file: str) -> npt.NDArray[np.float64]:
+    values = variable.numbers()
+    if values.shape != variable.shape:
+        raise ReadError(
+            file, f"its {name} holds {values.shape} numbers where {variable.shape} are announced", _AGAIN
+        )
+    return values
+
+
+def _spacing(
+    variables: Mapping[str, _Variable],
+    axes: tuple[str, ...],
+    shape: tuple[int, ...],
+    unit: str | None,
+    file: str,
+) -> tuple[float, ...] | None:
+    """Return the cell [m] along `axes`, or None where the file leaves an axis open."""
+    own = variables.get("spacing")
+    if own is not None and own.shape == (len(axes),) and is_length(own.word("unit", "units")):
+        factor = length_factor(own.word("unit", "units") or "")
+        return tuple(float(step) * factor for step in own.numbers())
+    steps = [
+        _step(variables[axis], axis, n, unit, file) if axis in variables else None
+        for axis, n in zip(axes, shape, strict=True)
+    ]
+    known = tuple(step for step in steps if step is not None)
+    return known if len(known) == len(steps) else None
+
+
+def _step(coordinate: _Variable, axis: str, count: int, unit: str | None, file: str) -> float | None:
+    """Return the step [m] of a coordinate from its length or its values, which must not contradict each other."""
+    unit = coordinate.word("unit", "units") or unit
+    if not is_length(unit) or coordinate.shape != (count,) or count < 2:
+        return None
+    places = coordinate.numbers()
+    steps = np.diff(places)
+    step = (places[-1] - places[0]) / (count - 1)
+    slack = _EVEN * np.abs(places).max()
+    # A zero or NaN step passes here and is refused with the size of a cell.
+    if (np.abs(steps - step) > slack).any():
+        raise ReadError(
+            file, f"its coordinates along {axis} are not even", "interpolate to a regular grid first"
+        )
+    if "length" in coordinate.attributes:
+        length = float(np.asarray(coordinate.attributes["length"]).reshape(-1)[0])
+        if not abs(length / count - abs(step)) <= slack:
+            raise ReadError(
+                file, f"its length {length:g} along {axis} contradicts {count} steps of {step:g}", _AGAIN
+            )
+        step = length / count
+    return abs(float(step)) * length_factor(unit or "")
+
+
+def _periodic(variables: Mapping[str, _Variable], axes: tuple[str, ...]) -> tuple[bool, ...]:
+    own = variables.get("periodic")
+    if own is not None and own.shape == (len(axes),) and own.dtype.kind in "biu":
+        return tuple(bool(value) for value in own.load())
+    return tuple(
+        bool(np.asarray(variables[axis].attributes.get("periodic", 0)).reshape(-1)[0])
+        if axis in variables
+        else False
+        for axis in axes
+    )
+
+
+def _history(attributes: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the provenance that our own writers leave."""
+    text = attributes.get("input_surface", "")
+    text = text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
+    return tuple(line for line in text.split("\n") if line)

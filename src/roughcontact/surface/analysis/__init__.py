@@ -1,0 +1,1 @@
+"""What a surface is like: spectra, correlation, Hurst exponent, summits."""

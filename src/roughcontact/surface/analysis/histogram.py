@@ -1,0 +1,66 @@
+"""How the heights are distributed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.surface import Surface
+
+__all__ = ["HeightHistogram", "height_histogram"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeightHistogram:
+    """The distribution of measured heights about their mean.
+
+    Parameters
+    ----------
+    edges : array, shape (n + 1,)
+        Edges of the bins [m].
+    count : array of int, shape (n,)
+        Points in each bin.
+    rms : float
+        Root mean square height about the mean [m].
+    """
+
+    edges: Array
+    count: npt.NDArray[np.int64]
+    rms: float
+
+    @property
+    def density(self) -> Array:
+        """Probability density in each bin [1/m]; its integral is 1."""
+        return np.asarray(self.count / (self.count.sum() * np.diff(self.edges)))
+
+    @property
+    def centres(self) -> Array:
+        """Middle of each bin [m]."""
+        return np.asarray((self.edges[1:] + self.edges[:-1]) / 2)
+
+    def gaussian(self, height: npt.ArrayLike) -> Array:
+        """Return the density [1/m] of a normal distribution of the same rms at the `height` [m]."""
+        if self.rms == 0:
+            raise ValueError("all heights are equal: there is no normal distribution of rms 0")
+        z = np.asarray(height, dtype=np.float64) / self.rms
+        return np.asarray(np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * self.rms))
+
+
+def height_histogram(surface: Surface, bins: int = 100) -> HeightHistogram:
+    """Return the histogram of the heights above their mean, missing points ignored.
+
+    Raises
+    ------
+    ValueError
+        If the number of bins is not a positive whole number.
+    """
+    if int(bins) != bins or bins < 1:
+        raise ValueError(f"bins must be a positive whole number, not {bins}")
+    heights = surface.heights[surface.measured]
+    heights -= heights.mean()
+    count, edges = np.histogram(heights, bins=int(bins))
+    return HeightHistogram(edges, count, surface.rms)

@@ -1,0 +1,203 @@
+"""The Hurst exponent from a power spectrum, by likelihood."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
+from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.spectra import power_spectrum
+from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
+from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.surface import Surface
+
+__all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
+
+Array = npt.NDArray[np.float64]
+# Bins narrow enough that a law as steep as q^-8 is straight in each to 1e-3.
+FINE = 200.0
+
+
+@dataclass(frozen=True, slots=True)
+class HurstFit:
+    """A self-affine law fitted to a surface.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H.
+    standard_error : float
+        Of H, for a Gaussian surface that follows the law.
+    density : float
+        Density of the law at `wavenumber`: C2D [m^4] or C1D [m^3].
+    wavenumber : float
+        Where the law has this density [rad/m].
+    kind : {"C2D", "C1D"}
+        Which density: of the surface or of its profiles.
+    rolloff_wavelength : float or None
+        Waves longer than this [m] have its amplitude (thesis, fig. 34).
+    cutoff_wavelength : float or None
+        Waves longer than this [m] are outside the law.
+    short_wavelength : float or None
+        Waves shorter than this [m] are outside the law.
+    misfit : float
+        Mean square of the deviations in units of their expected scatter: near 1 where the law holds.
+        The standard error says nothing about a law that does not hold.
+    band : tuple of float
+        Wavenumbers [rad/m] that the fit has seen; for a structure function 2 pi over its lags.
+    """
+
+    hurst: float
+    standard_error: float
+    density: float
+    wavenumber: float
+    kind: Literal["C2D", "C1D"]
+    rolloff_wavelength: float | None
+    cutoff_wavelength: float | None
+    short_wavelength: float | None
+    misfit: float
+    band: tuple[float, float]
+
+    @property
+    def exponent(self) -> float:
+        """How steeply the density falls: 2(H + 1) for C2D, 2H + 1 for C1D (thesis, eqs 2.8 and 2.10)."""
+        return 2 * self.hurst + (2 if self.kind == "C2D" else 1)
+
+    def __call__(self, wavenumber: npt.ArrayLike) -> Array:
+        """Return the density of the law at the `wavenumber` [rad/m], zero outside its limits."""
+        q = np.asarray(wavenumber, dtype=np.float64)
+        bent = q if self.rolloff_wavelength is None else np.maximum(q, 2 * np.pi / self.rolloff_wavelength)
+        law = self.density * (bent / self.wavenumber) ** -self.exponent
+        if self.cutoff_wavelength is not None:
+            law = np.where(q < 2 * np.pi / self.cutoff_wavelength, 0.0, law)
+        if self.short_wavelength is not None:
+            law = np.where(q > 2 * np.pi / self.short_wavelength, 0.0, law)
+        return np.asarray(law)
+
+
+def hurst_exponent(
+    surface: Surface,
+    *,
+    limit: Limit = "auto",
+    q_min: float | None = None,
+    q_max: float | None = None,
+    window: Window = "auto",
+) -> HurstFit:
+    """Return the Hurst exponent of a surface or line from its power spectrum, with its standard error.
+
+    Parameters
+    ----------
+    surface : Surface
+        Without missing points. On a grid of two axes the surface counts as isotropic.
+    limit : {"auto", "none", "rolloff", "cutoff"}
+        How the law may end, see `fit_spectrum`.
+    q_min, q_max : float, optional
+        The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
+        should be cut where its instrument no longer follows, see `PowerSpectrum`.
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+        See `power_spectrum`.
+
+    Returns
+    -------
+    HurstFit
+
+    Raises
+    ------
+    ValueError
+        If points are missing or the band holds too few waves.
+    """
+    spectrum = power_spectrum(surface, "auto", window=window, per_decade=FINE)
+    return fit_spectrum(spectrum, limit=limit, q_min=q_min, q_max=q_max)
+
+
+def fit_spectrum(
+    spectrum: PowerSpectrum,
+    *,
+    limit: Limit = "auto",
+    q_min: float | None = None,
+    q_max: float | None = None,
+) -> HurstFit:
+    """Return the likeliest self-affine law of a `spectrum`.
+
+    The powers of the waves of a Gaussian surface are independent and exponentially distributed about the
+    spectrum (Whittle's likelihood), and their means over bins follow a Gamma distribution. No logarithm of
+    a noisy density is taken, so that no bias comes from it.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        In bins narrow against the law: ``power_spectrum(..., per_decade=200)``. In rings one wave wide the
+        first few are not.
+    limit : {"auto", "none", "rolloff", "cutoff"}
+        How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level;
+        and, but for "none", whether it ends in another level toward short waves. With "auto" each end
+        is there only if the likelihood gains more by it than by chance.
+    q_min, q_max : float, optional
+        The band to fit [rad/m]; by default the one to be relied upon.
+
+    Returns
+    -------
+    HurstFit
+
+    Raises
+    ------
+    ValueError
+        If the band holds fewer than four bins, or no power.
+    """
+    if limit not in ("auto", "none", "rolloff", "cutoff"):
+        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'cutoff', not {limit!r}")
+    band = spectrum.within(q_min, q_max)
+    if band.wavenumber.size < 4 or not band.density.any():
+        raise ValueError(
+            f"a fit needs four bins with power: there are {np.count_nonzero(band.density)} between "
+            f"{band.q_min:g} and {band.q_max:g} rad/m"
+        )
+    limits = find_limits(band, limit)
+    bend = math.log(band.wavenumber[limits.bend]) if limits.bend else -math.inf
+    centre = float(np.average(np.log(band.wavenumber), weights=band.freedom))
+    edges = (step_at(band, limits.first), step_at(band, limits.last))
+    for _ in range(3):  # under a window the law and the places of its limits depend on each other
+        inside = clear_bins(band, limits, edges)
+        q = band.wavenumber[inside]
+        slope = likeliest(np.maximum(np.log(q), bend) - centre, band, inside)
+        if band.smear == 0:
+            break
+        edges = (
+            sharpened(band, slope, centre, edges[0], True),
+            sharpened(band, slope, centre, edges[1], False),
+        )
+
+    hurst = (slope.exponent - (2 if band.kind == "C2D" else 1)) / 2
+    law = np.exp(slope.level - slope.exponent * (np.maximum(np.log(q), bend) - centre))
+    law *= 1 + smearing(slope.exponent, band, inside)
+    ratio = band.density[inside] / law
+    return HurstFit(
+        hurst=hurst,
+        standard_error=slope_error(np.log(q), bend, slope.exponent, band.freedom[inside]) / 2,
+        density=math.exp(slope.level),
+        wavenumber=math.exp(centre),
+        kind=band.kind,
+        rolloff_wavelength=2 * math.pi / math.exp(bend) if limits.bend else None,
+        cutoff_wavelength=_wavelength(edges[0]),
+        short_wavelength=_wavelength(edges[1]),
+        misfit=_misfit(q, ratio, band.freedom[inside]),
+        band=(float(band.wavenumber[0]), float(band.wavenumber[-1])),
+    )
+
+
+def _wavelength(wavenumber: float) -> float | None:
+    return None if math.isnan(wavenumber) else 2 * math.pi / wavenumber
+
+
+def _misfit(q: Array, ratio: Array, freedom: Array) -> float:
+    """Return the mean square deviation of the `ratio` from 1 in units of its scatter, in bins of a twentieth decade."""
+    # In narrower bins waves under one window are further apart than they reach, and `freedom` counts them too low.
+    group = np.unique(np.floor(20 * np.log10(q)), return_inverse=True)[1]
+    total = np.bincount(group, freedom)
+    mean = np.bincount(group, freedom * ratio) / total
+    return float(np.mean(total * (mean - 1) ** 2))

@@ -1,0 +1,95 @@
+"""One spectrum from several instruments (thesis, fig. 14)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from roughcontact.surface.analysis.power import PowerSpectrum
+
+__all__ = ["merge_spectra", "spectra_ratio"]
+
+
+def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -> PowerSpectrum:
+    """Return one spectrum over the reliable bands of all `spectra`.
+
+    Where bands overlap, densities are averaged by the number of independent waves behind each. Nothing is
+    scaled to fit: look at `spectra_ratio` first.
+
+    Parameters
+    ----------
+    spectra : sequence of PowerSpectrum
+        All of one kind. Each is cut to its own ``q_min`` to ``q_max``; set these by ``spectrum.within(...)``.
+    per_decade : float
+        Bins to a factor of ten in wavenumber.
+
+    Returns
+    -------
+    PowerSpectrum
+        With no window of its own: the bands begin where windows no longer matter.
+
+    Raises
+    ------
+    ValueError
+        If there is no spectrum, or kinds differ.
+    """
+    parts = _of_one_kind(spectra)
+    arrays = [
+        np.concatenate([getattr(part, name) for part in parts])
+        for name in ("wavenumber", "density", "count", "freedom")
+    ]
+    # Equal wavenumbers of two instruments count as one bin before the values go into a spectrum.
+    q, group = np.unique(np.log(arrays[0]).round(12), return_inverse=True)
+    weight, number = arrays[3], arrays[2]
+    freedom = np.asarray(np.bincount(group, weight), dtype=np.float64)
+    whole = PowerSpectrum(
+        wavenumber=np.exp(q),
+        density=np.bincount(group, weight * arrays[1]) / freedom,
+        kind=parts[0].kind,
+        count=np.asarray(np.bincount(group, number), dtype=np.float64),
+        freedom=freedom,
+        q_min=min(part.q_min for part in parts),
+        q_max=max(part.q_max for part in parts),
+    )
+    return whole.rebinned(per_decade)
+
+
+def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, float]:
+    """Return the mean ratio of two densities, `one` to the `other`, where both are reliable, and its standard error.
+
+    A ratio that lies many standard errors from 1 says that the instruments have not seen the same surface.
+
+    Raises
+    ------
+    ValueError
+        If kinds differ or the bands share less than two bins of a tenth of a decade.
+    """
+    _of_one_kind((one, other))
+    low, high = max(one.q_min, other.q_min), min(one.q_max, other.q_max)
+    if not low < high:
+        raise ValueError(f"the bands do not overlap: one begins at {low:g}, the other ends at {high:g} rad/m")
+    first, second = (s.within(low, high).rebinned(10) for s in (one, other))
+    bins, others = (np.floor(np.log10(s.wavenumber) * 10 + 1e-9).astype(np.int64) for s in (first, second))
+    shared, at_first, at_second = np.intersect1d(bins, others, return_indices=True)
+    if shared.size < 2:
+        raise ValueError(
+            f"the bands share {shared.size} bin(s) from {low:g} to {high:g} rad/m: too few to compare"
+        )
+    ratio = np.log(first.density[at_first] / second.density[at_second])
+    variance = 1 / first.freedom[at_first] + 1 / second.freedom[at_second]
+    mean = float(np.average(ratio, weights=1 / variance))
+    return math.exp(mean), math.exp(mean) / math.sqrt(float((1 / variance).sum()))
+
+
+def _of_one_kind(spectra: Sequence[PowerSpectrum]) -> list[PowerSpectrum]:
+    """Return the reliable part of each spectrum."""
+    if not spectra:
+        raise ValueError("there is no spectrum to merge")
+    kinds = {spectrum.kind for spectrum in spectra}
+    if len(kinds) > 1:
+        raise ValueError(
+            "spectra of surfaces (C2D) and of profiles (C1D) cannot be merged; see surface_spectrum"
+        )
+    return [spectrum.within() for spectrum in spectra]

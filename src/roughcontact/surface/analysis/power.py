@@ -1,0 +1,123 @@
+"""The power spectrum as a value: density over wavenumber, and how well it is known."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["PowerSpectrum"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PowerSpectrum:
+    """A spectrum of heights in bins of increasing wavenumber, in the thesis' normalisation.
+
+    Parameters
+    ----------
+    wavenumber : array, shape (n,)
+        Geometric mean of the wavenumbers in each bin [rad/m].
+    density : array, shape (n,)
+        Mean power spectral density of the bin: C2D [m^4] or two-sided C1D [m^3].
+    kind : {"C2D", "C1D"}
+        Of the surface, ``<h^2> = 2 pi int q C2D dq``, or of its profiles, ``<h^2> = 2 int C1D dq``.
+    count : array, shape (n,)
+        Number of waves in each bin, both signs of the wave vector, over all profiles.
+    freedom : array, shape (n,)
+        Number of independent waves that the mean is worth: its relative variance is ``1/freedom``.
+        Opposite wave vectors, waves under one window and neighbouring profiles are not independent.
+    q_min, q_max : float
+        The band in which the spectrum is to be relied upon [rad/m].
+    smear : float
+        Second moment of the window's kernel along an axis [rad^2/m^2]; 0 without a window.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, or the wavenumbers do not increase from above zero.
+    """
+
+    wavenumber: Array
+    density: Array
+    kind: Literal["C2D", "C1D"]
+    count: Array
+    freedom: Array
+    q_min: float
+    q_max: float
+    smear: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.kind not in ("C2D", "C1D"):
+            raise ValueError(f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
+        for name in ("wavenumber", "density", "count", "freedom"):
+            value = np.array(getattr(self, name), dtype=np.float64)
+            if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
+                raise ValueError(f"{name} must have one value for each wavenumber, not shape {value.shape}")
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+        if not (self.wavenumber.size and self.wavenumber[0] > 0 and (np.diff(self.wavenumber) > 0).all()):
+            raise ValueError("wavenumbers must be positive and increase, and there must be at least one")
+        if not (np.isfinite(self.density).all() and (self.density >= 0).all()):
+            raise ValueError("densities must be finite and not negative")
+        if not (self.freedom > 0).all():
+            raise ValueError("the freedom of every bin must be positive")
+
+    @property
+    def wavelength(self) -> Array:
+        """Wavelength of each bin, 2 pi/q [m]."""
+        return 2 * np.pi / self.wavenumber
+
+    @property
+    def standard_error(self) -> Array:
+        """Standard error of each density, for a Gaussian surface."""
+        return self.density / np.sqrt(self.freedom)
+
+    def within(self, q_min: float | None = None, q_max: float | None = None) -> PowerSpectrum:
+        """Return the bins from `q_min` to `q_max` [rad/m]; by default those to be relied upon.
+
+        Raises
+        ------
+        ValueError
+            If no bin lies in the band.
+        """
+        low = self.q_min if q_min is None else q_min
+        high = self.q_max if q_max is None else q_max
+        keep = (self.wavenumber >= low * (1 - 1e-9)) & (self.wavenumber <= high * (1 + 1e-9))
+        if not keep.any():
+            raise ValueError(
+                f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has "
+                f"{self.wavenumber[0]:g} to {self.wavenumber[-1]:g} rad/m"
+            )
+        return replace(
+            self,
+            wavenumber=self.wavenumber[keep],
+            density=self.density[keep],
+            count=self.count[keep],
+            freedom=self.freedom[keep],
+            q_min=low,
+            q_max=high,
+        )
+
+    def rebinned(self, per_decade: float) -> PowerSpectrum:
+        """Return the spectrum in coarser bins, `per_decade` of them to a factor of ten in wavenumber.
+
+        Densities are averaged by their freedom, logarithms of wavenumbers likewise.
+        """
+        if not per_decade > 0:
+            raise ValueError(f"per_decade must be positive, not {per_decade}")
+        logs = np.log(self.wavenumber)
+        index = np.floor(logs / math.log(10) * per_decade + 1e-9).astype(np.int64)
+        _, group = np.unique(index, return_inverse=True)
+        freedom = np.asarray(np.bincount(group, self.freedom), dtype=np.float64)
+        return replace(
+            self,
+            wavenumber=np.exp(np.bincount(group, self.freedom * logs) / freedom),
+            density=np.bincount(group, self.freedom * self.density) / freedom,
+            count=np.asarray(np.bincount(group, self.count), dtype=np.float64),
+            freedom=freedom,
+        )

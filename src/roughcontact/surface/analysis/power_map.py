@@ -1,0 +1,101 @@
+"""The two-dimensional power spectrum, wave by wave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.fft
+
+from roughcontact.surface.analysis.prepare import Level, power_left, tapered, tapers
+from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.surface import Surface
+
+__all__ = ["PowerMap", "power_map"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PowerMap:
+    """C2D of every wave of a real surface: half a plane, since opposite waves have the same power.
+
+    Parameters
+    ----------
+    density : array, shape (ny, nx//2 + 1)
+        C2D [m^4].
+    qy : array, shape (ny,)
+        Wavenumbers along y [rad/m], in the order of the transform: zero, positive, negative.
+    qx : array, shape (nx//2 + 1,)
+        Wavenumbers along x [rad/m], from zero up.
+    columns : int
+        The nx of the surface, even or odd.
+    """
+
+    density: Array
+    qy: Array
+    qx: Array
+    columns: int
+
+    @property
+    def variance(self) -> float:
+        """The sum of C2D over all waves but the mean, ``<h^2>`` [m^2] (Parseval)."""
+        cell = (self.qy[1] - self.qy[0]) * (self.qx[1] - self.qx[0])
+        both = slice(1, (self.columns + 1) // 2)
+        once = self.density.sum() + self.density[:, both].sum() - self.density[0, 0]
+        return float(once * cell)
+
+    def centred(self) -> tuple[Array, Array, Array]:
+        """Return ``(qy, qx, density)`` of the whole plane, wavenumbers increasing, zero in the middle."""
+        # The wave -q has the power of q.
+        ny, rest = self.density.shape[0], range(self.qx.size, self.columns)
+        mirrored = self.density[np.ix_((-np.arange(ny)) % ny, [self.columns - i for i in rest])]
+        whole = np.fft.fftshift(np.concatenate([self.density, mirrored], axis=1))
+        step = float(self.qx[1] - self.qx[0])
+        qx = np.fft.fftshift(np.fft.fftfreq(self.columns, 1 / self.columns)) * step
+        return np.fft.fftshift(self.qy), qx, whole
+
+
+def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto") -> PowerMap:
+    """Return the two-dimensional power spectrum C2D of a surface (thesis, eqs 2.13 and 2.14).
+
+    Parameters
+    ----------
+    surface : Surface
+        On a grid of two axes, without missing points.
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+        Along both axes; "auto" is none along periodic and Hann along free axes.
+        The power that a window takes away is put back on the average.
+    level : {"auto", "none", "mean", "plane"}
+        What is taken out first; "auto" is the mean and, along free axes, the slope.
+
+    Returns
+    -------
+    PowerMap
+
+    Raises
+    ------
+    ValueError
+        If the surface is a line or too small, has missing points, or an option is unknown.
+    """
+    grid = surface.grid
+    if grid.ndim != 2 or min(grid.shape) < 2:
+        raise ValueError(f"a spectrum map needs a surface of at least 2 x 2 points, not shape {grid.shape}")
+    windows = tapers(surface, window)
+    density = _power(tapered(surface, windows, level, "a power spectrum"))
+    (ny, nx), (dy, dx) = grid.shape, grid.spacing
+    density *= grid.area / (2 * math.pi * grid.size) ** 2 / power_left(windows)
+    qy = 2 * np.pi * scipy.fft.fftfreq(ny, dy)
+    qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
+    return PowerMap(density, qy, qx, nx)
+
+
+def _power(work: Array) -> Array:
+    """Return |rfft2|^2 of `work`, which is overwritten."""
+    waves = scipy.fft.rfft2(work, overwrite_x=True)
+    power = np.empty(waves.shape)
+    for row, wave in zip(power, waves, strict=True):  # row by row: no second array of complex numbers
+        np.add(wave.real**2, wave.imag**2, out=row)
+    return power

@@ -1,0 +1,184 @@
+"""Power spectra over the wavenumber alone: averaged over rings, or over profiles."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+import scipy.fft
+
+from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.power_map import PowerMap, power_map
+from roughcontact.surface.analysis.prepare import Level, tapered, tapers
+from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.surface import Surface
+
+__all__ = ["power_spectrum"]
+
+Array = npt.NDArray[np.float64]
+# A windowed spectrum of a free surface is relied upon from this many waves to its length: the longer ones
+# suffer from levelling and from the width of the window's kernel.
+LONGEST = 3.0
+
+
+def power_spectrum(
+    surface: Surface,
+    direction: Literal["auto", "ring", "x", "y"] = "auto",
+    *,
+    window: Window = "auto",
+    level: Level = "auto",
+    per_decade: float | None = None,
+) -> PowerSpectrum:
+    """Return the power spectrum of a surface or of its profiles.
+
+    Parameters
+    ----------
+    surface : Surface
+        Without missing points.
+    direction : {"auto", "ring", "x", "y"}
+        "ring": C2D averaged over all directions, up to the smaller of the Nyquist wavenumbers; "x", "y":
+        C1D of the profiles along that axis, averaged over them. "auto": rings of a surface, C1D of a line.
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+        "auto" is none along periodic and Hann along free axes. The power that a window
+        takes away is put back on the average.
+    level : {"auto", "none", "mean", "plane"}
+        What is taken out first; "auto" is the mean and, along free axes, the slope. Profiles of a surface
+        also lose their own means.
+    per_decade : float, optional
+        Bins to a factor of ten in wavenumber. By default a bin is one wave of the longer wavelength wide.
+
+    Returns
+    -------
+    PowerSpectrum
+        Without the waves at the Nyquist wavenumber, which stand for two at once.
+
+    Raises
+    ------
+    ValueError
+        If points are missing, an option is unknown, or a line is asked for its rings.
+    """
+    ndim = surface.grid.ndim
+    if direction == "auto":
+        direction = "ring" if ndim == 2 else "x"
+    if direction not in ("ring", "x", "y"):
+        raise ValueError(f"direction must be 'ring', 'x' or 'y', not {direction!r}")
+    if ndim == 1 and direction != "x":
+        raise ValueError(f"a line has profiles along 'x' only, not {direction!r}")
+    if per_decade is not None and not per_decade > 0:
+        raise ValueError(f"per_decade must be positive, not {per_decade}")
+    if direction == "ring":
+        windows = tapers(surface, window)
+        spectrum = _rings(power_map(surface, window=window, level=level), surface, per_decade)
+        overlap = math.prod(w.overlap for w in windows)
+        moments = [
+            w.smear * (2 * math.pi / L) ** 2 for w, L in zip(windows, surface.grid.lengths, strict=True)
+        ]
+        return _as_spectrum(spectrum, "C2D", overlap, sum(moments) / 2, surface)
+    return _profiles(surface, 0 if direction == "y" else ndim - 1, window, level, per_decade)
+
+
+def _rings(waves: PowerMap, surface: Surface, per_decade: float | None) -> tuple[Array, Array, Array]:
+    """Return the wavenumber, the density and the number of waves of each ring."""
+    step = max(2 * math.pi / length for length in surface.grid.lengths)
+    limit = math.pi / max(surface.grid.spacing) * (1 - 1e-12)
+    least = min(2 * math.pi / length for length in surface.grid.lengths)
+    size = (
+        int(limit / step + 0.5) + 1 if per_decade is None else int(per_decade * math.log10(limit / least)) + 1
+    )
+    total, logs, number = (np.zeros(size) for _ in range(3))
+    # Every column but the first (and the Nyquist one, which is left out) stands for two waves.
+    weights = np.where(np.arange(waves.qx.size) == 0, 1.0, 2.0)
+    for qy, row in zip(waves.qy, waves.density, strict=True):
+        if abs(qy) > limit:
+            continue
+        q = np.hypot(qy, waves.qx)
+        keep = (q <= limit) & (q > 0)
+        q, weight = q[keep], weights[keep]
+        ln_q = np.log(q)
+        if per_decade is None:
+            index = (q / step + 0.5).astype(np.int64)
+        else:
+            # The tiny shift keeps the longest waves, which lie on the first edge, inside the first bin.
+            index = (per_decade / math.log(10) * (ln_q - math.log(least)) + 1e-9).astype(np.int64)
+        total += np.bincount(index, weight * row[keep], minlength=size)
+        logs += np.bincount(index, weight * ln_q, minlength=size)
+        number += np.bincount(index, weight, minlength=size)
+    full = number > 0
+    return np.exp(logs[full] / number[full]), total[full] / number[full], number[full]
+
+
+def _profiles(
+    surface: Surface, axis: int, window: Window, level: Level, per_decade: float | None
+) -> PowerSpectrum:
+    """Return C1D of the profiles along `axis`."""
+    grid = surface.grid
+    n, spacing, length = grid.shape[axis], grid.spacing[axis], grid.lengths[axis]
+    if n < 3:
+        raise ValueError(f"a spectrum of profiles needs at least 3 points along them, not {n}")
+    along = tapers(surface, window)[axis]
+    none = tapers(surface, "none")
+    work = tapered(surface, none, level, "a power spectrum")
+    work = np.ascontiguousarray(np.atleast_2d(np.moveaxis(work, axis, -1)))
+    if level != "none":
+        # What is left of a profile's mean after the window would leak into its longest waves.
+        work -= (work @ along.values / along.values.sum())[:, None]
+    work *= along.values
+    waves = scipy.fft.rfft(work, axis=1, overwrite_x=True)[:, 1 : (n + 1) // 2]
+    power = waves.real**2 + waves.imag**2
+    density = power.mean(axis=0) * length / (2 * math.pi * n**2) / along.power
+    freedom = _independent(waves) / along.overlap
+    q = 2 * math.pi / length * np.arange(1, density.size + 1)
+    periodic = grid.periodic[axis]
+    spectrum = PowerSpectrum(
+        wavenumber=q,
+        density=density,
+        kind="C1D",
+        count=np.full(q.shape, 2.0 * work.shape[0]),
+        freedom=freedom,
+        q_min=(1.0 if periodic else LONGEST) * 2 * math.pi / length,
+        q_max=math.pi / spacing,
+        smear=along.smear * (2 * math.pi / length) ** 2,
+    )
+    return spectrum if per_decade is None else spectrum.rebinned(per_decade)
+
+
+def _independent(waves: npt.NDArray[np.complex128]) -> Array:
+    """Return how many independent profiles each column of amplitudes is worth.
+
+    Neighbouring profiles resemble each other. The waves across them do not: with their powers P the number
+    is (sum m)^2/sum m^2 of the means m, and the powers of a Gaussian surface have <P^2> = 2 m^2.
+    """
+    if waves.shape[0] == 1:
+        return np.ones(waves.shape[1])
+    across = scipy.fft.fft(waves, axis=0)
+    power = across.real**2 + across.imag**2
+    square = (power**2).sum(axis=0)
+    ratio = np.divide(power.sum(axis=0) ** 2, square, out=np.ones(square.shape), where=square > 0)
+    return np.asarray(np.clip(2 * ratio - 1, 1, waves.shape[0]))
+
+
+def _as_spectrum(
+    rings: tuple[Array, Array, Array],
+    kind: Literal["C2D"],
+    overlap: float,
+    smear: float,
+    surface: Surface,
+) -> PowerSpectrum:
+    """Return the ring averages with what is known about them."""
+    q, density, number = rings
+    longest = max(
+        (1.0 if periodic else LONGEST) * 2 * math.pi / length
+        for periodic, length in zip(surface.grid.periodic, surface.grid.lengths, strict=True)
+    )
+    return PowerSpectrum(
+        wavenumber=q,
+        density=density,
+        kind=kind,
+        count=number,
+        freedom=number / 2 / overlap,
+        q_min=longest,
+        q_max=math.pi / max(surface.grid.spacing),
+        smear=smear,
+    )

@@ -1,0 +1,54 @@
+"""Spectral moments of a measured spectrum over a band."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.moments import Moments
+
+__all__ = ["spectrum_moments"]
+
+
+def spectrum_moments(
+    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
+) -> Moments:
+    """Return the profile moments m0, m2 and m4 that the waves between `q_min` and `q_max` contribute.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        A surface's (taken for isotropic) or its profiles'. Between its bins the density counts as a power law.
+    q_min, q_max : float, optional
+        The band [rad/m]; by default the one to be relied upon. On a fractal m2 and m4 hang on `q_max`: state it.
+
+    Returns
+    -------
+    Moments
+        ``m0 = 2 pi int q C2D dq``, ``m2 = pi int q^3 C2D dq``, ``m4 = (3 pi/4) int q^5 C2D dq``, or
+        ``mn = 2 int q^n C1D dq``.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two bins with power lie in the band.
+    """
+    band = spectrum.within(q_min, q_max)
+    keep = band.density > 0
+    if keep.sum() < 2:
+        raise ValueError(f"moments need two bins with power in the band, not {int(keep.sum())}")
+    ln_q, ln_c = np.log(band.wavenumber[keep]), np.log(band.density[keep])
+    areal = spectrum.kind == "C2D"
+    factors = (2 * math.pi, math.pi, 3 * math.pi / 4) if areal else (2.0, 2.0, 2.0)
+    moments = np.zeros(3)
+    for i, factor in enumerate(factors):
+        # Each stretch is a power law: exp(a + b t) over the width w, whose integral is its mean by logarithms times w.
+        logs = ln_c + (2 * i + (2 if areal else 1)) * ln_q
+        rise, width = np.diff(logs), np.diff(ln_q)
+        flat = np.abs(rise) < 1e-8
+        mean = np.exp(logs[:-1]) * np.where(flat, 1 + rise / 2, np.expm1(rise) / np.where(flat, 1, rise))
+        moments[i] = factor * float(mean @ width)
+    m0, m2, m4 = (float(value) for value in moments)
+    return Moments(m0, m2, m4, dimension=2 if areal else 1)

@@ -1,0 +1,127 @@
+"""Summits of a surface: where they are and how they are curved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.surface import Surface
+
+__all__ = ["Summits", "find_summits"]
+
+Array = npt.NDArray[np.float64]
+_Heights = Callable[[int, int], Array]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Summits:
+    """The points of a surface that stand above their eight neighbours.
+
+    Parameters
+    ----------
+    rows, columns : array of int, shape (n,)
+        Where they are.
+    height : array, shape (n,)
+        Height above the mean of the surface [m].
+    curvature : array, shape (n, 2)
+        Principal curvatures [1/m], the larger one first; positive on a dome.
+    area : float
+        Of the points that were looked at [m^2].
+    """
+
+    rows: npt.NDArray[np.int64]
+    columns: npt.NDArray[np.int64]
+    height: Array
+    curvature: Array
+    area: float
+
+    @property
+    def count(self) -> int:
+        """Number of summits."""
+        return self.height.size
+
+    @property
+    def density(self) -> float:
+        """Summits per area [1/m^2]."""
+        return self.count / self.area
+
+    @property
+    def mean_curvature(self) -> Array:
+        """Mean of the two principal curvatures of each summit [1/m], shape (n,)."""
+        return np.asarray(self.curvature.mean(axis=1))
+
+    @property
+    def radius(self) -> Array:
+        """Radius of the sphere with the same Gaussian curvature, ``1/sqrt(k1 k2)`` [m], shape (n,)."""
+        return np.asarray(1 / np.sqrt(self.curvature.prod(axis=1)))
+
+
+def find_summits(surface: Surface) -> Summits:
+    """Return the summits of a surface: points higher than all eight neighbours.
+
+    Parameters
+    ----------
+    surface : Surface
+        Along free axes the outermost points are not looked at, nor are those with a missing neighbour.
+
+    Returns
+    -------
+    Summits
+        With curvatures from central differences. The few whose smaller curvature is not positive by these
+        (saddles between grid lines) are left out.
+
+    Raises
+    ------
+    ValueError
+        If the surface is a line, smaller than 3 x 3, or no point has eight measured neighbours.
+
+    Notes
+    -----
+    Number and curvature depend on the spacing D of the points. They are those of the surface itself only if its
+    shortest waves are well resolved (q D below pi/8 or so); on a fractal they belong to the instrument.
+    """
+    grid = surface.grid
+    if grid.ndim != 2 or min(grid.shape) < 3:
+        raise ValueError(f"summits need a surface of at least 3 x 3 points, not shape {grid.shape}")
+    z = np.pad(
+        surface.heights, [(1, 1) if p else (0, 0) for p in grid.periodic], mode="wrap"
+    )  # the rim of a free axis takes the part of the copies
+    ny, nx = z.shape[0] - 2, z.shape[1] - 2
+
+    def at(row: int, column: int) -> Array:
+        return z[1 + row : 1 + row + ny, 1 + column : 1 + column + nx]
+
+    centre = at(0, 0)
+    around = [at(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]
+    complete = ~np.isnan(centre)
+    highest = np.ones(centre.shape, dtype=bool)
+    for neighbour in around:
+        complete &= ~np.isnan(neighbour)
+        highest &= centre > neighbour  # false where either is missing
+    if not complete.any():
+        raise ValueError("no point has eight measured neighbours")
+
+    rows, columns = np.nonzero(highest & complete)
+    curvature = _principal(lambda i, j: at(i, j)[rows, columns], grid.spacing)
+    dome = curvature[:, 1] > 0
+    shift = [0 if p else 1 for p in grid.periodic]
+    return Summits(
+        rows=rows[dome] + shift[0],
+        columns=columns[dome] + shift[1],
+        height=centre[rows, columns][dome] - float(np.nanmean(surface.heights)),
+        curvature=curvature[dome],
+        area=int(complete.sum()) * grid.cell_area,
+    )
+
+
+def _principal(at: _Heights, spacing: tuple[float, ...]) -> Array:
+    """Return the principal curvatures from heights `at` the neighbours, the larger first, shape (n, 2)."""
+    dy, dx = spacing
+    zxx = (at(0, 1) - 2 * at(0, 0) + at(0, -1)) / dx**2
+    zyy = (at(1, 0) - 2 * at(0, 0) + at(-1, 0)) / dy**2
+    zxy = (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / (4 * dx * dy)
+    mean, half = -(zxx + zyy) / 2, np.hypot((zxx - zyy) / 2, zxy)
+    return np.stack([mean + half, mean - half], axis=1)

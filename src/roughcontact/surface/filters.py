@@ -1,0 +1,147 @@
+"""The Gaussian filter of surface texture (ISO 16610-61 for areas, ISO 16610-21 for profiles)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import scipy.fft
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["ALPHA", "filtered", "gaussian_mean"]
+
+Array = npt.NDArray[np.float64]
+
+# The constant of the standard: at the cut-off wavelength the filter transmits one half.
+ALPHA = math.sqrt(math.log(2) / math.pi)
+# Beyond this many times alpha * cut-off the weight is below the rounding of the largest one.
+_REACH = math.sqrt(53 * math.log(2) / math.pi)
+# With fewer cells a cut-off wave the sampled weights no longer have the transmission that they should.
+_CELLS = 4
+
+
+def filtered(
+    surface: Surface, *, short_cutoff: float | None = None, long_cutoff: float | None = None
+) -> Surface:
+    """Return the surface without its waves shorter than one cut-off and longer than another.
+
+    Parameters
+    ----------
+    surface : Surface
+    short_cutoff : float, optional
+        Wavelength [m] below which waves are taken out (the S-filter; low-pass).
+    long_cutoff : float, optional
+        Wavelength [m] above which waves are taken out, the mean with them (the L-filter; high-pass). With both the
+        long waves are taken out of what the S-filter leaves (the S-L surface; band-pass).
+
+    Raises
+    ------
+    ValueError
+        If no cut-off is given, the two leave no band, or a cut-off has too few cells: four, or two on a periodic
+        grid without missing points.
+
+    Notes
+    -----
+    A wave of length l is transmitted by exp(-pi (alpha c/l)^2) = 2^(-(c/l)^2) by a low-pass of cut-off c,
+    alpha^2 = ln 2 / pi, and by one less this by a high-pass. Along a periodic axis that is exact. Along a free axis
+    the heights within reach are averaged with the weights exp(-pi (x/(alpha c))^2), divided by their sum: near an
+    edge, about half a cut-off wide, the mean is taken over what is there (regression of order 0). Missing points
+    have no weight and stay missing.
+    """
+    if short_cutoff is None and long_cutoff is None:
+        raise ValueError("give short_cutoff, long_cutoff or both [m]")
+    if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
+        raise ValueError(f"short_cutoff {short_cutoff} m must be below long_cutoff {long_cutoff} m")
+    grid, heights, lines = surface.grid, surface.heights, []
+    for cutoff in (short_cutoff, long_cutoff):
+        if cutoff is not None:
+            _check(cutoff, surface)
+    if short_cutoff is not None:
+        heights = gaussian_mean(heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
+        lines.append(f"Gaussian filter: waves below {short_cutoff:.6g} m removed")
+    if long_cutoff is not None:
+        heights = heights - gaussian_mean(heights, grid.spacing, grid.periodic, (long_cutoff,) * grid.ndim)
+        lines.append(f"Gaussian filter: waves above {long_cutoff:.6g} m removed")
+    return replace(surface, heights=heights, provenance=(*surface.provenance, *lines))
+
+
+def gaussian_mean(
+    heights: Array,
+    spacing: tuple[float, ...],
+    periodic: tuple[bool, ...],
+    cutoffs: tuple[float | None, ...],
+) -> Array:
+    """Return the Gaussian mean of the measured heights about each of them; NaN stays NaN.
+
+    Parameters
+    ----------
+    heights : array, shape (ny, nx) or (n,)
+        Heights [m].
+    spacing : tuple of float
+        Size of a cell [m].
+    periodic : tuple of bool
+        Which axes repeat themselves.
+    cutoffs : tuple of float or None
+        For each axis the wavelength of which one half is left [m], or None for no mean along it.
+    """
+    measured = ~np.isnan(heights)
+    # Heights count from their mean, so that those far from zero keep their digits.
+    level = float(heights[measured].mean())
+    mean = np.where(measured, heights - level, 0.0)
+    whole = bool(measured.all())
+    weight = measured.astype(np.float64)
+    for axis, (step, repeats, cutoff) in enumerate(zip(spacing, periodic, cutoffs, strict=True)):
+        if cutoff is None:
+            continue
+        reach = ALPHA * cutoff / step
+        mean = _weighted_sum(mean, axis, reach, repeats)
+        if whole:  # the weights separate into one factor an axis
+            ones = np.ones([n if k == axis else 1 for k, n in enumerate(heights.shape)])
+            mean /= _weighted_sum(ones, axis, reach, repeats)
+        else:
+            weight = _weighted_sum(weight, axis, reach, repeats)
+    if not whole:
+        mean = np.divide(mean, weight, out=np.full(heights.shape, np.nan), where=measured)
+    return mean + level
+
+
+def _weighted_sum(values: Array, axis: int, reach: float, periodic: bool) -> Array:
+    """Return the sum along `axis` with the weights exp(-pi (k/reach)^2), `reach` in cells.
+
+    On a periodic axis they are the weights whose transmission is exact at every wave of the grid.
+    """
+    count = values.shape[axis]
+    if periodic:
+        waves = scipy.fft.rfftfreq(count)
+        transmission = np.exp(-math.pi * (reach * waves) ** 2)
+        length = count
+    else:
+        last = min(count - 1, math.ceil(_REACH * reach))
+        length = scipy.fft.next_fast_len(count + last, real=True)
+        kernel = np.zeros(length)
+        kernel[: last + 1] = np.exp(-math.pi * (np.arange(last + 1) / reach) ** 2)
+        kernel[length - last :] = kernel[last:0:-1]
+        transmission = scipy.fft.rfft(kernel).real
+    shape = [1] * values.ndim
+    shape[axis] = -1
+    spectrum = scipy.fft.rfft(values, n=length, axis=axis) * transmission.reshape(shape)
+    result = scipy.fft.irfft(spectrum, n=length, axis=axis)
+    return np.ascontiguousarray(np.take(result, range(count), axis=axis))
+
+
+def _check(cutoff: float, surface: Surface) -> None:
+    """Refuse a cut-off that the grid cannot resolve."""
+    if not (math.isfinite(cutoff) and cutoff > 0):
+        raise ValueError(f"a cut-off must be positive and finite [m], not {cutoff}")
+    grid = surface.grid
+    exact = all(grid.periodic) and surface.missing == 0
+    least = (2 if exact else _CELLS) * max(grid.spacing)
+    if cutoff < least * (1 - 1e-9):
+        raise ValueError(
+            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:g} m"
+        )

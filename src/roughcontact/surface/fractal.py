@@ -1,0 +1,117 @@
+"""Self-affinity itself: magnification, fractal dimension, box counting."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+from roughcontact.surface.surface import Surface
+
+__all__ = ["box_counting_dimension", "fractal_dimension", "magnify"]
+
+Array = npt.NDArray[np.float64]
+
+
+def magnify(surface: Surface, factor: float, hurst: float) -> Surface:
+    """Return b^H z(x/b): lengths times `factor` b, heights times b^H (thesis, eq. 2.1).
+
+    A self-affine surface and its magnification have the same statistics within the band of wavelengths they share.
+
+    Parameters
+    ----------
+    surface : Surface
+    factor : float
+        Magnification b, positive.
+    hurst : float
+        Hurst exponent H.
+
+    Raises
+    ------
+    ValueError
+        If `factor` is not positive or `hurst` not finite.
+    """
+    if not (math.isfinite(factor) and factor > 0):
+        raise ValueError(f"a magnification must be positive and finite, not {factor}")
+    if not math.isfinite(hurst):
+        raise ValueError(f"hurst must be finite, not {hurst}")
+    grid = surface.grid
+    wider = Grid(grid.shape, tuple(factor * step for step in grid.spacing), grid.periodic)
+    line = f"magnified by {factor:g} with H = {hurst:g}"
+    return Surface(surface.heights * factor**hurst, wider, (*surface.provenance, line))
+
+
+def fractal_dimension(hurst: float, dimension: int = 2) -> float:
+    """Return the fractal dimension 3 - H of a surface, 2 - H of a line (thesis, eq. 2.2).
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, from 0 to 1.
+    dimension : {2, 1}
+        Surface or line.
+
+    Raises
+    ------
+    ValueError
+        If H lies outside 0 to 1, where the relation ends, or `dimension` is neither 1 nor 2.
+    """
+    if not 0 <= hurst <= 1:
+        raise ValueError(f"D = 3 - H holds for a Hurst exponent from 0 to 1, not {hurst}")
+    if dimension not in (1, 2):
+        raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {dimension}")
+    return dimension + 1 - hurst
+
+
+def box_counting_dimension(surface: Surface) -> float:
+    """Return the fractal dimension of a surface or a line by counting boxes (thesis, eq. 2.9).
+
+    Parameters
+    ----------
+    surface : Surface
+        Without missing points, at least 65 points along each axis.
+
+    Returns
+    -------
+    float
+        D, a rough value: on 512 x 512 points within 0.13 of 3 - H for H from 0.5 to 0.9, but lower by
+        some 0.17 at H = 0.3 and 0.27 at 0.1, since points miss the extremes between them.
+
+    Raises
+    ------
+    ValueError
+        If points are missing, the surface is flat or the grid too small.
+
+    Notes
+    -----
+    The boxes are ``2^k`` cells wide and much lower than wide, so that the number that a tile needs is its range of
+    heights over their height: the limit in which the dimension does not depend on the unit of heights, the local one of
+    a self-affine set. D is the slope of the least-squares line in ln N over ln(1/width) for widths from 8 cells
+    to a quarter of the shorter side.
+    """
+    if surface.missing:
+        raise ValueError(f"{surface.missing} points are missing: crop or fill the surface first")
+    shortest = min(surface.grid.shape) - 1
+    if shortest < 64:
+        raise ValueError(f"counting boxes needs at least 65 points along each axis, not {surface.grid.shape}")
+    widths = 2 ** np.arange(3, int(math.log2(shortest / 4)) + 1)
+    ranges = np.array([_mean_range(surface.heights, int(width)) for width in widths])
+    if not ranges.all():
+        raise ValueError("the surface is flat: it has no fractal dimension")
+    # Tiles number width^-ndim, boxes in a tile range/width.
+    slope = np.polyfit(np.log(widths), np.log(ranges), 1)[0]
+    return float(surface.grid.ndim + 1 - slope)
+
+
+def _mean_range(heights: Array, width: int) -> float:
+    """Return the mean range of heights in tiles of `width` cells, the nodes on all their sides included."""
+    low = high = heights
+    for axis, n in enumerate(heights.shape):
+        starts = np.arange(0, n - width, width)
+        parts = [np.take(low, starts + offset, axis) for offset in range(width + 1)]
+        low = np.minimum.reduce(parts)
+        parts = [np.take(high, starts + offset, axis) for offset in range(width + 1)]
+        high = np.maximum.reduce(parts)
+    return float((high - low).mean())

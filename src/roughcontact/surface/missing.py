@@ -1,0 +1,97 @@
+"""Points that were not measured: filled in from those around them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["filled"]
+
+Array = npt.NDArray[np.float64]
+
+
+def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
+    """Return the surface with heights at the points that were not measured.
+
+    Nothing is known of them: what is filled in is smooth or flat, has no roughness of its own, and never exceeds
+    the heights around it. Contact needs no filling; spectra and filters by Fourier transform do.
+
+    Parameters
+    ----------
+    surface : Surface
+    method : {"harmonic", "nearest"}
+        The solution of Laplace's equation through the measured heights around, like a soap film (at the edge of a
+        free map it meets the edge at right angles); or the height of the nearest measured point.
+    """
+    if method not in ("harmonic", "nearest"):
+        raise ValueError(f"method must be 'harmonic' or 'nearest', not {method!r}")
+    if surface.missing == 0:
+        return surface
+    fill = _harmonic if method == "harmonic" else _nearest
+    heights = fill(surface.heights, surface.grid.spacing, surface.grid.periodic)
+    line = f"{surface.missing} missing points filled in, {method}"
+    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
+
+
+def _harmonic(heights: Array, spacing: tuple[float, ...], periodic: tuple[bool, ...]) -> Array:
+    """Solve the five-point Laplace equation at the missing points."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.linalg import splu
+
+    missing = np.isnan(heights)
+    unknowns = np.flatnonzero(missing)
+    number = np.full(heights.size, -1)
+    number[unknowns] = np.arange(unknowns.size)
+    flat = heights.reshape(-1)
+    level = float(np.nanmean(heights))
+    places = np.arange(heights.size).reshape(heights.shape)
+    diagonal, right = np.zeros(unknowns.size), np.zeros(unknowns.size)
+    rows, columns, values = [], [], []
+    for axis, (step, repeats) in enumerate(zip(spacing, periodic, strict=True)):
+        for way in (1, -1):
+            neighbour = np.roll(places, -way, axis=axis)
+            if not repeats:
+                neighbour = neighbour.copy()
+                neighbour[(slice(None),) * axis + (-1 if way == 1 else 0,)] = -1
+            beside = neighbour.reshape(-1)[unknowns]
+            inside = beside >= 0
+            # Only the ratio of the steps counts.
+            weight = (min(spacing) / step) ** 2
+            diagonal[inside] += weight
+            known = inside & ~np.isnan(np.where(inside, flat[beside], np.nan))
+            right[known] += weight * (flat[beside[known]] - level)
+            both = inside & ~known
+            rows.append(np.flatnonzero(both))
+            columns.append(number[beside[both]])
+            values.append(np.full(np.count_nonzero(both), -weight))
+    each = np.arange(unknowns.size)
+    matrix = coo_array(
+        (
+            np.concatenate([diagonal, *values]),
+            (np.concatenate([each, *rows]), np.concatenate([each, *columns])),
+        ),
+        shape=(unknowns.size, unknowns.size),
+    ).tocsc()
+    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    result = flat.copy()
+    result[unknowns] = factors.solve(right) + level
+    return result.reshape(heights.shape)
+
+
+def _nearest(heights: Array, spacing: tuple[float, ...], periodic: tuple[bool, ...]) -> Array:
+    """Copy the nearest measured height; on a periodic axis the nearest may lie across the border."""
+    from scipy.ndimage import distance_transform_edt
+
+    pads = [(n // 2 if repeats else 0,) * 2 for n, repeats in zip(heights.shape, periodic, strict=True)]
+    wide = np.pad(heights, pads, mode="wrap")
+    nearest = distance_transform_edt(
+        np.isnan(wide), sampling=spacing, return_distances=False, return_indices=True
+    )
+    whole: Array = wide[tuple(nearest)]
+    return whole[tuple(slice(pad, pad + n) for (pad, _), n in zip(pads, heights.shape, strict=True))]

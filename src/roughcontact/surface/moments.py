@@ -1,0 +1,189 @@
+"""Spectral moments: of a surface, and of a spectrum on a grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+import scipy.fft
+
+from roughcontact.grid import Grid
+from roughcontact.surface.surface import Surface
+from roughcontact.surface.waves import (
+    Spectrum,
+    Support,
+    multiplicity,
+    wave_powers,
+    wavenumbers,
+)
+
+__all__ = ["Moments", "grid_moments", "surface_moments"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """Profile moments m0, m2, m4, as random-field and asperity theory take them (Nayak 1971).
+
+    Those of a straight cut, averaged over all directions if the surface has a lay. With the spectrum C2D of
+    an isotropic surface ``m0 = 2 pi int q C2D dq``, ``m2 = pi int q^3 C2D dq`` and
+    ``m4 = (3 pi/4) int q^5 C2D dq``; of a line ``mn = 2 int q^n C1D dq``.
+
+    Parameters
+    ----------
+    m0 : float
+        Mean square height [m^2].
+    m2 : float
+        Mean square slope of a profile [-]; the areal one is ``2 m2``.
+    m4 : float
+        Mean square second derivative of a profile [1/m^2]; that of the Laplacian of a surface is ``8/3 m4``.
+    dimension : {2, 1}
+        Whether these belong to a surface (2) or to a line (1). It decides what the three rms values mean.
+
+    Raises
+    ------
+    ValueError
+        If a moment is negative or not a number, or `dimension` is neither 1 nor 2.
+    """
+
+    m0: float
+    m2: float
+    m4: float
+    dimension: int = 2
+
+    def __post_init__(self) -> None:
+        for name in ("m0", "m2", "m4"):
+            if not getattr(self, name) >= 0:
+                raise ValueError(f"{name} must not be negative, not {getattr(self, name)}")
+        if self.dimension not in (1, 2):
+            raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
+
+    @property
+    def rms_height(self) -> float:
+        """Root mean square height about the mean [m]."""
+        return math.sqrt(self.m0)
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square of |grad z|, ``sqrt(2 m2)`` (thesis, eq. 4.18); of a line ``sqrt(m2)`` [-]."""
+        return math.sqrt(self.dimension * self.m2)
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root mean square of half the Laplacian of z, ``sqrt(2/3 m4)``; of a line of z'', ``sqrt(m4)`` [1/m].
+
+        Half the Laplacian is the mean of the two principal curvatures where the surface is level.
+        """
+        return math.sqrt(self.m4 * (2 / 3 if self.dimension == 2 else 1))
+
+    @property
+    def nayak(self) -> float:
+        """Nayak's parameter ``m0 m4 / m2^2`` [-], at least 3/2 on an isotropic surface; NaN if m2 is 0 or infinite."""
+        return self.m0 * self.m4 / self.m2**2 if 0 < self.m2 < math.inf else math.nan
+
+    @property
+    def profile(self) -> Moments:
+        """The same moments read as those of a line: a straight cut through the surface."""
+        return replace(self, dimension=1)
+
+
+def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") -> Moments:
+    """Return the moments of `spectrum` as sums over the waves of `grid`.
+
+    They are those of every surface with exact amplitudes that is synthesised on the grid with that spectrum,
+    and the means of those with Gaussian amplitudes.
+
+    Parameters
+    ----------
+    spectrum : callable or PlanarSpectrum
+        C2D [m^4], on a line C1D [m^3], see `synthesise`.
+    grid : Grid
+        One period; of a nodal grid without its last row and column.
+    support : {"square", "disc"}
+        See `self_affine`.
+    """
+    powers = wave_powers(spectrum, grid.shape, grid.spacing, support) * multiplicity(grid.shape)
+    return _summed(powers, grid)
+
+
+def surface_moments(surface: Surface, derivative: Literal["spectral", "difference"] | None = None) -> Moments:
+    """Return the moments of the heights of a surface or a line.
+
+    Parameters
+    ----------
+    surface : Surface
+        Level it first: a tilt counts as slope.
+    derivative : {"spectral", "difference"}, optional
+        How slopes and curvatures are taken; by default "spectral" on a periodic grid without missing points,
+        else "difference". "spectral" takes any surface for one period of a periodic one, a step at
+        its edges included.
+
+    Returns
+    -------
+    Moments
+        The areal mean squares of the gradient and of the Laplacian, as profile moments: ``m2 = <|grad z|^2>/2`` and
+        ``m4 = 3/8 <(lap z)^2>``.
+
+    Raises
+    ------
+    ValueError
+        If "spectral" is asked for with points missing, or no two neighbours are measured.
+
+    Notes
+    -----
+    Differences of neighbours, ``(z[i+1] - z[i])/D`` and the second differences, damp a wave q along an axis: its
+    mean square slope by ``s^2`` and its mean square curvature by ``s^4``, ``s = sin(qD/2)/(qD/2)``, which is
+    0.64 for the shortest waves. Differences with a missing neighbour are left out of the means.
+    """
+    grid, whole = surface.grid, surface.missing == 0
+    if derivative is None:
+        derivative = "spectral" if all(grid.periodic) and whole else "difference"
+    if derivative == "spectral":
+        if not whole:
+            raise ValueError(
+                f"{surface.missing} points are missing: use derivative='difference' or fill them first"
+            )
+        transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
+        return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
+    if derivative != "difference":
+        raise ValueError(f"derivative must be 'spectral' or 'difference', not {derivative!r}")
+    return _by_differences(surface)
+
+
+def _summed(powers: Array, grid: Grid) -> Moments:
+    """Return the moments of waves of the given mean squares [m^2]."""
+    squared = wavenumbers(grid.shape, grid.spacing) ** 2
+    gradient, laplacian = float((squared * powers).sum()), float((squared**2 * powers).sum())
+    return _from_areal(float(powers.sum()), gradient, laplacian, grid.ndim)
+
+
+def _from_areal(height: float, gradient: float, laplacian: float, dimension: int) -> Moments:
+    """Return the moments from the mean squares of height, gradient and Laplacian."""
+    # The mean over all directions of cos^2 and of cos^4.
+    squares, fourths = (1.0, 1.0) if dimension == 1 else (1 / 2, 3 / 8)
+    return Moments(height, squares * gradient, fourths * laplacian, dimension)
+
+
+def _by_differences(surface: Surface) -> Moments:
+    heights, grid = surface.heights, surface.grid
+    gradient, laplacian = 0.0, np.zeros(grid.shape)
+    for axis, (step, periodic) in enumerate(zip(grid.spacing, grid.periodic, strict=True)):
+        ahead, behind = np.roll(heights, -1, axis), np.roll(heights, 1, axis)
+        if not periodic:
+            ends = [(slice(None),) * axis + (end,) for end in (-1, 0)]
+            ahead[ends[0]] = behind[ends[1]] = np.nan
+        slopes = (ahead - heights) / step
+        laplacian += (ahead - 2 * heights + behind) / step**2
+        gradient += _mean_square(slopes)
+    return _from_areal(float(np.nanvar(heights)), gradient, _mean_square(laplacian), grid.ndim)
+
+
+def _mean_square(field: Array) -> float:
+    known = field[~np.isnan(field)]
+    if known.size == 0:
+        raise ValueError("no point has the measured neighbours that differences need: the grid is too small")
+    return float(np.mean(known**2))

@@ -1,0 +1,1 @@
+"""Surface texture parameters of the ISO standards."""

@@ -1,0 +1,160 @@
+"""The material ratio curve and the Sk family of parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.surface import Surface
+
+__all__ = ["MaterialRatio", "StratifiedParameters", "material_ratio", "stratified_parameters"]
+
+Array = npt.NDArray[np.float64]
+# The central region of the curve that the equivalent straight line follows.
+CENTRAL = 0.4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MaterialRatio:
+    """The material ratio (Abbott-Firestone) curve: which share of the points lies above a height.
+
+    ISO 25178-2:2021, 4.5.1. Straight between the sorted points, the i-th highest of n at the ratio (i - 1/2)/n,
+    and level beyond the first and the last.
+
+    Parameters
+    ----------
+    ratio : array, shape (n,)
+        Material ratios, increasing, from 0 to 1.
+    height : array, shape (n,)
+        Heights above the mean [m], decreasing.
+    """
+
+    ratio: Array
+    height: Array
+
+    def height_at(self, ratio: npt.ArrayLike) -> Array:
+        """Return the height [m] above which the share `ratio` of the points lies (inverse material ratio)."""
+        at = np.asarray(ratio, dtype=np.float64)
+        return np.asarray(np.interp(at, self.ratio, self.height))
+
+    def ratio_at(self, height: npt.ArrayLike) -> Array:
+        """Return the share of the points above the `height` [m]."""
+        at = np.asarray(height, dtype=np.float64)
+        share = np.interp(at, self.height[::-1], self.ratio[::-1])
+        share = np.where(at > self.height[0], 0.0, share)
+        return np.asarray(np.where(at < self.height[-1], 1.0, share))
+
+    def integral(self, start: float, stop: float) -> float:
+        """Return the integral of the height over material ratios from `start` to `stop` [m]."""
+        inside = (self.ratio > start) & (self.ratio < stop)
+        ratio = np.concatenate([[start], self.ratio[inside], [stop]])
+        return float(np.trapezoid(self.height_at(ratio), ratio))
+
+
+@dataclass(frozen=True, slots=True)
+class StratifiedParameters:
+    """The parameters of stratified surfaces (ISO 25178-2:2021, 4.5.4) and volumes (4.5.6, 4.5.7).
+
+    Parameters
+    ----------
+    Sk : float
+        Core height [m]: the height that the equivalent straight line spans. Of a profile: Rk.
+    Spk, Svk : float
+        Reduced peak height and reduced dale depth [m]: heights of the triangles with the areas of the curve
+        above and below the core.
+    Smr1, Smr2 : float
+        Material ratios between which the core lies [-], shares, not percent.
+    Vmp, Vmc, Vvc, Vvv : float
+        Volumes per area [m]: material of peaks and core, voids of core and dales, with the default limits of 10 %
+        and 80 %.
+    """
+
+    Sk: float
+    Spk: float
+    Svk: float
+    Smr1: float
+    Smr2: float
+    Vmp: float
+    Vmc: float
+    Vvc: float
+    Vvv: float
+
+
+def material_ratio(surface: Surface) -> MaterialRatio:
+    """Return the material ratio curve of the measured heights of a surface or line."""
+    heights = np.sort(surface.heights[surface.measured])[::-1]
+    heights -= heights.mean()
+    ratio = (np.arange(heights.size) + 0.5) / heights.size
+    return MaterialRatio(ratio, heights)
+
+
+def stratified_parameters(
+    surface: Surface, *, peak_ratio: float = 0.1, dale_ratio: float = 0.8
+) -> StratifiedParameters:
+    """Return the Sk family of a surface, or the Rk family of a line.
+
+    ISO 25178-2:2021, 4.5.4 to 4.5.7 (ISO 21920-2:2021 for profiles; the construction is that of ISO 13565-2). The
+    central region is the 40 % of the curve over which it falls least, the first of several. The equivalent
+    straight line is its least-squares line there. Heights are taken as they are: a surface with outliers
+    wants them removed first. Missing points are ignored.
+
+    Parameters
+    ----------
+    surface : Surface
+        Filtered as the standard asks, above its mean.
+    peak_ratio, dale_ratio : float
+        Material ratios that part peaks from core and core from dales, for the volumes.
+
+    Raises
+    ------
+    ValueError
+        If fewer than ten heights are measured, all are equal, or the ratios are not in order within 0 and 1.
+    """
+    if not 0 < peak_ratio < dale_ratio < 1:
+        raise ValueError(f"ratios must increase between 0 and 1, not {peak_ratio} and {dale_ratio}")
+    curve = material_ratio(surface)
+    if curve.height.size < 10:
+        raise ValueError(f"a material ratio curve needs ten heights, not {curve.height.size}")
+    if curve.height[0] == curve.height[-1]:
+        raise ValueError("all heights are equal: there is no core to measure")
+    slope, offset = _equivalent_line(curve)
+    top, bottom = offset, offset + slope  # where the line meets the ratios 0 and 1
+    smr1, smr2 = (float(curve.ratio_at(height)) for height in (top, bottom))
+    hill = curve.integral(0, smr1) - top * smr1
+    dale = bottom * (1 - smr2) - curve.integral(smr2, 1)
+    peak, low = (float(curve.height_at(ratio)) for ratio in (peak_ratio, dale_ratio))
+
+    def material(ratio: float, height: float) -> float:
+        return curve.integral(0, ratio) - ratio * height
+
+    def void(ratio: float, height: float) -> float:
+        return (1 - ratio) * height - curve.integral(ratio, 1)
+
+    return StratifiedParameters(
+        Sk=top - bottom,
+        Spk=2 * hill / smr1 if smr1 > 0 else 0.0,
+        Svk=2 * dale / (1 - smr2) if smr2 < 1 else 0.0,
+        Smr1=smr1,
+        Smr2=smr2,
+        Vmp=material(peak_ratio, peak),
+        Vmc=material(dale_ratio, low) - material(peak_ratio, peak),
+        Vvc=void(peak_ratio, peak) - void(dale_ratio, low),
+        Vvv=void(dale_ratio, low),
+    )
+
+
+def _equivalent_line(curve: MaterialRatio) -> tuple[float, float]:
+    """Return the slope and the height at ratio 0 of the equivalent straight line [m]."""
+    last = curve.ratio[-1] - CENTRAL
+    starts = curve.ratio[curve.ratio <= last]
+    if not starts.size:
+        starts = np.array([(1 - CENTRAL) / 2])
+    falls = curve.height_at(starts) - curve.height_at(starts + CENTRAL)
+    start = float(starts[int(np.argmin(falls))])
+    inside = (curve.ratio >= start) & (curve.ratio <= start + CENTRAL * (1 + 1e-12))
+    ratio, height = curve.ratio[inside], curve.height[inside]
+    centred = ratio - ratio.mean()
+    slope = float(centred @ height / (centred @ centred))
+    return slope, float(height.mean() - slope * ratio.mean())

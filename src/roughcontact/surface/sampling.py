@@ -1,0 +1,149 @@
+"""Fewer points: cut out, thin out, average over pixels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.grid import Grid
+from roughcontact.surface.filters import gaussian_mean
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["averaged", "cropped", "downsampled"]
+
+
+def cropped(surface: Surface, *parts: slice) -> Surface:
+    """Return the part of the surface in `parts`, one slice of cells an axis: rows, then columns.
+
+    An axis that is cut is free in the result; one that is kept whole stays as it was.
+
+    Raises
+    ------
+    ValueError
+        If there is not one slice for each axis, a slice has a step, is empty, or holds no measured point.
+    """
+    grid = surface.grid
+    if len(parts) != grid.ndim:
+        raise ValueError(f"cropping needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
+    if any(part.step not in (None, 1) for part in parts):
+        raise ValueError("a crop has no step: use downsampled to thin out")
+    ranges = [part.indices(n) for part, n in zip(parts, grid.shape, strict=True)]
+    if any(stop <= start for start, stop, _ in ranges):
+        raise ValueError(f"nothing is left of {grid.shape} cells in {_words(ranges)}")
+    whole = [stop - start == n for (start, stop, _), n in zip(ranges, grid.shape, strict=True)]
+    small = Grid(
+        [stop - start for start, stop, _ in ranges],
+        grid.spacing,
+        [kept and repeats for kept, repeats in zip(whole, grid.periodic, strict=True)],
+    )
+    line = f"cropped to cells {_words(ranges)} of {' x '.join(map(str, grid.shape))}"
+    return replace(
+        surface, heights=surface.heights[parts], grid=small, provenance=(*surface.provenance, line)
+    )
+
+
+def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: bool = True) -> Surface:
+    """Return every `factor`-th point of the surface along each axis.
+
+    Parameters
+    ----------
+    surface : Surface
+    factor : int or tuple of int
+        For all axes, or one an axis (y, x).
+    anti_alias : bool
+        Filter first: the Gaussian filter with the shortest wave of the new grid, two new cells, as its cut-off.
+        Without it, shorter waves come back as long ones that are not there.
+
+    Raises
+    ------
+    ValueError
+        If a factor is not a whole number from 1 to half the cells, or does not divide a periodic axis.
+
+    Notes
+    -----
+    The points are the middle ones of blocks of `factor` cells (for an even factor the one before the middle: half
+    an old cell to the upper left). Cells at the end that fill no block are left out.
+    """
+    grid = surface.grid
+    factors = _factors(grid, factor)
+    heights = surface.heights
+    if anti_alias:
+        cutoffs = tuple(
+            2 * thin * step if thin > 1 else None for thin, step in zip(factors, grid.spacing, strict=True)
+        )
+        heights = gaussian_mean(heights, grid.spacing, grid.periodic, cutoffs)
+    chosen = heights[
+        tuple(
+            slice((thin - 1) // 2, (n // thin) * thin, thin)
+            for thin, n in zip(factors, grid.shape, strict=True)
+        )
+    ]
+    how = "after a Gaussian filter" if anti_alias else "without a filter"
+    line = f"downsampled by {' x '.join(map(str, factors))} {how}"
+    return replace(
+        surface,
+        heights=chosen,
+        grid=_coarse(grid, factors),
+        provenance=(*surface.provenance, line),
+    )
+
+
+def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
+    """Return the surface as pixels of `factor` cells a side see it: the mean over each block.
+
+    A block of which less than half was measured is missing.
+
+    Parameters
+    ----------
+    surface : Surface
+    factor : int or tuple of int
+        Cells a pixel for all axes, or one number an axis (y, x).
+
+    Raises
+    ------
+    ValueError
+        As for `downsampled`.
+
+    Notes
+    -----
+    A wave of length l along an axis is transmitted by sin(pi k d/l) / (k sin(pi d/l)) with k cells of size d a
+    pixel: for waves much longer than a cell the sinc of the pixel. Cells at the end that fill no block are left out.
+    """
+    grid = surface.grid
+    factors = _factors(grid, factor)
+    coarse = _coarse(grid, factors)
+    used = surface.heights[tuple(slice(n * k) for n, k in zip(coarse.shape, factors, strict=True))]
+    blocks = used.reshape([size for pair in zip(coarse.shape, factors, strict=True) for size in pair])
+    inner = tuple(range(1, 2 * grid.ndim, 2))
+    measured = ~np.isnan(blocks)
+    count = measured.sum(axis=inner)
+    total = np.where(measured, blocks, 0.0).sum(axis=inner)
+    enough = 2 * count >= np.prod(factors)
+    heights = np.divide(total, count, out=np.full(coarse.shape, np.nan), where=enough)
+    line = f"averaged over pixels of {' x '.join(map(str, factors))} cells"
+    return replace(surface, heights=heights, grid=coarse, provenance=(*surface.provenance, line))
+
+
+def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
+    factors = (factor,) * grid.ndim if isinstance(factor, int) else tuple(factor)
+    if len(factors) != grid.ndim or any(int(k) != k or k < 1 for k in factors):
+        raise ValueError(f"factor must be one whole number from 1 up, or {grid.ndim}, not {factor}")
+    for k, n, repeats in zip(factors, grid.shape, grid.periodic, strict=True):
+        if 2 * k > n:
+            raise ValueError(f"a factor of {k} leaves less than two of {n} cells")
+        if repeats and n % k:
+            raise ValueError(f"a factor of {k} does not divide {n} cells of a periodic axis")
+    return tuple(int(k) for k in factors)
+
+
+def _coarse(grid: Grid, factors: tuple[int, ...]) -> Grid:
+    shape = [n // k for n, k in zip(grid.shape, factors, strict=True)]
+    return Grid(shape, [step * k for step, k in zip(grid.spacing, factors, strict=True)], grid.periodic)
+
+
+def _words(ranges: list[tuple[int, int, int]]) -> str:
+    return ", ".join(f"{start}:{stop}" for start, stop, _ in ranges)

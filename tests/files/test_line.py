@@ -1,0 +1,121 @@
+"""Line scans: read when asked for, never taken for a map."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.inspect import channels
+from roughcontact.files.read import read_line
+
+HEIGHTS = np.random.default_rng(3).standard_normal(40).cumsum()
+
+
+def rows(step=0.5, digits=6, start=2.0, separator=","):
+    return "".join(f"{start + k * step:.{digits}f}{separator}{z!r}\n" for k, z in enumerate(HEIGHTS.tolist()))
+
+
+@pytest.mark.parametrize(
+    ("content", "keywords"),
+    [
+        ("x [mm], z [um]\n" + rows(), {}),
+        ("# x (mm)\tz (um)\n" + rows(separator="\t"), {}),
+        ("A profile\n\nLateral mm,Raw Micrometer,\n" + rows().replace("\n", ",,\n") + "\n\n", {}),
+        (rows(separator=" "), {"unit": "um", "size": "20 mm"}),
+        ("\n".join(map(repr, HEIGHTS.tolist())), {"unit": "um", "size": 0.02}),
+    ],
+)
+@pytest.mark.parametrize("name", ["a.csv", "a.txt"])
+def test_texts(put, name, content, keywords):
+    line = read_line(put(name, content), **keywords)
+    np.testing.assert_allclose(line.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(line.grid.spacing, (0.5e-3,), rtol=1e-12)
+    assert line.grid.periodic == (False,)
+
+
+def test_places_without_a_unit_are_in_that_of_the_heights(put):
+    line = read_line(put("a.csv", rows()), unit="um", periodic=True)
+    np.testing.assert_allclose(line.grid.spacing, (0.5e-6,), rtol=1e-12)
+    assert line.grid.periodic == (True,)
+
+
+def test_what_the_file_leaves_open_is_asked_for(put):
+    with pytest.raises(rc.ReadError, match=r"no unit of its heights; pass unit="):
+        read_line(put("a.csv", rows()))
+    with pytest.raises(rc.ReadError, match=r"no size; pass size= with the length of the line"):
+        read_line(put("a.csv", "1\n2\n3\n"), unit="um")
+    for size in ((1e-3, 1e-3), "wide", 0):
+        with pytest.raises(ValueError, match=r"size|length"):
+            read_line(put("a.csv", "1\n2\n3\n"), unit="um", size=size)
+
+
+def test_places_printed_short_are_even_all_the_same(put):
+    line = read_line(put("a.csv", "x [um], z [um]\n" + rows(step=0.156, digits=1)))
+    # The ends are printed to 0.1: each is off by half of that at most.
+    np.testing.assert_allclose(line.grid.spacing, (0.156e-6,), rtol=0, atol=0.1e-6 / 39)
+    assert any("places printed to 0.1 are taken as even steps" in note for note in line.provenance)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (rows().replace("10.000000", "10.400000"), "places are not even"),
+        ("0 1\n0 2\n0 3\n", "places run from 0 to 0"),
+        ("3 1\n2 2\n1 3\n", "sort the rows"),
+        ("0 1\n1 2\nend\n2 3\n", "line 3: 'end' interrupts"),
+        ("0 1\n1\n", "line 2 holds 1 numbers"),
+        ("0 1 2\n1 2 3\n", "line 1 holds 3 numbers"),
+        ("words\n1 2\n", "holds 1 rows"),
+        ("words\n", "holds 0 rows"),
+        ("0 1\n1 1_0\n", "interrupts"),
+        ("0 nan\n1 nan\n", "all heights are NaN"),
+        ("nan 1\nnan 2\n", "places run from nan"),
+    ],
+)
+def test_what_is_no_line_is_refused(put, content, message):
+    with pytest.raises(rc.ReadError, match=r"a\.txt: .*" + message):
+        read_line(put("a.txt", content), unit="um")
+
+
+@pytest.mark.parametrize(("announced", "doubt"), [("19.5 um", False), ("19.6 um", False), ("30 um", True)])
+def test_an_announced_length_is_compared(put, announced, doubt):
+    path = put("a.csv", f"Length,{announced}\nx [um],z [um]\n" + rows())
+    if doubt:
+        with pytest.warns(SurfaceWarning, match="announces a length of 3e-05 m and covers 1.95e-05 m"):
+            read_line(path)
+    else:
+        read_line(path)
+
+
+def test_numpy_files(put, npy, npz):
+    line = read_line(put("a.npy", npy(HEIGHTS)), unit="um", size=1e-3)
+    np.testing.assert_allclose(line.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    named = read_line(put("a.npz", npz(heights=HEIGHTS, unit="nm", spacing=1e-6, periodic=True)))
+    assert named.grid == rc.Grid(40, 1e-6, periodic=True)
+    other = read_line(put("b.npz", npz(z=HEIGHTS, unit="nm", size=8e-5)), channel="z")
+    np.testing.assert_allclose(other.grid.spacing, (2e-6,), rtol=1e-15)
+
+
+def test_a_profile_in_x3p(put, make_x3p):
+    line = read_line(put("a.x3p", make_x3p(HEIGHTS[None] * 1e-6, feature="PRF")))
+    np.testing.assert_allclose(line.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    assert line.grid.spacing == (3e-6,)
+
+
+def test_a_map_is_no_line_and_a_line_no_map(put, npy):
+    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, no line scan; use read"):
+        read_line(put("a.npy", npy(HEIGHTS.reshape(5, 8))), unit="um", size=1e-3)
+    with pytest.raises(
+        rc.ReadError, match=r"it is a line scan of 40 heights, not a map .*read it by read_line"
+    ):
+        rc.read(put("a.csv", "x [um], z [um]\n" + rows()))
+    with pytest.raises(rc.ReadError, match=r"line scans are not read from \.opd"):
+        read_line(put("a.opd", b"any"))
+    (channel,) = channels(put("b.csv", "x [um], z [um]\n" + rows()))
+    assert (channel.shape, channel.unit, channel.is_height) == ((40,), "um", False)
+
+
+def test_a_line_is_not_pressed_like_a_map(put):
+    line = read_line(put("a.csv", "x [um], z [um]\n" + rows()))
+    with pytest.raises(ValueError, match="operator"):
+        rc.press(line, 1e9, force=1.0)

@@ -1,0 +1,158 @@
+"""NetCDF: the layout of contact.engineering, our own, and other maps with coordinates."""
+
+import contextlib
+
+import numpy as np
+import pytest
+import xarray
+from scipy.io import netcdf_file
+
+import roughcontact as rc
+from roughcontact.files.inspect import channels
+from roughcontact.files.read import read_line
+
+HEIGHTS = np.arange(12.0).reshape(3, 4)
+
+
+def contact_engineering(path, *, unit="um", periodic=0, line=False, length=4.0, fill=None, mask=None):
+    """Write heights (x, y), the transposed picture."""
+    with netcdf_file(path, "w") as file:
+        for name, size, full in (("x", 4, length), ("y", 3, 3.0)):
+            file.createDimension(name, size)
+            variable = file.createVariable(name, "f8", (name,))
+            variable[:] = np.arange(size) + 0.5
+            variable.length = full
+            variable.periodic = periodic
+            if unit:
+                variable.unit = unit
+        heights = file.createVariable("heights", "f8", ("x",) if line else ("x", "y"))
+        heights[:] = HEIGHTS[0] if line else HEIGHTS.T
+        if fill is not None:
+            heights._FillValue = fill
+        if mask is not None:
+            file.createVariable("mask", "i4", ("x", "y"))[:] = mask.T
+        if unit:
+            heights.unit = unit
+    return path
+
+
+def test_the_picture_is_upright_and_in_metres(tmp_path):
+    surface = rc.read(contact_engineering(tmp_path / "a.nc"))
+    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.lengths, (3e-6, 4e-6), rtol=1e-15)
+    assert surface.provenance[0].startswith("read from a.nc (NetCDF, channel 'heights', sha256 ")
+
+
+def test_a_periodic_file_is_read_as_free_only_by_choice(tmp_path):
+    path = contact_engineering(tmp_path / "a.nc", periodic=1)
+    assert rc.read(path).grid.periodic == (True, True)
+    free = rc.read(path, periodic=False)
+    assert free.grid.periodic == (False, False)
+    assert "read as free, though the file says that it is periodic" in free.provenance
+    assert rc.read(contact_engineering(tmp_path / "b.nc"), periodic=True).grid.periodic == (True, True)
+
+
+def test_no_unit_or_an_arbitrary_one_is_refused(tmp_path):
+    with pytest.raises(
+        rc.ReadError, match=r"a\.nc: it states no unit of its heights and no size; pass unit="
+    ):
+        rc.read(contact_engineering(tmp_path / "a.nc", unit=None))
+    path = contact_engineering(tmp_path / "b.nc", unit="a.u.")
+    with pytest.raises(rc.ReadError, match=r"b\.nc: it states heights in 'a\.u\.', which is no length"):
+        rc.read(path)
+    surface = rc.read(path, unit="nm", size=4e-6)
+    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-9, rtol=1e-12)
+
+
+def test_marked_points_are_missing(tmp_path):
+    surface = rc.read(contact_engineering(tmp_path / "a.nc", fill=5.0))
+    assert np.array_equal(np.isnan(surface.heights), HEIGHTS == 5)
+    masked = rc.read(contact_engineering(tmp_path / "b.nc", mask=HEIGHTS > 9))
+    assert np.array_equal(np.isnan(masked.heights), HEIGHTS > 9)
+
+
+def test_a_length_that_contradicts_the_coordinates_is_refused(tmp_path):
+    with pytest.raises(rc.ReadError, match=r"a\.nc: its length 5 along x contradicts 4 steps of 1"):
+        rc.read(contact_engineering(tmp_path / "a.nc", length=5.0))
+
+
+def test_a_line_scan_is_read_as_one_and_not_as_a_map(tmp_path):
+    path = contact_engineering(tmp_path / "line.nc", line=True)
+    with pytest.raises(rc.ReadError, match=r"line\.nc: it is a line scan of 4 heights.*read_line"):
+        rc.read(path)
+    line = read_line(path)
+    np.testing.assert_allclose(line.heights, HEIGHTS[0] * 1e-6, rtol=1e-15)
+    assert line.grid.shape == (4,)
+    with pytest.raises(rc.ReadError, match="a map of 3 x 4 heights"):
+        read_line(contact_engineering(tmp_path / "map.nc"))
+
+
+def dataset(**changes):
+    coordinates = {
+        "lat": ("lat", [10.0, 12.0, 14.0], {"units": "mm"}),
+        "lon": ("lon", [1.0, 1.5, 2.0, 2.5], {"units": "mm"}),
+    }
+    data = {
+        "elevation_height": (("lat", "lon"), HEIGHTS, {"units": "um"}),
+        "slope": (("lat", "lon"), HEIGHTS),
+    }
+    return xarray.Dataset(data | changes, coordinates)
+
+
+@pytest.mark.parametrize("how", ["NETCDF4", "NETCDF3_CLASSIC", "NETCDF3_64BIT"])
+def test_a_map_with_even_coordinates(tmp_path, how):
+    engine = "h5netcdf" if how == "NETCDF4" else "scipy"
+    dataset().to_netcdf(tmp_path / "a.nc", engine=engine, format=how)
+    surface = rc.read(tmp_path / "a.nc")
+    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, (2e-3, 0.5e-3), rtol=1e-12)
+    assert [(c.name, c.is_height) for c in channels(tmp_path / "a.nc")] == [
+        ("elevation_height", True),
+        ("slope", False),
+    ]
+    with pytest.raises(rc.ReadError, match="no channel 'depth', only 'elevation_height'"):
+        rc.read(tmp_path / "a.nc", channel="depth")
+
+
+def test_packed_numbers_are_unpacked(tmp_path):
+    packing = {"elevation_height": {"dtype": "i2", "scale_factor": 0.5, "add_offset": 3.0, "_FillValue": -9}}
+    dataset().where(HEIGHTS != 4).to_netcdf(tmp_path / "a.nc", engine="h5netcdf", encoding=packing)
+    surface = rc.read(tmp_path / "a.nc")
+    expected = np.where(HEIGHTS == 4, np.nan, HEIGHTS * 1e-6)
+    np.testing.assert_allclose(surface.heights, expected, rtol=1e-12, atol=1e-18)
+
+
+def test_uneven_coordinates_are_refused(tmp_path):
+    uneven = dataset().assign_coords(lon=("lon", [1.0, 1.5, 2.0, 2.6], {"units": "mm"}))
+    uneven.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    with pytest.raises(rc.ReadError, match="coordinates along lon are not even"):
+        rc.read(tmp_path / "a.nc")
+
+
+def test_what_is_no_map_is_refused(tmp_path, put):
+    xarray.Dataset({"force": ("load", [1.0, 2.0])}).to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    with pytest.raises(rc.ReadError, match=r"a\.nc: no channel is a map of heights"):
+        rc.read(tmp_path / "a.nc")
+    with pytest.raises(rc.ReadError, match=r"b\.nc: it is not a NetCDF file"):
+        rc.read(put("b.nc", b"neither"))
+
+
+@pytest.mark.filterwarnings("ignore::roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.parametrize("modern", [False, True])
+def test_any_flipped_byte_of_a_small_file_is_survived(tmp_path, put, modern):
+    """Numbers carry no checksum; whatever happens, nothing but a ReadError or a surface comes out."""
+    path = tmp_path / "a.nc"
+    if modern:
+        dataset().to_netcdf(path, engine="h5netcdf")
+    else:
+        contact_engineering(path)
+    whole = path.read_bytes()
+    read = 0
+    for place in np.random.default_rng(5).integers(0, len(whole), 150).tolist():
+        spoilt = bytearray(whole)
+        spoilt[place] ^= 0x81
+        with contextlib.suppress(rc.ReadError):
+            surface = rc.read(put("c.nc", bytes(spoilt)), unit="um", size=1e-3)
+            assert min(surface.grid.shape) >= 2
+            read += 1
+    assert 0 < read < 150

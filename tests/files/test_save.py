@@ -1,0 +1,187 @@
+"""Surfaces and solutions written, and read back to the last bit."""
+
+import hashlib
+import struct
+import tempfile
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+import roughcontact as rc
+from roughcontact.files.aside import WriteError
+from roughcontact.files.read import read_line
+from roughcontact.files.save import write
+
+RNG = np.random.default_rng(8)
+
+
+@pytest.fixture(scope="module")
+def surface():
+    heights = 1e-6 * RNG.standard_normal((9, 14))
+    heights[2, 3] = np.nan
+    return rc.Surface(heights, rc.Grid((9, 14), (1e-6 / 3, 2e-6 / 7), (True, False)), ("made", "say <b> & c"))
+
+
+@pytest.fixture(scope="module")
+def solution():
+    grid = rc.Grid((12, 20), (1e-6, 2e-6))
+    return rc.press(rc.Surface(1e-7 * RNG.standard_normal(grid.shape), grid, ("made",)), 1e10, force=1e-3)
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".nc", ".x3p", ".NPZ"])
+def test_a_surface_comes_back_to_the_last_bit(tmp_path, surface, suffix):
+    path = tmp_path / f"a{suffix}"
+    write(surface, path)
+    back = rc.read(path)
+    assert np.array_equal(back.heights, surface.heights, equal_nan=True)
+    assert back.grid.spacing == surface.grid.spacing
+    if suffix != ".x3p":  # which has no place for them
+        assert back.grid == surface.grid
+        assert back.provenance[:2] == surface.provenance
+    assert back.provenance[-1].startswith(f"read from a{suffix} (")
+    assert [file.name for file in tmp_path.iterdir()] == [path.name]
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".nc", ".x3p"])
+def test_a_line_comes_back_to_the_last_bit(tmp_path, suffix):
+    line = rc.Surface(RNG.standard_normal(30) * 1e-6, rc.Grid(30, 1e-6 / 3))
+    write(line, tmp_path / f"a{suffix}")
+    back = read_line(tmp_path / f"a{suffix}")
+    assert np.array_equal(back.heights, line.heights)
+    assert back.grid == line.grid
+
+
+MAPS = hnp.arrays(
+    np.float64,
+    hnp.array_shapes(min_dims=2, max_dims=2, min_side=2, max_side=5),
+    elements=st.floats(-1e-3, 1e-3, width=64) | st.just(np.nan),
+).filter(lambda a: not np.isnan(a).all())
+
+
+@settings(max_examples=25, deadline=None)
+@given(heights=MAPS, step=st.floats(1e-3, 1e-2), suffix=st.sampled_from([".npz", ".nc", ".x3p"]))
+def test_whatever_is_written_is_read(heights, step, suffix):
+    surface = rc.Surface(heights, rc.Grid(heights.shape, (step, step / 3)))
+    with tempfile.TemporaryDirectory() as folder:
+        write(surface, Path(folder) / f"a{suffix}")
+        back = rc.read(Path(folder) / f"a{suffix}")
+    assert np.array_equal(back.heights, heights, equal_nan=True)
+    assert back.grid == surface.grid
+
+
+def test_x3p_carries_its_checksums(tmp_path, surface):
+    write(surface, tmp_path / "a.x3p")
+    with zipfile.ZipFile(tmp_path / "a.x3p") as archive:
+        main, points = archive.read("main.xml"), archive.read("bindata/data.bin")
+        assert archive.read("md5checksum.hex").split() == [
+            hashlib.md5(main).hexdigest().encode(),
+            b"*main.xml",
+        ]
+    root = ElementTree.fromstring(main)
+    assert root.findtext("Record3/DataLink/MD5ChecksumPointData") == hashlib.md5(points).hexdigest().upper()
+    assert root.findtext("Record2/Comment") == "made; say <b> & c"
+    assert points == surface.heights.tobytes()
+
+
+def test_the_other_library_reads_our_x3p(tmp_path, surface):
+    topography = pytest.importorskip("SurfaceTopography")
+    write(surface, tmp_path / "a.x3p")
+    theirs = topography.read_topography(str(tmp_path / "a.x3p"))
+    heights = np.ma.filled(theirs.heights(), np.nan).T
+    assert np.array_equal(heights, surface.heights, equal_nan=True)
+    np.testing.assert_allclose(theirs.physical_sizes, surface.grid.lengths[::-1], rtol=1e-12)
+
+
+def vti(path):
+    """Return (attributes of the image, fields) of a file, parsed by its own few lines."""
+    data = path.read_bytes()
+    head, _, rest = data.partition(b'<AppendedData encoding="raw">\n_')
+    root = ElementTree.fromstring(head + b"<AppendedData/></VTKFile>")
+    image = root.find("ImageData")
+    fields = {}
+    for array in image.iter("DataArray"):
+        start = int(array.get("offset"))
+        (size,) = struct.unpack_from("<Q", rest, start)
+        kind = {"Float64": "<f8", "UInt8": "u1"}[array.get("type")]
+        fields[array.get("Name")] = np.frombuffer(rest[start + 8 : start + 8 + size], kind)
+    assert rest[start + 8 + size :] == b"\n</AppendedData>\n</VTKFile>\n"
+    return image.attrib, fields
+
+
+def test_paraview_gets_an_upright_picture(tmp_path, solution):
+    write(solution, tmp_path / "a.vti")
+    image, fields = vti(tmp_path / "a.vti")
+    assert image["WholeExtent"] == "0 20 0 12 0 0"
+    assert [float(step) for step in image["Spacing"].split()][:2] == [2e-6, 1e-6]
+    for name in ("heights", "pressure", "displacement", "gap", "contact"):
+        expected = getattr(solution, name, solution.problem.surface.heights)
+        assert np.array_equal(fields[name].reshape(12, 20)[::-1], expected)
+
+
+def test_paraview_gets_surfaces_and_lines(tmp_path, surface):
+    write(surface, tmp_path / "a.vti")
+    image, fields = vti(tmp_path / "a.vti")
+    assert image["WholeExtent"] == "0 14 0 9 0 0"
+    assert np.array_equal(fields["heights"].reshape(9, 14)[::-1], surface.heights, equal_nan=True)
+    write(rc.Surface(np.arange(5.0), rc.Grid(5, 1e-6)), tmp_path / "b.vti")
+    image, fields = vti(tmp_path / "b.vti")
+    assert image["WholeExtent"] == "0 5 0 0 0 0"
+    assert np.array_equal(fields["heights"], np.arange(5.0))
+
+
+def test_the_surface_of_a_solution_is_read_from_its_netcdf(tmp_path, solution):
+    write(solution, tmp_path / "a.nc")
+    back = rc.read(tmp_path / "a.nc")
+    assert np.array_equal(back.heights, solution.problem.surface.heights)
+    assert back.grid == solution.problem.grid
+    assert back.provenance[0] == "made"
+    pressure = rc.read(tmp_path / "a.nc", channel="gap")
+    assert np.array_equal(pressure.heights, solution.gap)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("a.txt", "written as one of .npz, .nc, .x3p, .vti"),
+        ("a", "written as one of"),
+        ("no/a.npz", "no folder"),
+    ],
+)
+def test_what_cannot_be_written_is_refused(tmp_path, surface, name, message):
+    with pytest.raises(WriteError, match=message):
+        write(surface, tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_solution_is_no_x3p(tmp_path, solution):
+    with pytest.raises(WriteError, match=r"one of \.nc, \.vti; write solution\.problem\.surface"):
+        write(solution, tmp_path / "a.x3p")
+    with pytest.raises(WriteError, match="a ndarray"):
+        write(np.eye(3), tmp_path / "a.npz")
+
+
+def test_a_failure_leaves_the_old_file(tmp_path, surface, monkeypatch):
+    write(surface, tmp_path / "a.x3p")
+    before = (tmp_path / "a.x3p").read_bytes()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(WriteError, match="No space left"):
+        write(surface, tmp_path / "a.x3p")
+    assert (tmp_path / "a.x3p").read_bytes() == before
+    assert [file.name for file in tmp_path.iterdir()] == ["a.x3p"]
+
+
+def test_equal_surfaces_give_equal_npz_and_vti(tmp_path, surface):
+    for suffix in (".npz", ".vti"):
+        write(surface, tmp_path / f"a{suffix}")
+        write(surface, tmp_path / f"b{suffix}")
+        assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()

@@ -1,0 +1,138 @@
+"""Digital Surf's files, from a writer of a few lines that fills the header by offsets."""
+
+import struct
+import zlib
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.files.inspect import channels
+from roughcontact.files.read import read_line
+
+COUNTS = np.array([[5, -7, 100, 3], [8, 0, 2, -40], [1, 2, 3, 4]])
+STEP = 0.25  # exact in single precision
+
+
+def sur(counts=COUNTS, *, bits=32, packed=0, unit="µm", lateral="mm", comment=b"", missing=None, **fields):
+    """Return a file; `fields` are values (format, offset, value) that replace those of the header."""
+    ny, nx = counts.shape
+    low, high = int(counts.min()), int(counts.max())
+    data = counts.copy()
+    if missing is not None:
+        data[missing] = low - 2
+    head = bytearray(512)
+    for where, form, value in (
+        (0, "12s", b"DSCOMPRESSED" if packed else b"DIGITAL SURF"),
+        (14, "<hhh", (1, 1, 2)),
+        (86, "<h", 0 if missing is None else 1),
+        (98, "<h", bits),
+        (100, "<iiiii", (low, high, nx, ny, nx * ny)),
+        (120, "<fff", (0.5, 2.0, STEP)),
+        (132, "16s16s16s", (b"X", b"Y", b"Z")),
+        (180, "16s16s16s", (lateral.encode("latin-1"),) * 2 + (unit.encode("latin-1").ljust(16),)),
+        (334, "<H", len(comment)),
+        *fields.values(),
+    ):
+        struct.pack_into(form, head, where, *(value if isinstance(value, tuple) else (value,)))
+    body = data.astype(f"<i{bits // 8}").tobytes()
+    if packed:
+        parts = [body[k::1][: -(-len(body) // packed)] for k in range(0, len(body), -(-len(body) // packed))]
+        streams = [zlib.compress(part) for part in parts]
+        table = b"".join(struct.pack("<II", len(a), len(b)) for a, b in zip(parts, streams, strict=True))
+        body = struct.pack("<I", len(parts)) + table + b"".join(streams)
+    return bytes(head) + comment + body
+
+
+@pytest.mark.parametrize("bits", [16, 32])
+@pytest.mark.parametrize("packed", [0, 1, 3])
+@pytest.mark.parametrize("comment", [b"", b"some words"])
+def test_whole_numbers_times_their_step(put, bits, packed, comment):
+    surface = rc.read(put("a.sur", sur(bits=bits, packed=packed, comment=comment)))
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, (2e-3, 0.5e-3), rtol=1e-15)
+    assert surface.provenance[0].startswith("read from a.sur (Digital Surf, channel 'Z', sha256 ")
+
+
+def test_missing_points(put):
+    mask = COUNTS == 2
+    surface = rc.read(put("a.sur", sur(missing=mask)))
+    assert np.array_equal(np.isnan(surface.heights), mask)
+
+
+@pytest.mark.parametrize(
+    ("mode", "turn"), [(1, lambda h: -h), (2, lambda h: -h[:, ::-1]), (3, lambda h: -h[::-1])]
+)
+def test_inverted_heights_are_turned_back(put, mode, turn):
+    surface = rc.read(put("a.sur", sur(mode=(290, "<h", mode))))
+    np.testing.assert_allclose(surface.heights, turn(COUNTS) * STEP * 1e-6, rtol=1e-15)
+    assert any("inverted" in line for line in surface.provenance)
+
+
+def test_a_profile_is_a_line_scan(put):
+    path = put("a.pro", sur(COUNTS[:1], kind=(18, "<h", 1)))
+    line = read_line(path)
+    np.testing.assert_allclose(line.heights, COUNTS[0] * STEP * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(line.grid.spacing, (0.5e-3,), rtol=1e-15)
+    with pytest.raises(rc.ReadError, match="line scan of 4 heights"):
+        rc.read(path)
+
+
+def test_arbitrary_units_are_named(put):
+    path = put("a.sur", sur(unit="a.u."))
+    with pytest.raises(rc.ReadError, match=r"a\.sur: it states heights in 'a\.u\.', which is no length"):
+        rc.read(path)
+    (channel,) = channels(path)
+    assert (channel.unit, channel.shape) == ("a.u.", (3, 4))
+    assert rc.read(path, unit="nm").heights[0, 0] == pytest.approx(5 * STEP * 1e-9, rel=1e-15)
+    with pytest.raises(rc.ReadError, match="no size"):
+        rc.read(put("b.sur", sur(lateral="px")))
+
+
+@pytest.mark.parametrize(
+    ("field", "message"),
+    [
+        ((0, "12s", b"DIGITAL SURV"), "no whole header"),
+        ((12, "<h", 256), "byte order 256"),
+        ((14, "<h", 3), "3 objects"),
+        ((18, "<h", 12), "type 12"),
+        ((18, "<h", 1), "series of 3 profiles"),
+        ((98, "<h", 24), "of 24 bits"),
+        ((108, "<i", 5), "3 x 5 points"),
+        ((108, "<i", -4), "3 x -4 points"),
+        ((120, "<f", -1.0), "steps of -1"),
+        ((128, "<f", float("nan")), "steps of .*nan"),
+        ((334, "<H", 60000), "cut short"),
+    ],
+)
+def test_a_header_that_cannot_be_is_refused(put, field, message):
+    with pytest.raises(rc.ReadError, match=r"a\.sur: .*" + message):
+        rc.read(put("a.sur", sur(field=field)))
+
+
+@pytest.mark.filterwarnings("ignore:.*unusual:roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.parametrize("packed", [0, 2])
+def test_damage_is_refused_or_named(put, packed):
+    whole = sur(packed=packed)
+    for end in (100, 511, 512, 530, len(whole) - 1):
+        with pytest.raises(rc.ReadError, match=r"a\.sur"):
+            rc.read(put("a.sur", whole[:end]))
+    spoilt = bytearray(whole)
+    spoilt[-3] ^= 0x40
+    if packed:
+        with pytest.raises(rc.ReadError, match="compressed heights are damaged"):
+            rc.read(put("a.sur", bytes(spoilt)))
+    else:
+        with pytest.warns(UserWarning, match="1 heights lie outside the range"):
+            rc.read(put("a.sur", bytes(spoilt)))
+
+
+def test_a_stream_that_promises_too_little_or_too_much_is_refused(put):
+    whole = bytearray(sur(packed=1))
+    for length in (3, 10**9):
+        struct.pack_into("<I", whole, 516, length)
+        with pytest.raises(rc.ReadError, match="compressed heights are damaged"):
+            rc.read(put("a.sur", bytes(whole)))
+    struct.pack_into("<I", whole, 512, 2**32 - 1)
+    with pytest.raises(rc.ReadError, match=r"a\.sur"):
+        rc.read(put("a.sur", bytes(whole)))

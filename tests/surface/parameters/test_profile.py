@@ -1,0 +1,73 @@
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.surface.parameters.profile import profile_parameters
+
+
+def line(heights, spacing=0.1):
+    return rc.Surface(np.asarray(heights, dtype=float), rc.Grid(len(heights), spacing))
+
+
+def test_a_sine_has_its_closed_values():
+    n, amplitude = 640, 3.0
+    found = profile_parameters(line(amplitude * np.sin(2 * np.pi * np.arange(n) / 64)))
+    assert found.sections == 5
+    assert found.section_length == pytest.approx(12.8)
+    assert found.evaluation_length == pytest.approx(64.0)
+    assert found.Rq == pytest.approx(amplitude / math.sqrt(2), rel=1e-12)
+    assert found.Ra == pytest.approx(
+        2 * amplitude / math.pi * (math.pi / 64) / math.tan(math.pi / 64), rel=1e-12
+    )
+    assert (found.Rsk, found.Rku) == pytest.approx((0, 1.5), abs=1e-12)
+    assert (found.Rp, found.Rv, found.Rz, found.Rt) == pytest.approx((3, 3, 6, 6), rel=1e-12)
+
+
+def test_the_gradient_of_a_sine():
+    """The seven-point formula sees of a wave q the share (45 sin t - 9 sin 2t + sin 3t)/(30 t), t = q D."""
+    n, spacing, period = 6406, 0.1, 32
+    t = 2 * math.pi / period
+    found = profile_parameters(line(np.sin(t * np.arange(n)), spacing), section_length=n * spacing)
+    share = (45 * math.sin(t) - 9 * math.sin(2 * t) + math.sin(3 * t)) / (30 * t)
+    # 6400 points have six neighbours: 200 whole waves. Their mean height is subtracted, which has no gradient.
+    assert found.Rdq == pytest.approx(t / spacing / math.sqrt(2) * share, rel=1e-12)
+    assert found.sections == 1
+
+
+def test_sections_are_looked_at_one_by_one():
+    heights = np.zeros(23)
+    heights[[2, 7, 12]] = [4.0, 2.0, 3.0]
+    heights[[3, 8, 22]] = [-1.0, -5.0, 99.0]  # the last one is beyond the fourth section
+    found = profile_parameters(line(heights), section_length=0.5)
+    mean = heights[:20].mean()
+    assert found.sections == 4
+    assert found.Rp == pytest.approx((4 + 2 + 3 + 0) / 4 - mean)
+    assert found.Rv == pytest.approx((1 + 5 + 0 + 0) / 4 + mean)
+    assert found.Rz == pytest.approx((5 + 7 + 3 + 0) / 4)
+    assert found.Rt == pytest.approx(9)
+
+
+def test_any_profile_against_sums():
+    z = np.random.default_rng(0).standard_normal(503) ** 3
+    found = profile_parameters(line(z))
+    h = z[:500] - math.fsum(z[:500]) / 500
+    rq = math.sqrt(math.fsum(h**2) / 500)
+    assert found.Ra == pytest.approx(math.fsum(abs(h)) / 500, rel=1e-12)
+    assert found.Rsk == pytest.approx(math.fsum(h**3) / 500 / rq**3, rel=1e-11)
+    assert found.Rku == pytest.approx(math.fsum(h**4) / 500 / rq**4, rel=1e-12)
+    weights = {1: 45, 2: -9, 3: 1}
+    slopes = [sum(w * (h[i + k] - h[i - k]) for k, w in weights.items()) / 6.0 for i in range(3, 497)]
+    assert found.Rdq == pytest.approx(math.sqrt(math.fsum(s * s for s in slopes) / 494), rel=1e-12)
+
+
+def test_what_is_no_profile_is_refused():
+    with pytest.raises(ValueError, match="need a line"):
+        profile_parameters(rc.Surface(np.zeros((5, 5)), rc.Grid((5, 5), 1.0)))
+    with pytest.raises(ValueError, match="1 points are missing"):
+        profile_parameters(line([1.0, np.nan, *range(20)]))
+    with pytest.raises(ValueError, match="do not fit"):
+        profile_parameters(line(range(20)), section_length=9.0)
+    with pytest.raises(ValueError, match="all heights are equal"):
+        profile_parameters(line([2.0] * 30))
