@@ -1,7 +1,7 @@
 # Everything a checkout can do, on a machine with Python (3.11 or later), pip and make.
 #
 #   make demo               press two rough surfaces: tables, files and pictures in out/demo/
-#   make demo FILE=part.x3p the same with a measured surface of yours (ARGS="--size 1mm" where the file has none)
+#   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make lint               style and types
 #   make bench              compare with other programs, where they can be installed
@@ -27,9 +27,10 @@ ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 help:
 	@sed -n '3,10s/^# *//p' Makefile
 
-demo: $(ENV)/.ready
+# A file of the user's may be in any format that instruments write.
+demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
 	@$(BIN)/python examples/demo.py $(if $(FILE),--file "$(FILE)") $(ARGS) \
-	  && echo "demo: OK - see out/demo/" || { echo "demo: FAILED"; exit 1; }
+	  && echo "demo: OK - see out/demo/" || { status=$$?; echo "demo: FAILED"; exit $$status; }
 
 test: $(ENV)/.ready-to-test
 	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
@@ -52,6 +53,11 @@ $(ENV)/.ready: pyproject.toml
 	@$(call create,$(ENV))
 	@echo "Installing roughcontact into $(ENV) ..."
 	@$(BIN)/python $(INSTALL) -e .
+	@touch $@
+
+$(ENV)/.ready-to-read: $(ENV)/.ready
+	@echo "Installing the readers of instrument formats ..."
+	@$(BIN)/python $(INSTALL) -e ".[formats]"
 	@touch $@
 
 $(ENV)/.ready-to-test: $(ENV)/.ready

@@ -1,12 +1,14 @@
 """Every script in examples/ runs, and one number of each is what it must be."""
 
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -25,7 +27,18 @@ def check_demo(stdout, folder):
     for name in ("landscape", "fractal"):
         points = read(folder / f"{name}_curve.csv")
         assert points["residual"].max() <= 1e-8
-    assert "Every one of 62 answers is certified to 1e-08" in stdout
+    verdict = re.search(
+        r"Every one of 62 answers is certified to 1e-08; (\d+) of 60 loads are resolved", stdout
+    )
+    assert int(verdict[1]) == stdout.count("  yes\n") > 0
+    assert stdout.index("fractal:") < stdout.index("landscape:")
+    assert "resolved: stiffer than twenty single cells" in stdout
+    lines = (folder / "fractal_curve.csv").read_text(encoding="utf-8").splitlines()
+    assert any(line.startswith("# input_sha256 = ") for line in lines)
+    assert any(re.search("^# history = .*: demo.py --out", line) for line in lines)
+    with xarray.open_dataset(folder / "landscape_pressure.nc") as dataset:
+        assert dataset.attrs["input_surface"] == "Jacksboro fault\nlevelled by its plane"
+        assert dataset.attrs["input_reduced_modulus_in_Pa"] == pytest.approx(32e9, rel=1e-14)
 
 
 # Script -> its arguments, where FOLDER is an empty folder, and the check of its number.
@@ -51,19 +64,55 @@ def test_example(name, tmp_path):
     check(answer.stdout, tmp_path)
 
 
+def demo(folder, *words):
+    words = [sys.executable, str(EXAMPLES / "demo.py"), *words]
+    return subprocess.run(words, capture_output=True, encoding="utf-8", cwd=folder, check=False)
+
+
 def test_the_demo_takes_a_file_of_the_user(tmp_path):
-    np.save(tmp_path / "part.npy", np.random.default_rng(1).random((24, 32)))
-    words = [sys.executable, str(EXAMPLES / "demo.py"), "--file", "part.npy", "--out", "out"]
-    refused = subprocess.run(words, capture_output=True, encoding="utf-8", cwd=tmp_path, check=False)
+    np.save(tmp_path / "part.npy", np.random.default_rng(1).random((24, 48)))
+    words = ("--file", "part.npy", "--out", "out")
+    refused = demo(tmp_path, *words)
     assert refused.returncode == 1
     assert refused.stderr.startswith("Error: part.npy: it states no unit")
-    answer = subprocess.run(
-        [*words, "--unit", "nm", "--size", "1um"],
-        capture_output=True,
-        encoding="utf-8",
-        cwd=tmp_path,
-        check=False,
-    )
+    assert refused.stderr.endswith('with make: ARGS="--unit nm --size 10um"\n')
+    unknown = demo(tmp_path, *words, "--unit", "parsec", "--size", "1um")
+    assert unknown.stderr.startswith("Error: unit 'parsec'")
+    assert not (tmp_path / "out").exists()
+    answer = demo(tmp_path, *words, "--unit", "nm", "--size", "1um")
     assert answer.returncode == 0, answer.stderr
-    assert "surface: 24 x 32 cells" in answer.stdout
-    assert (tmp_path / "out" / "surface_curve.png").is_file()
+    assert "surface: 24 x 48 cells" in answer.stdout
+    assert (tmp_path / "out" / "part" / "surface_curve.png").is_file()
+    # White noise is no surface: a note, and no lines of code.
+    assert answer.stderr.startswith("Note: part.npy: ")
+    assert answer.stderr.count("\n") == answer.stderr.count("Note: ")
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.1])
+def test_the_demo_says_that_a_file_is_flat(tmp_path, slope):
+    np.save(tmp_path / "flat.npy", slope * np.arange(24.0) + np.full((24, 24), 3.3))
+    answer = demo(tmp_path, "--file", "flat.npy", "--unit", "nm", "--size", "1um")
+    assert answer.returncode == 1
+    assert answer.stderr.startswith("Error: flat.npy is flat")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_the_demo_ends_quietly_on_ctrl_c(tmp_path):
+    script = (
+        "import runpy, signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        f"sys.argv = ['demo.py', '--out', 'out']; runpy.run_path({str(EXAMPLES / 'demo.py')!r}, run_name='__main__')"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-u", "-c", script],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    ) as process:
+        while "fractal:" not in process.stdout.readline():
+            pass  # it has begun
+        process.send_signal(signal.SIGINT)
+        stderr = process.communicate(timeout=60)[1]
+    assert (process.returncode, stderr) == (130, "Interrupted: no file was left half-written.\n")
+    assert not list(tmp_path.rglob("*.part"))

@@ -3,7 +3,7 @@ import pytest
 from typer.testing import CliRunner
 
 import roughcontact as rc
-from roughcontact.cli.main import app
+from roughcontact.cli.app import app
 
 
 @pytest.fixture

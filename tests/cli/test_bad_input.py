@@ -49,7 +49,7 @@ GOOD = heights(lambda values: None)
 ROWS = [[f"{value:.6f}" for value in row] for row in GOOD]
 FILES = {
     "missing": ("part.npz", None, "cannot be opened"),
-    "folder": (".", None, ""),
+    "folder": (".", None, "it is a folder; name a file in it"),
     "empty npz": ("part.npz", lambda _: b"", "empty"),
     "empty npy": ("part.npy", lambda _: b"", "empty"),
     "empty text": ("part.txt", lambda _: b"", "empty"),
@@ -102,14 +102,14 @@ def changed(**options):
 
 
 PRESS_OPTIONS = {
-    "negative force": (changed(force="-1N"), "the force must be positive"),
+    "negative force": (changed(force="-1N"), "--force: the force must be positive"),
     "zero force": (changed(force="0N"), "the force must be positive"),
     "force in kilograms": (
         changed(force="1kg"),
         "--force: '1kg' is not a force; expected a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
-    "negative depth": (changed(force=None, depth="-1um"), "the depth counts from first touch"),
+    "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
     "no load": (changed(force=None), "give one load (--force or --pressure or --depth)"),
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
@@ -125,14 +125,25 @@ PRESS_OPTIONS = {
     "too many bodies": (changed(young2="1GPa"), "leave out"),
     "zero Young's modulus": (
         changed(modulus=None, young="0", poisson="0.3"),
-        "young_modulus must be positive",
+        "--young: Young's modulus must be positive",
     ),
-    "Poisson's ratio": (changed(modulus=None, young="1GPa", poisson="0.7"), "poisson_ratio must lie"),
+    "Poisson's ratio": (
+        changed(modulus=None, young="1GPa", poisson="0.7"),
+        "--poisson: Poisson's ratio lies above",
+    ),
+    "decimal comma": (
+        changed(modulus=None, young="1GPa", poisson="0,3"),
+        "--poisson: '0,3' holds a comma: write the decimal point as '.'",
+    ),
+    "Poisson's ratio in words": (changed(modulus=None, young="1GPa", poisson="third"), "not a number"),
+    "a force beyond measure": (changed(force="1e300N"), "--force: '1e300N' is beyond anything"),
+    "a size beyond measure": (changed(size="1e-300m"), "--size: '1e-300m' is beyond anything"),
     "size of zero": (changed(size="0mm"), "--size: a side length must be positive"),
     "unit that is none": (changed(unit="parsec"), "unit 'parsec'"),
     "unknown channel": (changed(channel="colour"), "no channel 'colour'"),
-    "loose tolerance": (changed(tolerance="1"), "the tolerance must lie between"),
+    "loose tolerance": (changed(tolerance="1"), "--tolerance: the tolerance must lie between"),
     "tight tolerance": (changed(tolerance="0"), "the tolerance must lie between"),
+    "no tolerance": (changed(tolerance="small"), "--tolerance: 'small' is not a number"),
 }
 
 
@@ -154,7 +165,6 @@ CURVE_OPTIONS = {
     "negative depths": (("--depths", "-1um,1um"), "must be positive"),
     "a range of nothing": (("--forces", "1N:2N:0"), "from 2 to"),
     "two kinds": (("--forces", "1N,2N", "--depths", "1um,2um"), "exclude each other"),
-    "none": ((), "give the loads"),
     "full contact": (("--depths", "1um,1m", "--periodic"), "exceeds the mean separation"),
 }
 
@@ -178,6 +188,42 @@ def test_an_output_folder_with_a_file_in_its_place(invoke, rough, tmp_path, word
     refused(answer, "is a file")
     assert (tmp_path / "taken").read_text() == "mine"
     assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        changed(force="-1N"),
+        changed(tolerance="1"),
+        changed(modulus="0GPa"),
+        changed(modulus=None, young="1GPa", poisson="1"),
+    ],
+)
+def test_what_needs_no_file_is_checked_before_it_is_read(invoke, tmp_path, options):
+    answer = invoke("press", tmp_path / "missing.npz", *options)
+    assert answer.exit_code == 2
+    assert answer.stderr.startswith("Error: --")
+
+
+def test_paths_are_shown_as_they_were_typed(invoke, rough, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "taken").write_text("mine")
+    words = ["press", "./rough.npz", *changed()]
+    assert (
+        invoke(*words, "--out", "./taken")
+        .stderr.splitlines()[-1]
+        .startswith("Error: cannot use taken as a folder")
+    )
+    words[1] = "sub/missing.npz"
+    assert invoke(*words).stderr.startswith("Error: sub/missing.npz: it cannot be opened")
+    assert invoke("surface", "info", "sub/missing.npz").stderr.startswith("Error: sub/missing.npz: ")
+
+
+def test_what_overrides_the_file_is_spoken(invoke, rough):
+    answer = invoke("press", rough, *changed(size="1mm", unit="um"))
+    assert answer.exit_code == 0
+    assert "unit of the heights um as given, instead of the file's m" in answer.stderr
+    assert "instead of the file's 4.8e-05 x 3.2e-05" in answer.stderr
 
 
 def test_a_mistake_of_ours_shows_itself(invoke, rough, monkeypatch):

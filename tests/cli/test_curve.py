@@ -6,6 +6,7 @@ import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.cli.report import quantity
 
 MODULUS = ("--modulus", "110GPa")
 FORCES = ("--forces", "1mN:1N:12")
@@ -69,6 +70,25 @@ def test_loads_can_be_pressures_or_depths(invoke, rough, surface):
     np.testing.assert_allclose(ask("--depths", "10nm,20nm")["depth"], [1e-8, 2e-8], rtol=1e-14)
     force = np.array(ask("--pressures", "1MPa,2MPa")["force"])
     np.testing.assert_allclose(force, np.array([1e6, 2e6]) * surface.grid.area, rtol=1e-9)
+
+
+def test_without_loads_it_takes_those_of_the_library_and_says_so(invoke, rough, surface):
+    answer = invoke("curve", rough, *MODULUS, "--level", "none", "--json")
+    assert answer.exit_code == 0
+    scale = 110e9 * surface.rms * np.sqrt(surface.grid.area)
+    force = json.loads(answer.stdout)["force"]
+    np.testing.assert_allclose(force, np.geomspace(1e-4 * scale, 0.07 * scale, 30), rtol=1e-9)
+    ends = [quantity("force", end * scale) for end in (1e-4, 0.07)]
+    assert f"no loads are named: 30 forces from {ends[0]} to {ends[1]}" in answer.stderr
+    assert "0.07 of E* h L" in invoke("curve", "--help").stdout
+
+
+def test_a_flat_surface_needs_its_loads_named(invoke, tmp_path):
+    np.savez(tmp_path / "flat.npz", heights=np.zeros((8, 8)), spacing=1e-6, unit="m")
+    answer = invoke("curve", tmp_path / "flat.npz", *MODULUS, "--out", tmp_path / "out")
+    assert answer.exit_code == 2
+    assert "Error: a flat surface gives forces no scale" in answer.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):

@@ -1,9 +1,11 @@
 """The program as a process of its own."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -43,7 +45,7 @@ def test_help_names_the_options_and_shows_examples(invoke, verb, options):
     assert answer.exit_code == 0
     assert all(option in answer.stdout for option in options)
     assert (
-        "Exit status" in answer.stdout if verb == () else f"roughcontact {' '.join(verb)} " in answer.stdout
+        "70 a mistake" in answer.stdout if verb == () else f"roughcontact {' '.join(verb)} " in answer.stdout
     )
 
 
@@ -65,8 +67,78 @@ def test_json_is_all_there_is_on_standard_output(rough):
 def test_bad_input_is_one_line(tmp_path):
     answer = call("press", tmp_path / "missing.x3p", "--force", "1N", "--modulus", "1GPa", "--level", "none")
     assert (answer.returncode, answer.stdout) == (2, "")
-    assert answer.stderr.startswith("Error: missing.x3p: ")
+    assert answer.stderr.startswith(f"Error: {tmp_path / 'missing.x3p'}: ")
     assert answer.stderr.count("\n") == 1
+
+
+def script(*lines):
+    """Run the program in a process that does some `lines` first."""
+    program = "\n".join(["import sys", *lines, "from roughcontact.cli.main import run", "run()"])
+    return [sys.executable, "-c", program]
+
+
+def test_a_mistake_of_ours_has_its_own_status(rough):
+    broken = script("import roughcontact as rc", "rc.press = None")
+    words = [*broken, "press", str(rough), "--force", "1N", "--modulus", "1GPa"]
+    answer = subprocess.run(words, capture_output=True, encoding="utf-8", timeout=120, check=False)
+    assert answer.returncode == 70
+    assert "Traceback" in answer.stderr
+    assert "TypeError" in answer.stderr
+    assert "mistake in roughcontact" in answer.stderr.splitlines()[-1]
+
+
+def test_ctrl_c_during_the_imports_leaves_no_traceback():
+    finder = (
+        "class Finder:",
+        "    def find_spec(self, name, path, target=None):",
+        "        if name == 'typer': raise KeyboardInterrupt",
+        "sys.meta_path.insert(0, Finder())",
+    )
+    words = [*script(*finder), "--version"]
+    answer = subprocess.run(words, capture_output=True, encoding="utf-8", timeout=120, check=False)
+    assert (answer.returncode, answer.stdout, answer.stderr) == (130, "", "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("words", [("--help",), ("surface", "info", "FILE"), ("--version",)])
+def test_output_that_finds_no_room_is_one_line(rough, words):
+    words = [*PROGRAM, *(str(rough) if word == "FILE" else word for word in words)]
+    with open("/dev/full", "w") as full:
+        answer = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, encoding="utf-8", check=False)
+    assert answer.returncode == 2
+    assert answer.stderr == "Error: the output cannot be written: No space left on device\n"
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names of files are letters there")
+def test_a_file_whose_name_is_no_text(rough, tmp_path):
+    path = os.fsencode(rough.parent) + b"/r\xff.npz"
+    os.rename(rough, path)
+    out = tmp_path / "out"
+    words = [*PROGRAM, "press", os.fsdecode(path), "--force", "1mN", "--modulus", "1GPa", "--out", str(out)]
+    answer = subprocess.run(words, capture_output=True, encoding="utf-8", timeout=120, check=False)
+    assert answer.returncode == 0, answer.stderr
+    record = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert record["file"].endswith("r?.npz")
+    assert "r?.npz" in record["provenance"]["history"]
+    assert record["surface"][0].startswith("read from r?.npz")
+    assert sorted(each.name for each in out.iterdir()) == ["pressure.nc", "pressure.png", "summary.json"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_sigterm_ends_a_run_and_leaves_nothing(rough, tmp_path):
+    words = ["curve", rough, "--forces", "1uN:1N:100000", "--modulus", "1GPa", "--out", tmp_path / "out"]
+    with subprocess.Popen(
+        [*PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
+    ) as process:
+        assert "levelled" in process.stderr.readline()  # it has begun
+        assert (tmp_path / "out").is_dir()
+        process.send_signal(signal.SIGTERM)
+        stdout, stderr = process.communicate(timeout=60)
+    assert process.returncode == 143
+    assert stdout == ""
+    assert "Terminated: no file was left half-written." in stderr
+    assert "Traceback" not in stderr
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["rough.npz"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")

@@ -7,6 +7,7 @@ import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.cli.report import solution_facts
 from roughcontact.plot import figures
 
 MODULUS = ("--modulus", "110GPa")
@@ -101,6 +102,13 @@ def test_a_person_gets_a_table(invoke, rough):
     assert lines["reduced modulus E*"].strip() == "110 GPa"
     assert "24 x 32 cells, 48 µm x 32 µm, free" in lines["surface"]
     assert "tolerance 1e-08: met" in lines["certificate"]
+
+
+def test_a_gap_that_is_mere_rounding_is_none(invoke, rough):
+    answer = invoke("press", rough, "--force", "1e9N", *MODULUS)
+    (gap,) = (line.split()[2:] for line in answer.stdout.splitlines() if line.startswith("mean gap"))
+    assert gap == ["0", "m"]
+    assert solution_facts(rc.press(rc.read(rough), 110e9, force=0.01))[11][1] != "0 m"
 
 
 def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):

@@ -1,4 +1,5 @@
 import json
+import re
 
 import numpy as np
 import pytest
@@ -66,9 +67,30 @@ def test_the_seed_makes_the_surface(invoke, tmp_path):
     assert (first != other).any()
 
 
+def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
+    path = tmp_path / "new.npz"
+    words = ("surface", "make", path, *MAKE, "--points", "16", "--seed", "7", "--short", "0.2mm")
+    made = invoke(*words)
+    history = json.loads(invoke("surface", "info", path, "--json").stdout)["provenance"]
+    assert history[0].startswith("self-affine, H = 0.8, rms = 1e-06 m")
+    assert history[1] == f"made by roughcontact {rc.__version__}: seed 7, short 0.0002 m"
+    assert history[2].startswith("read from new.npz")
+    assert "Note" not in made.stderr
+    table = invoke("surface", "info", path)
+    for line in history[:2]:
+        assert line in made.stdout
+        assert line in table.stdout
+    # The extremes are told in the units of the roughness.
+    assert re.search(r"heights +-\d\S* (nm|µm) to \d\S* (nm|µm)\n", table.stdout)
+    assert f"Note: {path} was there before and is replaced" in invoke(*words).stderr
+
+
 @pytest.mark.parametrize(
     ("changed", "complaint"),
     [
+        (("--hurst", "0,8"), "--hurst: '0,8' holds a comma"),
+        (("--seed", "-1"), "--seed: '-1' is no seed"),
+        (("--seed", "1.5"), "--seed: '1.5' is no seed"),
         (("--hurst", "4"), "hurst must lie between -1 and 3"),
         (("--rms", "0um"), "rms must be positive"),
         (("--rms", "1N"), "--rms: '1N' is not a length"),
@@ -125,7 +147,7 @@ def test_info_shows_the_channels_of_a_file_that_leaves_its_size_open(invoke, tmp
     assert answer.exit_code == 2
     assert "24 x 32, without a unit" in answer.stdout
     assert answer.stderr.startswith(
-        "Error: part.npy: it states no unit of its heights and no size; pass --unit"
+        f"Error: {path}: it states no unit of its heights and no size; pass --unit"
     )
     failed = invoke("surface", "info", path, "--json")
     assert json.loads(failed.stdout)["channels"][0]["shape"] == [24, 32]

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
+from roughcontact.plot.ticks import readable_ticks
 
 MODULUS = 1e11
 
@@ -127,3 +128,25 @@ def test_area_and_depth(curve):
             share = right.get_ylim()[0] / axes.get_ylim()[0] * data[0]
             expected = values[curve.resolved][0] / (48e-7 * 48e-7)
             assert share == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [1.1, 1.7, 4.0, 6.0, 25.0, 90.0, 1e3, 1e6])
+@pytest.mark.parametrize("first", [1.0, 1.3, 3.7, 8.9])
+def test_numbers_on_a_logarithmic_axis_are_few_and_at_least_two(ratio, first):
+    figure = Figure(figsize=(3, 2))
+    axes = figure.subplots()
+    axes.set_yscale("log")
+    axes.plot([0, 1], [first, ratio * first])
+    readable_ticks(axes.yaxis, ratio)
+    figure.draw_without_rendering()
+    low, high = axes.get_ylim()
+    ticks = [*axes.yaxis.get_major_ticks(), *axes.yaxis.get_minor_ticks()]
+    labels = [tick.label1.get_text() for tick in ticks if low <= tick.get_loc() <= high]
+    numbers = [text for text in labels if text]
+    assert 2 <= len(numbers) <= 7
+    assert len(set(numbers)) == len(numbers)
+
+
+def test_the_lower_limit_is_named_for_what_it_is(axes, curve):
+    stiffness_curve(axes, curve)
+    assert [text.get_text() for text in axes.texts] == ["20 x one cell", "saturation"]

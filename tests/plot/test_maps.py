@@ -11,6 +11,7 @@ import roughcontact as rc
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window, faint_spots
 from roughcontact.plot.raster import part, pooled
+from roughcontact.plot.units import written
 
 MODULUS = 1e11
 
@@ -166,3 +167,5 @@ def test_a_few_great_pressures_do_not_darken_the_rest():
     image = axes.images[-1]
     assert image.get_clim()[1] == pytest.approx(np.quantile(edge.pressure, 0.95) * 1e-3, rel=1e-12)  # kPa
     assert image.colorbar.extend == "max"
+    highest = written(np.quantile(edge.pressure, 0.95), "Pa")
+    assert image.colorbar.ax.get_ylabel() == f"pressure [kPa]\n(colours end at {highest})"

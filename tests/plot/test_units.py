@@ -50,6 +50,8 @@ def test_exact_powers_of_ten_are_not_rounded_down(exponent):
         (-2e-9, "m", "-2 nm"),
         (0.0, "N", "0 N"),
         (123456.0, "1", "123000"),
+        (2e30, "N", "2e+18 TN"),
+        (-1.5e-16, "m", "-0.00015 pm"),
         (math.inf, "N m-1", "infinite"),
         (math.nan, "N m-1", "unknown"),
     ],

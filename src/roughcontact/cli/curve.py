@@ -10,10 +10,10 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
-from roughcontact.cli.errors import MISSED, note, reported
-from roughcontact.cli.memory import require_memory
+from roughcontact.cli.errors import note, plain, reported
+from roughcontact.cli.exits import MISSED
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse_loads
+from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse_loads, parse_tolerance
 from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, screen, size_of
 
 if TYPE_CHECKING:
@@ -28,6 +28,8 @@ __all__ = ["EXAMPLES", "curve"]
 
 EXAMPLES = """Examples:
 
+roughcontact curve part.x3p --modulus 110GPa
+
 roughcontact curve part.x3p --forces 1mN:1N:100 --modulus 110GPa --out result
 
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
@@ -35,14 +37,15 @@ roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
 """
 
-_LOADS = "Loads (one of them)"
+_LOADS = "Loads (at most one of them)"
 _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
 
 ForcesOption = Annotated[
     str | None,
     typer.Option(
         metavar="1mN:1N:100",
-        help="Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list.",
+        help="Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
+        "(default, if no loads are named: 30 forces from 1e-4 to 0.07 of E* h L).",
         rich_help_panel=_LOADS,
     ),
 ]
@@ -72,34 +75,48 @@ def curve(
     size: options.SizeOption = None,
     periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
-    tolerance: options.ToleranceOption = 1e-8,
+    tolerance: options.ToleranceOption = "1e-8",
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
     """Press a rough surface by rising loads: stiffness, area and depth against force."""
-    with reported():
-        from roughcontact.halfspace.build import memory_needed
-
+    with reported(file, out):
         given = {"forces": forces, "pressures": pressures, "depths": depths}
-        name = options.only_one({f"--{key}": value for key, value in given.items()}, "the loads")[2:]
-        loads = parse_loads(str(given[name]), _KINDS[name], f"--{name}")
+        named = {f"--{key}": value for key, value in given.items()}
+        name = "forces" if set(given.values()) == {None} else options.only_one(named, "the loads")[2:]
+        text = given[name]
+        loads = None if text is None else parse_loads(text, _KINDS[name], f"--{name}")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
+        asked = parse_tolerance(tolerance, "--tolerance")
         with output(out) as folder:
             surface = options.Reading(file, channel, unit, size, level, periodic).surface()
-            require_memory(memory_needed(surface.grid), surface.grid.shape)
-            answer, notes = _load(surface, reduced, name, loads, tolerance)
+            if loads is None:
+                loads = _suggested(surface, reduced)
+            answer, notes = _load(surface, reduced, name, loads, asked)
             law = _fit(answer)
-            record = _record(answer, law, file, surface, tolerance) | {"notes": list(notes)}
+            record = _record(answer, law, file, surface, asked) | {"notes": list(notes)}
             if folder is not None:
                 control = (
                     f"{name} from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}, {loads.size} of them"
                 )
-                _write(answer, law, record, folder, _source(surface, reduced, control, tolerance))
+                _write(answer, law, record, folder, _source(surface, reduced, control, asked))
         _tell(answer, law, surface, record, json)
         if folder is not None:
             note(f"summary.json, curve.csv, curve.nc and curve.png are in {folder}")
         if not record["converged"]:
             raise typer.Exit(MISSED)
+
+
+def _suggested(surface: Surface, modulus: float) -> npt.NDArray[np.float64]:
+    """Return the forces [N] that suit a surface, and say which they are."""
+    from roughcontact.contact.loading import suggested_forces
+
+    loads = suggested_forces(surface, modulus)
+    low, high = (quantity("force", float(load)) for load in (loads[0], loads[-1]))
+    note(
+        f"no loads are named: {loads.size} forces from {low} to {high}, 1e-4 to 0.07 of E* h L (--forces for others)"
+    )
+    return loads
 
 
 def _load(
@@ -152,7 +169,7 @@ def _record(
 
     return {
         "verb": "curve",
-        "file": str(file),
+        "file": plain(str(file)),
         "surface": list(surface.provenance),
         **curve_record(curve),
         "fit": None if law is None else _law_record(law),

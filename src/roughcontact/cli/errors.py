@@ -13,13 +13,10 @@ from typing import Any
 
 import typer
 
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.files.errors import ReadError, SurfaceWarning
 
-__all__ = ["BAD_INPUT", "INTERRUPTED", "MISSED", "UsageError", "note", "reported"]
-
-MISSED = 1  # an answer that did not meet its tolerance
-BAD_INPUT = 2  # the same status as a misspelt option
-INTERRUPTED = 130  # what a shell reports for Ctrl-C
+__all__ = ["UsageError", "as_typed", "note", "plain", "reported"]
 
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
@@ -41,8 +38,11 @@ def note(text: str) -> None:
 
 
 @contextmanager
-def reported() -> Iterator[None]:
-    """Turn errors of ours into one line and an exit status, and our warnings into notes."""
+def reported(*paths: Path | None) -> Iterator[None]:
+    """Turn errors of ours into one line and an exit status, and our warnings into notes.
+
+    The lines name the `paths` of the command line as they were typed.
+    """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", SurfaceWarning)
@@ -51,11 +51,35 @@ def reported() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("Interrupted: no file was left half-written.", err=True)
         raise typer.Exit(INTERRUPTED) from None
+    except SystemExit as end:
+        if end.code == TERMINATED:
+            typer.echo("Terminated: no file was left half-written.", err=True)
+        raise
+    except MemoryError:
+        typer.echo("Error: the memory does not suffice: use fewer points, or another machine", err=True)
+        raise typer.Exit(BAD_INPUT) from None
     except (ValueError, OSError) as error:
         if not _is_ours(error):
             raise
-        typer.echo(f"Error: {_line(_message(error))}", err=True)
+        message = _message(error)
+        for path in paths:
+            message = message if path is None else message.replace(os.path.realpath(path), str(path))
+        typer.echo(f"Error: {_line(message)}", err=True)
         raise typer.Exit(BAD_INPUT) from None
+
+
+@contextmanager
+def as_typed(file: Path) -> Iterator[None]:
+    """Name a file that cannot be read by its path as the user typed it, not by its bare name."""
+    try:
+        yield
+    except ReadError as error:
+        raise ReadError(plain(str(file)), error.problem, error.remedy) from error
+
+
+def plain(text: str) -> str:
+    """Return `text` with a question mark for every byte of a file name that is no letter."""
+    return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _is_ours(error: ValueError | OSError) -> bool:

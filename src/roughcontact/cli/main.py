@@ -1,61 +1,57 @@
-"""The program ``roughcontact``: its verbs, its version, its way out."""
+"""The way into the program and out of it: every end has its status."""
 
 from __future__ import annotations
 
+import errno
 import io
+import os
+import signal
 import sys
-from typing import Annotated
+import traceback
+from typing import NoReturn
 
-import typer
+from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, MISTAKE, TERMINATED
 
-from roughcontact import __version__
-from roughcontact.cli import curve, press, surface
-from roughcontact.cli.errors import INTERRUPTED
+__all__ = ["run"]
 
-__all__ = ["app", "run"]
-
-app = typer.Typer(
-    name="roughcontact",
-    help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
-    epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
-    "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 130 interrupted.",
-    no_args_is_help=True,
-    add_completion=False,
-    # A mistake of ours shows itself as Python shows it.
-    pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
-)
-_surface = typer.Typer(help="Look at a surface file, or make one.", no_args_is_help=True)
-
-app.command(epilog=press.EXAMPLES)(press.press)
-app.command(epilog=curve.EXAMPLES)(curve.curve)
-app.add_typer(_surface, name="surface")
-_surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
-_surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"roughcontact {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _main(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
-    ] = False,
-) -> None:
-    pass
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
 
 
 def run() -> None:
     """Run the program."""
-    for stream in (sys.stdout, sys.stderr):
-        # A terminal or pipe that cannot show a letter gets a question mark, not a crash.
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")
     try:
+        signal.signal(signal.SIGTERM, _terminate)
+        for stream in (sys.stdout, sys.stderr):
+            # A terminal or pipe that cannot show a letter gets a question mark, not a crash.
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="replace")
+        # Late, since it takes a second, in which Ctrl-C must not end in a traceback.
+        from roughcontact.cli.app import app
+
         app(prog_name="roughcontact")
-    except KeyboardInterrupt:  # between two verbs' worth of imports
+    except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    except Exception as error:
+        # Files of ours speak for themselves before they come here: this is standard output.
+        if isinstance(error, OSError) and error.filename is None and error.errno in _NO_ROOM:
+            sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
+            sys.exit(BAD_INPUT)
+        traceback.print_exc()
+        sys.stderr.write("This is a mistake in roughcontact, not in your input: please report these lines.\n")
+        sys.exit(MISTAKE)
+    finally:
+        _let_go_of_output()
+
+
+def _terminate(*_: object) -> NoReturn:
+    # An exception, so that every half-written file is removed on the way out.
+    raise SystemExit(TERMINATED)
+
+
+def _let_go_of_output() -> None:
+    """Write what standard output still holds; where it takes nothing any more, drop it."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        # Python would try once more at the very end, and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from roughcontact.cli.errors import UsageError, note
-from roughcontact.cli.quantity import PRESSURE, parse, parse_size
+from roughcontact.cli.errors import UsageError, as_typed, note
+from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.quantity import PRESSURE, parse, parse_number, parse_size
 
 if TYPE_CHECKING:
     from roughcontact.material import Solid
@@ -56,13 +57,17 @@ ChannelOption = Annotated[
 ]
 UnitOption = Annotated[
     str | None,
-    typer.Option(metavar="um", help="Unit of the heights, or metres per unit.", rich_help_panel=_READING),
+    typer.Option(
+        metavar="um",
+        help="Unit of the heights, or metres per unit; it overrides what the file states.",
+        rich_help_panel=_READING,
+    ),
 ]
 SizeOption = Annotated[
     str | None,
     typer.Option(
         metavar="1mm x 2mm",
-        help="Side lengths, if the file has none: height x width of the picture, or its width alone.",
+        help="Side lengths: height x width of the picture, or its width alone; they override what the file states.",
         rich_help_panel=_READING,
     ),
 ]
@@ -87,7 +92,7 @@ YoungOption = Annotated[
     typer.Option(metavar="210GPa", help="Young's modulus, in place of --modulus.", rich_help_panel=_BODIES),
 ]
 PoissonOption = Annotated[
-    float | None, typer.Option(metavar="0.3", help="Poisson's ratio.", rich_help_panel=_BODIES)
+    str | None, typer.Option(metavar="0.3", help="Poisson's ratio.", rich_help_panel=_BODIES)
 ]
 Young2Option = Annotated[
     str | None,
@@ -98,11 +103,11 @@ Young2Option = Annotated[
     ),
 ]
 Poisson2Option = Annotated[
-    float | None,
+    str | None,
     typer.Option(metavar="0.33", help="Poisson's ratio of the other.", rich_help_panel=_BODIES),
 ]
 ToleranceOption = Annotated[
-    float, typer.Option(metavar="1e-8", help="Largest certificate of an answer.", rich_help_panel=_ANSWER)
+    str, typer.Option(metavar="1e-8", help="Largest certificate of an answer.", rich_help_panel=_ANSWER)
 ]
 OutOption = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Folder for files and pictures.", rich_help_panel=_ANSWER)
@@ -131,7 +136,7 @@ class Reading:
         size = None if self.size is None else parse_size(self.size, "--size")
         width = size[0] if size is not None and len(size) == 1 else size
         # A foreign reader that prints must not spoil what standard output is for.
-        with redirect_stdout(sys.stderr):
+        with redirect_stdout(sys.stderr), as_typed(self.file):
             return rc.read(
                 self.file, channel=self.channel, unit=self._unit(), size=width, periodic=self.periodic
             )
@@ -144,8 +149,18 @@ class Reading:
             return self.unit
 
     def surface(self) -> Surface:
-        """Return the surface, read and levelled; say on standard error what was decided unasked."""
+        """Return the surface to press, read and levelled; say on standard error what was decided unasked.
+
+        Raises
+        ------
+        UsageError
+            If reading it, or pressing it, needs more memory than is free.
+        """
+        from roughcontact.halfspace.build import memory_needed
+
+        require_memory_to_read(self.file)
         surface = self.as_it_is()
+        require_memory(memory_needed(surface.grid), surface.grid.shape)
         level = self.level
         if level is None and self.periodic is None and all(surface.grid.periodic):
             level = Level.MEAN
@@ -164,9 +179,9 @@ class Bodies:
 
     modulus: str | None
     young: str | None
-    poisson: float | None
+    poisson: str | None
     young2: str | None
-    poisson2: float | None
+    poisson2: str | None
 
     def reduced_modulus(self) -> float:
         """Return the reduced modulus E* [Pa].
@@ -177,7 +192,6 @@ class Bodies:
             If neither a reduced modulus nor a Young's modulus is given, or both, or half a body.
         """
         import roughcontact as rc
-        from roughcontact.material import as_modulus
 
         only_one(
             {"--modulus": self.modulus, "--young": self.young},
@@ -186,7 +200,10 @@ class Bodies:
         if self.modulus is not None:
             if any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
                 raise UsageError("--modulus is that of the pair: leave out --poisson, --young2, --poisson2")
-            return as_modulus(parse(self.modulus, PRESSURE, "--modulus"))
+            value = parse(self.modulus, PRESSURE, "--modulus")
+            if not value > 0:
+                raise UsageError(f"--modulus: the reduced modulus must be positive, not {self.modulus!r}")
+            return value
         first = _solid(self.young, self.poisson, "--young", "--poisson")
         if self.young2 is None and self.poisson2 is None:
             return rc.reduced_modulus(first)
@@ -209,10 +226,18 @@ def only_one(given: dict[str, Any], what: str) -> str:
     return names[0]
 
 
-def _solid(young: str | None, poisson: float | None, young_option: str, poisson_option: str) -> Solid:
+def _solid(young: str | None, poisson: str | None, young_option: str, poisson_option: str) -> Solid:
     import roughcontact as rc
 
     if young is None or poisson is None:
         missing = poisson_option if poisson is None else young_option
         raise UsageError(f"{young_option} and {poisson_option} belong together: {missing} is missing")
-    return rc.Solid(parse(young, PRESSURE, young_option), poisson)
+    modulus = parse(young, PRESSURE, young_option)
+    if not modulus > 0:
+        raise UsageError(f"{young_option}: Young's modulus must be positive, not {young!r}")
+    ratio = parse_number(poisson, poisson_option, "0.3")
+    if not -1 < ratio <= 0.5:
+        raise UsageError(
+            f"{poisson_option}: Poisson's ratio lies above -1 and at most at 0.5, not at {poisson!r}"
+        )
+    return rc.Solid(modulus, ratio)

@@ -11,7 +11,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.errors import UsageError
+from roughcontact.cli.errors import UsageError, plain
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -49,7 +49,7 @@ def all_or_none(folder: Path) -> Iterator[Path]:
 
 def command_line() -> str:
     """Return the command as the user typed it, for the record."""
-    return shlex.join(["roughcontact", *sys.argv[1:]])
+    return plain(shlex.join(["roughcontact", *sys.argv[1:]]))
 
 
 def _check_free(target: Path) -> None:

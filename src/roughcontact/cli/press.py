@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.errors import MISSED, note, reported
-from roughcontact.cli.memory import require_memory
+from roughcontact.cli.errors import note, plain, reported
+from roughcontact.cli.exits import MISSED
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse
+from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse_load, parse_tolerance
 from roughcontact.cli.report import emit, print_facts, screen, solution_facts
 
 if TYPE_CHECKING:
@@ -57,22 +57,20 @@ def press(
     size: options.SizeOption = None,
     periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
-    tolerance: options.ToleranceOption = 1e-8,
+    tolerance: options.ToleranceOption = "1e-8",
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
-    with reported():
-        from roughcontact.halfspace.build import memory_needed
-
+    with reported(file, out):
         given = {"force": force, "pressure": pressure, "depth": depth}
         name = options.only_one({f"--{key}": value for key, value in given.items()}, "one load")[2:]
-        load = {name: parse(str(given[name]), _KINDS[name], f"--{name}")}
+        load = {name: parse_load(str(given[name]), _KINDS[name], f"--{name}")}
+        asked = parse_tolerance(tolerance, "--tolerance")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
         with output(out) as folder:
             surface = options.Reading(file, channel, unit, size, level, periodic).surface()
-            require_memory(memory_needed(surface.grid), surface.grid.shape)
-            solution = _solve(surface, reduced, load, tolerance)
+            solution = _solve(surface, reduced, load, asked)
             record = _record(solution, file)
             if folder is not None:
                 _write(solution, record, folder, f"{name} = {load[name]!r} {_KINDS[name].unit}")
@@ -109,7 +107,7 @@ def _record(solution: Solution, file: Path) -> dict[str, Any]:
     history = list(surface.provenance) if surface is not None else []
     return {
         "verb": "press",
-        "file": str(file),
+        "file": plain(str(file)),
         "surface": history,
         **solution_record(solution),
         "largest_pressure": float(solution.pressure.max()),

@@ -13,7 +13,20 @@ import numpy.typing as npt
 
 from roughcontact.cli.errors import UsageError
 
-__all__ = ["FORCE", "LENGTH", "PRESSURE", "Kind", "parse", "parse_loads", "parse_points", "parse_size"]
+__all__ = [
+    "FORCE",
+    "LENGTH",
+    "PRESSURE",
+    "Kind",
+    "parse",
+    "parse_load",
+    "parse_loads",
+    "parse_number",
+    "parse_points",
+    "parse_seed",
+    "parse_size",
+    "parse_tolerance",
+]
 
 # A number in the way programs write it, then whatever is left as the unit.
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
@@ -21,6 +34,8 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*
 _NAME = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d|[²³])?"
 _UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*")
 _MOST_LOADS = 100_000
+# Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
+_SMALLEST, _LARGEST = 1e-30, 1e30
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +70,71 @@ def parse(text: str, kind: Kind, option: str) -> float:
     value = number if unit in ("", kind.unit) else number * _factor(unit, kind, option, text)
     if not math.isfinite(value):
         raise UsageError(f"{option}: {text!r} is not a finite number; {expected}")
+    if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
+        raise UsageError(
+            f"{option}: {text!r} is beyond anything of this world: check its exponent and unit; {expected}"
+        )
     return value
+
+
+def parse_load(text: str, kind: Kind, option: str) -> float:
+    """Return one load in the SI unit of its `kind`: a force or pressure above 0, a depth not below it.
+
+    Raises
+    ------
+    UsageError
+        If it is none.
+    """
+    value = parse(text, kind, option)
+    if kind is LENGTH and value < 0:
+        raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
+    if kind is not LENGTH and not value > 0:
+        raise UsageError(f"{option}: the {kind.name.split()[-1]} must be positive, not {text!r}")
+    return value
+
+
+def parse_number(text: str, option: str, example: str) -> float:
+    """Return a number without a unit.
+
+    Raises
+    ------
+    UsageError
+        If the text is no finite number.
+    """
+    expected = f"expected a number such as {example}"
+    match = _NUMBER.fullmatch(text)
+    if match is not None and match[2].startswith(","):
+        raise UsageError(f"{option}: {text!r} holds a comma: write the decimal point as '.'; {expected}")
+    if match is None or match[2] or not math.isfinite(float(match[1])):
+        raise UsageError(f"{option}: {text!r} is not a number; {expected}")
+    return float(match[1])
+
+
+def parse_tolerance(text: str, option: str) -> float:
+    """Return a tolerance that a certificate can meet.
+
+    Raises
+    ------
+    UsageError
+        If it is none, or too small or large to mean anything.
+    """
+    value = parse_number(text, option, "1e-8")
+    if not 1e-14 < value < 1e-2:
+        raise UsageError(f"{option}: the tolerance must lie between 1e-14 and 1e-2, not {text!r}")
+    return value
+
+
+def parse_seed(text: str, option: str) -> int:
+    """Return the seed of a generator of random numbers.
+
+    Raises
+    ------
+    UsageError
+        If it is no whole number from 0 up.
+    """
+    if re.fullmatch(r"\s*\d{1,30}\s*", text, re.ASCII) is None:
+        raise UsageError(f"{option}: {text!r} is no seed; write a whole number such as 1")
+    return int(text)
 
 
 def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import typer
 from rich.console import Console
 
@@ -28,6 +29,7 @@ __all__ = [
     "solution_facts",
 ]
 
+_ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
 _CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
 
 
@@ -85,7 +87,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("contact area", quantity("contact_area", solution.contact_area)),
         ("share of the nominal area", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
-        ("mean gap", quantity("mean_gap", solution.mean_gap)),
+        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)))),
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
@@ -96,6 +98,8 @@ def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
     header, columns = [], []
     for name in _CURVE_COLUMNS:
         values, known = getattr(curve, name), VARIABLES[name]
+        if name == "mean_gap":
+            values = _closed(values, curve.depth)
         plain = known.unit in ("", "1")
         chosen = scale(float(values.max()), known.unit)
         header.append(known.label if plain else f"{known.label} [{chosen.unit or pretty(known.unit)}]")
@@ -104,6 +108,11 @@ def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
     header.append("")
     columns.append([_remark(*point) for point in zip(curve.resolved, curve.status, strict=True)])
     return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def _closed(gap: Any, depth: Any) -> Any:
+    """Return mean gaps with 0 for those that are mere rounding of the depth."""
+    return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
 
 
 def _remark(resolved: bool, status: Any) -> str:

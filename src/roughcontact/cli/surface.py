@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import sys
 from contextlib import redirect_stdout
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.errors import UsageError, reported
-from roughcontact.cli.memory import require_memory
-from roughcontact.cli.quantity import LENGTH, parse, parse_points, parse_size
+from roughcontact.cli.errors import UsageError, as_typed, note, plain, reported
+from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.quantity import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
 
 if TYPE_CHECKING:
@@ -35,17 +35,18 @@ roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.npz --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
+_BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
 _BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
 
 OutputArgument = Annotated[Path, typer.Argument(metavar="OUT.npz", help="File to write.")]
-HurstOption = Annotated[float, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
+HurstOption = Annotated[str, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
 RmsOption = Annotated[str, typer.Option(metavar="1um", help="Root mean square height.")]
 NewSizeOption = Annotated[
     str,
     typer.Option(metavar="1mm", help="Width (cells are square), or height x width."),
 ]
 PointsOption = Annotated[str, typer.Option(metavar="512", help="Points a side, or rows x columns.")]
-SeedOption = Annotated[int, typer.Option(metavar="1", help="Seed of the random phases.", min=0)]
+SeedOption = Annotated[str, typer.Option(metavar="1", help="Seed of the random phases.")]
 RolloffOption = Annotated[str | None, typer.Option(metavar="100um", help="Longer waves lie on a plateau.")]
 CutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
 ShortOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
@@ -64,7 +65,7 @@ def info(
     json: options.JsonOption = False,
 ) -> None:
     """Say what a file holds: channels, size, unit, missing points, roughness."""
-    with reported():
+    with reported(file):
         from roughcontact.files.errors import ReadError
 
         channels = _channels(file)
@@ -74,10 +75,13 @@ def info(
         except ReadError as error:
             # What the file leaves open, such as its size, does not hide what it holds.
             _tell(
-                {"file": str(file), "channels": channels, "error": str(error)}, _channel_facts(channels), json
+                {"file": plain(str(file)), "channels": channels, "error": str(error)},
+                _channel_facts(channels),
+                json,
             )
             raise
-        record = {"file": str(file), "channels": channels} | _record(surface)
+        require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
+        record = {"file": plain(str(file)), "channels": channels} | _record(surface)
         _tell(record, [*_channel_facts(channels), *_facts(surface, record)], json)
 
 
@@ -88,7 +92,7 @@ def make(
     rms: RmsOption,
     size: NewSizeOption,
     points: PointsOption = "512",
-    seed: SeedOption = 1,
+    seed: SeedOption = "1",
     rolloff: RolloffOption = None,
     cutoff: CutoffOption = None,
     short: ShortOption = None,
@@ -97,7 +101,7 @@ def make(
     json: options.JsonOption = False,
 ) -> None:
     """Make a self-affine rough surface and save its heights."""
-    with reported():
+    with reported(out):
         import numpy as np
 
         import roughcontact as rc
@@ -107,23 +111,32 @@ def make(
             raise UsageError(f"cannot write {out}: name a file that ends in .npz")
         grid = _grid(size, points, periodic)
         require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
-        height = parse(rms, LENGTH, "--rms")
-        wavelengths = [
-            None if text is None else parse(text, LENGTH, option)
-            for option, text in (("--rolloff", rolloff), ("--cutoff", cutoff), ("--short", short))
-        ]
+        height, exponent = parse(rms, LENGTH, "--rms"), parse_number(hurst, "--hurst", "0.8")
+        chosen = parse_seed(seed, "--seed")
+        waves = {
+            name: parse(text, LENGTH, f"--{name}")
+            for name, text in (("rolloff", rolloff), ("cutoff", cutoff), ("short", short))
+            if text is not None
+        }
         with written_aside(out) as aside:
-            rng = np.random.default_rng(seed)
+            rng = np.random.default_rng(chosen)
             surface = rc.self_affine(
                 grid,
-                hurst,
+                exponent,
                 height,
                 rng,
-                rolloff_wavelength=wavelengths[0],
-                cutoff_wavelength=wavelengths[1],
-                short_wavelength=wavelengths[2],
+                rolloff_wavelength=waves.get("rolloff"),
+                cutoff_wavelength=waves.get("cutoff"),
+                short_wavelength=waves.get("short"),
                 nodal=nodal,
             )
+            recipe = ", ".join(
+                [f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())]
+            )
+            made = f"made by roughcontact {rc.__version__}: {recipe}"
+            surface = replace(surface, provenance=(*surface.provenance, made))
+            if out.exists():
+                note(f"{out} was there before and is replaced")
             with open(aside, "wb") as stream:
                 np.savez(
                     stream,
@@ -131,8 +144,9 @@ def make(
                     spacing=np.array(grid.spacing),
                     unit=np.array("m"),
                     periodic=np.array(periodic),
+                    history=np.array(surface.provenance),
                 )
-        record = {"file": str(out), "seed": seed} | _record(surface)
+        record = {"file": plain(str(out)), "seed": chosen} | _record(surface)
         _tell(record, _facts(surface, record), json)
 
 
@@ -151,7 +165,8 @@ def _channels(file: Path) -> list[dict[str, Any]]:
     """Return the channels of a file as plain records."""
     from roughcontact.files.inspect import channels
 
-    with redirect_stdout(sys.stderr):
+    require_memory_to_read(file)
+    with redirect_stdout(sys.stderr), as_typed(file):
         return [asdict(channel) for channel in channels(file)]
 
 
@@ -184,7 +199,7 @@ def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
         ("cell", cell),
         ("missing points", missing),
         ("rms height", rms),
-        ("heights", f"{record['lowest']:.6g} m to {record['highest']:.6g} m"),
+        ("heights", f"{quantity('heights', record['lowest'])} to {quantity('heights', record['highest'])}"),
         *(("history", line) for line in record["provenance"]),
     ]
 

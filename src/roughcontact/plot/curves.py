@@ -11,6 +11,7 @@ import numpy.typing as npt
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.contact.variables import VARIABLES
 from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import readable_ticks
 from roughcontact.plot.units import Scale, scale
 
 if TYPE_CHECKING:
@@ -39,11 +40,12 @@ def stiffness_curve(axes: Axes, curve: Curve, law: PowerLaw | None = None) -> No
     limits = [level for level in (CELLS * curve.cell_stiffness, curve.saturation) if math.isfinite(level)]
     low, high = min(*values, *limits) / _ROOM, max(*values, *limits) * _ROOM
     axes.set_ylim(low * y.factor, high * y.factor)
+    readable_ticks(axes.yaxis, high / low)
     if law is not None:
         _draw_law(axes, curve, law, (x, y))
     beside = axes.get_yaxis_transform()
     for level, place, side, text in zip(
-        limits, (0.985, 0.015), ("right", "left"), (f"{CELLS} cells", "saturation"), strict=False
+        limits, (0.985, 0.015), ("right", "left"), (f"{CELLS} x one cell", "saturation"), strict=False
     ):
         axes.axhline(level * y.factor, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
         axes.text(
@@ -93,6 +95,9 @@ def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
                 label=text,
                 zorder=3,
             )
+    for axis, numbers in ((axes.xaxis, force[shown]), (axes.yaxis, values[shown])):
+        if numbers.size:
+            readable_ticks(axis, float(numbers.max() / numbers.min()))
     axes.set_xlabel(f"{VARIABLES['force'].label} [{x.unit}]", fontsize=LABEL)
     axes.set_ylabel(f"{VARIABLES[name].label} [{y.unit}]", fontsize=LABEL)
     axes.tick_params(labelsize=TICK, which="both")

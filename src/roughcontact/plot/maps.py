@@ -10,7 +10,7 @@ import numpy.typing as npt
 from roughcontact.contact.variables import VARIABLES
 from roughcontact.plot.marks import faint_spots
 from roughcontact.plot.raster import Window, colour_bar, extent, heights_image, length_scale, part, show
-from roughcontact.plot.units import scale
+from roughcontact.plot.units import scale, written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,6 +46,7 @@ def pressure_map(axes: Axes, solution: Solution, window: Window | None = None) -
     chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
     pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
     highest, cut = _limit(pressure[~np.isnan(pressure)])
+    end = written(highest / chosen.factor, VARIABLES["pressure"].unit) if cut else ""
     colours = matplotlib.colormaps["inferno"]
     image = show(axes, pressure, grid, cells, colours, (0.0, highest))
     x, y, peaks, _ = _marks(solution, cells)
@@ -60,7 +61,7 @@ def pressure_map(axes: Axes, solution: Solution, window: Window | None = None) -
         linewidths=0.5,
         edgecolors="white",
     )
-    colour_bar(axes, image, f"{VARIABLES['pressure'].label} [{chosen.unit}]", cut)
+    colour_bar(axes, image, f"{VARIABLES['pressure'].label} [{chosen.unit}]", end)
 
 
 def contact_map(

@@ -115,11 +115,14 @@ def heights_image(
     return image, chosen.unit
 
 
-def colour_bar(axes: Axes, image: AxesImage, label: str, cut: bool = False) -> None:
-    """Put a colour bar beside the map, as high as the map itself; pointed where larger values were `cut`."""
+def colour_bar(axes: Axes, image: AxesImage, label: str, end: str = "") -> None:
+    """Put a colour bar beside the map, as high as the map itself.
+
+    Where larger values than the last colour occur, the bar is pointed and says at which value it does `end`.
+    """
     from matplotlib.colorbar import Colorbar
 
-    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if cut else "neither")
-    bar.set_label(label, fontsize=LABEL)
+    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if end else "neither")
+    bar.set_label(f"{label}\n(colours end at {end})" if end else label, fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)
     bar.outline.set_linewidth(0.5)

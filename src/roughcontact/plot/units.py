@@ -56,5 +56,6 @@ def written(value: float, unit: str, digits: int = 3) -> str:
     rounded = float(f"{value:.{digits}g}")
     chosen = scale(abs(rounded), unit)
     number = float(f"{rounded * chosen.factor:.{digits}g}")
-    text = f"{number:g}" if abs(number) < 10**digits else f"{number:.0f}"
+    # No prefix serves what is beyond them all; there powers of ten are shorter than zeros.
+    text = f"{number:.0f}" if 10**digits <= abs(number) < 1e6 else f"{number:g}"
     return f"{text} {chosen.unit}".rstrip()

@@ -1,0 +1,47 @@
+"""The program ``roughcontact``: its verbs and its version."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from roughcontact import __version__
+from roughcontact.cli import curve, press, surface
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    name="roughcontact",
+    help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
+    epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
+    "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
+    "130 interrupted, 143 terminated.",
+    no_args_is_help=True,
+    add_completion=False,
+    # A mistake of ours shows itself as Python shows it.
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+_surface = typer.Typer(help="Look at a surface file, or make one.", no_args_is_help=True)
+
+app.command(epilog=press.EXAMPLES)(press.press)
+app.command(epilog=curve.EXAMPLES)(curve.curve)
+app.add_typer(_surface, name="surface")
+_surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
+_surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"roughcontact {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    pass

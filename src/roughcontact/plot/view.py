@@ -1,0 +1,112 @@
+"""A surface seen from aside, drawn on three-dimensional axes that the caller owns."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.raster import LABEL, TICK, length_scale
+from roughcontact.plot.units import scale
+
+if TYPE_CHECKING:
+    from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
+
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["surface_view"]
+
+_DRAWN = 200  # points along a side: more take long, and no page shows them
+_HEIGHT = 0.3  # of the box over its longer side: heights are drawn larger than they are
+
+
+def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
+    """Draw a surface from aside, its heights enlarged to be seen; points that were not measured are left open.
+
+    More than 200 points along a side are averaged over blocks first. The first row of the picture lies at the back.
+
+    Parameters
+    ----------
+    axes : Axes3D
+        Made with ``projection="3d"``.
+    surface : Surface
+        On a grid of two axes.
+    frame : bool
+        Whether to draw the box with its scales.
+
+    Raises
+    ------
+    ValueError
+        If the surface is a line.
+    """
+    import matplotlib
+    from matplotlib.colors import LightSource
+
+    if surface.grid.ndim != 2:
+        raise ValueError("a line scan has no view from aside: draw it with profile_curve")
+    small = _reduced(surface)
+    grid = small.grid
+    length, z = length_scale(grid), scale(float(np.nanmax(np.abs(small.heights))), VARIABLES["heights"].unit)
+    y, x = (
+        (np.arange(n) + 0.5) * step * length.factor for n, step in zip(grid.shape, grid.spacing, strict=True)
+    )
+    heights = small.heights * z.factor
+    low, high = float(np.nanmin(heights)), float(np.nanmax(heights))
+    # A flat surface has one colour, the middle one.
+    level = (heights - low) / (high - low) if high > low else np.full(heights.shape, 0.5)
+    colours = matplotlib.colormaps["viridis"](np.nan_to_num(level, nan=0.5))
+    # Slopes as they look in the box, so that light falls alike on tall and on flat surfaces.
+    tall = np.nan_to_num(level, nan=0.5) * _HEIGHT * max(grid.lengths)
+    light = LightSource(azdeg=315, altdeg=45)
+    shaded = light.shade_rgb(
+        colours[..., :3], tall, dx=grid.spacing[1], dy=grid.spacing[0], blend_mode="soft"
+    )
+    axes.plot_surface(
+        *np.meshgrid(x, y),
+        heights,
+        facecolors=np.dstack([shaded, np.ones(heights.shape)]),
+        rstride=1,
+        cstride=1,
+        linewidth=0,
+        antialiased=False,
+        shade=False,
+    )
+    _box(axes, surface, (length.factor, length.unit), (low, high, z.unit), frame)
+
+
+def _reduced(surface: Surface) -> Surface:
+    """Return the surface with at most 200 points along each axis."""
+    factors = tuple(-(-n // _DRAWN) for n in surface.grid.shape)
+    if max(factors) == 1:
+        return surface
+    # Blocks need not fit the period of a picture.
+    whole = surface if not any(surface.grid.periodic) else _as_free(surface)
+    return whole.averaged(factors)
+
+
+def _as_free(surface: Surface) -> Surface:
+    return replace(surface, grid=replace(surface.grid, periodic=(False, False)))
+
+
+def _box(
+    axes: Any, surface: Surface, length: tuple[float, str], z: tuple[float, float, str], frame: bool
+) -> None:
+    high, wide = (side * length[0] for side in surface.grid.lengths)
+    low, top, unit = z
+    # Row 0 at the back, as it is at the top of a map.
+    axes.set(xlim=(0.0, wide), ylim=(high, 0.0))
+    if top > low:
+        axes.set_zlim(low, top)
+    longest = max(high, wide)
+    axes.set_box_aspect((wide / longest, high / longest, _HEIGHT), zoom=1.0 if frame else 1.25)
+    axes.view_init(elev=38, azim=-60)
+    if not frame:
+        axes.set_axis_off()
+        return
+    axes.set_xlabel(f"x [{length[1]}]", fontsize=LABEL)
+    axes.set_ylabel(f"y [{length[1]}]", fontsize=LABEL)
+    axes.set_zlabel(f"{VARIABLES['heights'].label} [{unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK)
+    axes.locator_params(nbins=4)
