@@ -25,6 +25,7 @@ __all__ = ["ActiveSet"]
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
+LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
 SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
 
 
@@ -80,10 +81,10 @@ class ActiveSet:
             ):  # a guess from other cells or loads: what a projected step of one cell leaves of it
                 region &= ~wrong
             cells = np.flatnonzero(region)
-            if wrong is not None and SIFTED < len(cells) <= dense_limit and not measure.varies:
-                if wrong.sum() > len(cells) / 100:  # a bad guess; one load to the next is a good one
-                    cells = _sifted(operator, separation, control, cells, p, DEPTH_OF_SOLVE * r * scale)
-                    region = _scatter(cells, np.ones(len(cells)), region.shape) > 0
+            bad = wrong is not None and wrong.sum() > len(cells) / 100  # one load to the next is a good guess
+            if bad and SIFTED < len(cells) <= dense_limit and not measure.varies:
+                cells = _sifted(operator, separation, control, cells, p, LOOSE * r * scale)
+                region = _scatter(cells, np.ones(len(cells)), region.shape) > 0
             guessed = False
             if not len(cells):  # too shallow a depth for this grid
                 p, u, fresh = np.zeros_like(p), np.zeros_like(p), True
