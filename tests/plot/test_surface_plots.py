@@ -95,7 +95,7 @@ def test_a_law_lies_over_its_band_and_bends_where_it_says():
     assert (np.diff(density[q >= corner * (1 - 1e-12)]) < 0).all()
     marks = [each.get_xdata()[0] for each in axes.lines if list(each.get_ydata()) == [0, 1]]
     assert marks == pytest.approx([corner], rel=1e-12)
-    assert [text.get_text() for text in axes.texts] == ["roll-off 50"]
+    assert [text.get_text() for text in axes.texts] == ["roll-off 50 µm"]
 
 
 def test_empty_bins_of_a_cut_off_spectrum_have_no_place_on_a_logarithmic_axis():

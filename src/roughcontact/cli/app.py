@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from roughcontact import __version__
-from roughcontact.cli import curve, press, surface
+from roughcontact.cli import curve, prepare, press, spectrum, surface, thesis
 
 __all__ = ["app"]
 
@@ -23,13 +23,16 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-_surface = typer.Typer(help="Look at a surface file, or make one.", no_args_is_help=True)
+_surface = typer.Typer(help="Look at a surface file, make one, prepare or analyse it.", no_args_is_help=True)
 
 app.command(epilog=press.EXAMPLES)(press.press)
 app.command(epilog=curve.EXAMPLES)(curve.curve)
 app.add_typer(_surface, name="surface")
 _surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
 _surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
+_surface.command(epilog=prepare.EXAMPLES)(prepare.prepare)
+_surface.command(epilog=spectrum.EXAMPLES)(spectrum.spectrum)
+app.command(epilog=thesis.EXAMPLES)(thesis.thesis)
 
 
 def _version(wanted: bool) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -76,10 +76,10 @@ def spectrum_curve(axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = N
         zorder=3,
         label="measured",
     )
-    if reliable.any():
-        axes.set_ylim(bottom=float(density[with_power].min()) / _ROOM)
     if law is not None:
         _draw_law(axes, law, scales)
+    # Last, since a limit that is set ends the fitting of the axis to what is drawn.
+    axes.set_ylim(bottom=float(density[with_power].min()) / _ROOM)
     axes.legend(loc="lower left", fontsize=TICK, frameon=False)
 
 
@@ -129,23 +129,24 @@ def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
     )
     for wavelength, name in zip(ends, ("roll-off", "cut-off", "short end"), strict=True):
         if wavelength is not None:
-            _mark(
-                axes,
-                2 * math.pi / wavelength * scales.wavenumber,
-                f"{name} {wavelength * scales.length.factor:.3g}",
+            text = f"{name} {wavelength * scales.length.factor:.3g} {scales.length.unit}"
+            # Where the spectrum leaves room: below it at its long waves, above it at its short ones.
+            place: tuple[float, Literal["top", "bottom"]] = (
+                (0.98, "top") if name == "short end" else (0.2, "bottom")
             )
+            _mark(axes, 2 * math.pi / wavelength * scales.wavenumber, text, place)
 
 
-def _mark(axes: Axes, q: float, text: str) -> None:
+def _mark(axes: Axes, q: float, text: str, place: tuple[float, Literal["top", "bottom"]]) -> None:
     axes.axvline(q, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
     axes.annotate(
         text,
-        (q, 0.98),
+        (q, place[0]),
         xycoords=axes.get_xaxis_transform(),
-        xytext=(2, 0),
+        xytext=(3, 0),
         textcoords="offset points",
         rotation=90,
-        va="top",
+        va=place[1],
         fontsize=TICK,
         color=_LIMIT,
     )

@@ -100,7 +100,7 @@ def _box(
     if top > low:
         axes.set_zlim(low, top)
     longest = max(high, wide)
-    axes.set_box_aspect((wide / longest, high / longest, _HEIGHT), zoom=1.0 if frame else 1.25)
+    axes.set_box_aspect((wide / longest, high / longest, _HEIGHT))
     axes.view_init(elev=38, azim=-60)
     if not frame:
         axes.set_axis_off()

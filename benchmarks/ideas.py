@@ -1,0 +1,84 @@
+"""What single ideas do: products with the operator and processor seconds with and without each.
+
+python benchmarks/ideas.py [n]
+"""
+
+import sys
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+import roughcontact as rc
+from roughcontact.contact import cascade
+
+
+@dataclass(frozen=True)
+class Without:
+    """An operator that hides what it could do beyond the protocol, but for the names in `kept`."""
+
+    inner: object
+    kept: tuple
+
+    def __getattr__(self, name):
+        extras = {"positive", "between", "coarsened", "approximate_inverse"}
+        if name in extras - set(self.kept):
+            raise AttributeError(name)
+        value = getattr(self.inner, name)
+        if name in ("restrict", "coarsened"):
+            return lambda *arguments: Without(value(*arguments), self.kept)
+        return value
+
+
+def cases(n):
+    x = (np.arange(n) + 0.5) / n - 0.5
+    a = np.sqrt(0.12 / np.pi)
+    sphere = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((n, n), 1 / n))
+    yield "sphere, 12 % in contact", sphere, 4 / 3 * a**3
+    for periodic in (False, True):
+        grid = rc.Grid((n, n), 1 / n, periodic)
+        band = {"cutoff_wavelength": 1 / 4, "short_wavelength": 8 / n}
+        flat = rc.self_affine(grid, 0.8, 0.01, np.random.default_rng(0), **band)
+        slope = np.sqrt(sum(np.mean(d**2) for d in np.gradient(flat.heights, 1 / n)))
+        yield f"nominally flat, {'periodic' if periodic else 'free'}", flat, 0.05 * slope
+        if periodic:
+            yield "nominally flat, periodic, heavily loaded", flat, 0.3 * slope
+    for hurst, force in ((0.8, 1e-3), (0.8, 0.45), (-0.5, 0.01), (-1.0, 0.01)):
+        rough = rc.self_affine(rc.Grid((n, n), 1 / n), hurst, 0.01, np.random.default_rng(0))
+        yield f"fractal, H = {hurst}, {force}", rough, force * 0.01
+
+
+def pooled_by_mean(separation, factors):
+    pad = [(0, -n % f) for n, f in zip(separation.shape, factors, strict=True)]
+    padded = np.pad(separation, pad, mode="edge")
+    blocks = padded.reshape([m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f)])
+    return blocks.mean(axis=tuple(range(1, blocks.ndim, 2)))
+
+
+def measure(surface, force, kept, pooled=cascade.pooled):
+    extras = Without(rc.half_space(surface.grid, 1.0), kept)
+    before, cascade.pooled = cascade.pooled, pooled
+    try:
+        start = time.process_time()
+        solution = rc.press(surface, 1.0, force=force, operator=extras)
+        return f"{solution.steps:4d} {time.process_time() - start:7.3f} s"
+    finally:
+        cascade.pooled = before
+
+
+def main(n):
+    everything = ("positive", "between", "coarsened", "approximate_inverse")
+    variants = {
+        "all": (everything,),
+        "no |q|": (everything[:-1],),
+        "no window": (everything[1:],),
+        "no list": (("positive", "coarsened", "approximate_inverse"),),
+        "means": (everything, pooled_by_mean),
+    }
+    print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
+    for name, surface, force in cases(n):
+        print(f"{name:42s}" + "".join(f"{measure(surface, force, *v):>16s}" for v in variants.values()))
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 256)

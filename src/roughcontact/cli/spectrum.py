@@ -1,0 +1,268 @@
+"""The verb ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli import options
+from roughcontact.cli.errors import UsageError, note, plain, reported
+from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.quantity import LENGTH, parse
+from roughcontact.cli.report import emit, print_facts, quantity, size_of
+from roughcontact.plot.units import written
+
+if TYPE_CHECKING:
+    from roughcontact.surface.analysis.hurst import HurstFit
+    from roughcontact.surface.analysis.power import PowerSpectrum
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["EXAMPLES", "spectrum"]
+
+EXAMPLES = """Examples:
+
+roughcontact surface spectrum part.x3p --out result
+
+roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
+"""
+_FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
+_COARSE = 20.0  # of the table and the moments
+_BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
+_UNITS = {
+    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", "rolloff", "cutoff", "short_end"), "m"),
+    **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
+    **dict.fromkeys(("hurst", "standard_error", "misfit", "m2", "rms_slope", "nayak"), "1"),
+}
+
+
+class Limit(StrEnum):
+    """How the law may end toward long waves."""
+
+    AUTO = "auto"
+    NONE = "none"
+    ROLLOFF = "rolloff"
+    CUTOFF = "cutoff"
+
+
+class Direction(StrEnum):
+    """Which spectrum: of the surface, or of its profiles."""
+
+    RING = "ring"
+    X = "x"
+    Y = "y"
+
+
+_SPECTRUM = "Spectrum"
+DirectionOption = Annotated[
+    Direction,
+    typer.Option(
+        help="Average over all directions (C2D), or spectrum of the profiles along one (C1D).",
+        rich_help_panel=_SPECTRUM,
+    ),
+]
+LimitOption = Annotated[
+    Limit, typer.Option(help="How the power law may end toward long waves.", rich_help_panel=_SPECTRUM)
+]
+LongestOption = Annotated[
+    str | None,
+    typer.Option(metavar="100um", help="Longest wave that counts (default: a third of a free map's length).",
+                 rich_help_panel=_SPECTRUM),
+]  # fmt: skip
+ShortestOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="1um", help="Shortest wave that the instrument follows (default: two cells).",
+        rich_help_panel=_SPECTRUM,
+    ),
+]  # fmt: skip
+FillOption = Annotated[
+    bool, typer.Option("--fill", help="Fill missing points smoothly first.", rich_help_panel=_SPECTRUM)
+]
+
+
+def spectrum(
+    file: options.FileArgument,
+    *,
+    direction: DirectionOption = Direction.RING,
+    limit: LimitOption = Limit.AUTO,
+    longest: LongestOption = None,
+    shortest: ShortestOption = None,
+    fill: FillOption = False,
+    channel: options.ChannelOption = None,
+    unit: options.UnitOption = None,
+    size: options.SizeOption = None,
+    periodic: options.PeriodicOption = None,
+    level: options.LevelOption = None,
+    out: options.OutOption = None,
+    json: options.JsonOption = False,
+) -> None:
+    """Power spectrum of a surface: Hurst exponent with its error, roll-off or cut-off, rms, moments."""
+    with reported(file, out):
+        waves = _waves(longest, shortest)
+        with output(out) as folder:
+            surface = _surface(options.Reading(file, channel, unit, size, level, periodic), fill)
+            found, law = _analysed(surface, direction, limit, waves, level)
+            record = _record(surface, found, law, file)
+            if folder is not None:
+                _write(found, law, record, folder)
+        if json:
+            emit(record)
+        else:
+            print_facts(_facts(surface, record))
+        if folder is not None:
+            note(f"spectrum.csv and spectrum.png are in {folder}")
+
+
+def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
+    """Return the band that was asked for as wavenumbers [rad/m]."""
+    band = {}
+    for name, text, option in (("q_min", longest, "--longest"), ("q_max", shortest, "--shortest")):
+        if text is not None:
+            wavelength = parse(text, LENGTH, option)
+            if not wavelength > 0:
+                raise UsageError(f"{option}: a wavelength must be positive, not {text!r}")
+            band[name] = 2 * math.pi / wavelength
+    if len(band) == 2 and not band["q_min"] < band["q_max"]:
+        raise UsageError(f"--longest {longest} must be longer than --shortest {shortest}")
+    return band
+
+
+def _surface(reading: options.Reading, fill: bool) -> Surface:
+    """Return the surface without missing points; its tilt goes when the spectrum is taken."""
+    require_memory_to_read(reading.file)
+    surface = reading.as_it_is()
+    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
+    if surface.missing and not fill:
+        raise UsageError(
+            f"{reading.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
+            "or crop them away by 'roughcontact surface prepare'"
+        )
+    if surface.missing:
+        note(f"{surface.missing} missing points are filled smoothly: the shortest waves are too weak there")
+        surface = surface.filled()
+    return surface
+
+
+def _analysed(
+    surface: Surface, direction: Direction, limit: Limit, band: dict[str, float], level: options.Level | None
+) -> tuple[PowerSpectrum, HurstFit]:
+    """Return the spectrum in fine bins, its band set, and the law that fits it."""
+    from dataclasses import replace
+
+    import roughcontact as rc
+
+    taken: Any = "auto" if level is None else level.value
+    if level is None and not all(surface.grid.periodic):
+        note("the heights are levelled by their plane (--level mean or none for another choice)")
+    whole = rc.power_spectrum(surface, direction.value, level=taken, per_decade=_FINE)
+    whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
+    return whole, rc.fit_spectrum(whole, limit=limit.value)
+
+
+def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
+    import roughcontact as rc
+
+    moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), spectrum.q_min, spectrum.q_max)
+    values = {
+        "hurst": law.hurst,
+        "standard_error": law.standard_error,
+        "misfit": law.misfit,
+        "longest": 2 * math.pi / spectrum.q_min,
+        "shortest": 2 * math.pi / spectrum.q_max,
+        "rolloff": law.rolloff_wavelength,
+        "cutoff": law.cutoff_wavelength,
+        "short_end": law.short_wavelength,
+        "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
+        "rms_in_band": moments.rms_height,
+        "rms_slope": moments.rms_slope,
+        "rms_curvature": moments.rms_curvature,
+        "m0": moments.m0,
+        "m2": moments.m2,
+        "m4": moments.m4,
+        "nayak": moments.nayak,
+    }
+    return {
+        "verb": "surface spectrum",
+        "file": plain(str(file)),
+        "kind": spectrum.kind,
+        # JSON has no word for what is infinite or unknown.
+        **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
+        "provenance": list(surface.provenance),
+        "units": _UNITS,
+    }
+
+
+def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    ends = [
+        (name.replace("_", " "), quantity("lengths", record[key]))
+        for name, key in (("roll-off", "rolloff"), ("cut-off", "cutoff"), ("short end", "short_end"))
+        if record[key] is not None
+    ]
+    band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"
+    nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
+    return [
+        ("file", record["file"]),
+        ("surface", size_of(surface.grid)),
+        ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
+        ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
+        ("waves", band),
+        *(ends or [("limits", "none found: the law holds over the whole band")]),
+        (
+            "rms height",
+            f"{quantity('rms', record['rms'])}; {quantity('rms', record['rms_in_band'])} in the band",
+        ),
+        ("rms slope in the band", f"{record['rms_slope']:.4g}"),
+        ("rms curvature in the band", written(record["rms_curvature"] * 1e-3, "", 4) + " 1/mm"),
+        (
+            "moments of the band",
+            f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
+        ),
+        ("Nayak's parameter", nayak),
+    ]
+
+
+def _write(spectrum: PowerSpectrum, law: HurstFit, record: Mapping[str, Any], folder: Path) -> None:
+    from matplotlib.figure import Figure
+
+    from roughcontact.files.aside import written_aside
+    from roughcontact.plot.figures import save
+    from roughcontact.plot.spectrum import spectrum_curve
+
+    figure = Figure(figsize=(6.0, 4.6), layout="constrained")
+    spectrum_curve(figure.subplots(), spectrum, law)
+    with all_or_none(folder) as aside:
+        with (
+            written_aside(aside / "spectrum.csv") as path,
+            open(path, "w", encoding="utf-8", newline="") as stream,
+        ):
+            _table(stream, spectrum.rebinned(_COARSE), law, record)
+        save(figure, aside / "spectrum.png")
+
+
+def _table(stream: Any, spectrum: PowerSpectrum, law: HurstFit, record: Mapping[str, Any]) -> None:
+    """Write a line of names, remarks after ``#``, and a line a bin, every number with all its digits."""
+    unit = "m4" if spectrum.kind == "C2D" else "m3"
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(("wavenumber", "wavelength", "density", "standard_error", "law", "reliable"))
+    remarks = [
+        f"units: wavenumber [rad m-1], wavelength [m], density, standard_error and law [{unit}]",
+        f"kind = {spectrum.kind}",
+        *(f"{name} = {record[name]!r} {_UNITS[name]}" for name in _UNITS if record[name] is not None),
+        *(f"history = {line}" for line in record["provenance"]),
+        f"command = {command_line()}",
+    ]
+    stream.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
+    low, high = spectrum.q_min * (1 - 1e-9), spectrum.q_max * (1 + 1e-9)
+    columns = (
+        spectrum.wavenumber, spectrum.wavelength, spectrum.density, spectrum.standard_error,
+        law(spectrum.wavenumber),
+    )  # fmt: skip
+    for row in zip(*(column.tolist() for column in columns), strict=True):
+        table.writerow((*map(repr, row), int(low <= row[0] <= high)))

@@ -1,0 +1,1 @@
+"""Figures of the thesis: one file each, with its parameters, its case and its picture."""
