@@ -50,7 +50,11 @@ class Surface:
     __array_ufunc__: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        given = np.ma.filled(self.heights, np.nan) if np.ma.isMaskedArray(self.heights) else np.asarray(self.heights)
+        given = (
+            np.ma.filled(self.heights, np.nan)
+            if np.ma.isMaskedArray(self.heights)
+            else np.asarray(self.heights)
+        )
         if given.dtype.kind not in "fiu":
             raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
         heights = np.array(given, dtype=np.float64)  # a copy: a surface never changes
