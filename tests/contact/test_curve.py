@@ -208,6 +208,11 @@ def test_too_few_points_for_a_law():
         curve.fit()
 
 
+def test_a_coarse_grid_is_not_sent_back_to_the_forces_it_had():
+    with pytest.raises(ValueError, match="this grid resolves no more; take a finer one"):
+        rc.loading_curve(rough(32), 1.0).fit()
+
+
 def test_loads_nobody_named():
     surface = rough(128)
     curve = rc.loading_curve(surface, 2.0)

@@ -137,13 +137,21 @@ class Curve:
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
         if inside.sum() < 3:
-            low, high = (part * self.force_scale for part in SUGGESTED)
             raise ValueError(
-                f"a power law needs at least 3 resolved points, not {int(inside.sum())}: try forces from {low:.3g} N "
-                f"to {high:.3g} N, a finer grid, or a window of forces"
+                f"a power law needs at least 3 resolved points, not {int(inside.sum())}: {self._remedy()}"
             )
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
+        )
+
+    def _remedy(self) -> str:
+        """Say what would give more resolved points."""
+        low, high = (part * self.force_scale for part in SUGGESTED)
+        if self.force.min() > low * (1 + ROUNDING) or self.force.max() < high * (1 - ROUNDING):
+            return f"try forces from {low:.3g} N to {high:.3g} N, a finer grid, or a window of forces"
+        return (
+            f"between {low:.3g} N and {high:.3g} N this grid resolves no more; take a finer one, more forces in between, "
+            "or larger ones and a window of your own"
         )
 
     def __repr__(self) -> str:
