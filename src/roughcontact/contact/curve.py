@@ -150,8 +150,8 @@ class Curve:
         if self.force.min() > low * (1 + ROUNDING) or self.force.max() < high * (1 - ROUNDING):
             return f"try forces from {low:.3g} N to {high:.3g} N, a finer grid, or a window of forces"
         return (
-            f"between {low:.3g} N and {high:.3g} N this grid resolves no more; take a finer one, more forces in between, "
-            "or larger ones and a window of your own"
+            f"between {low:.3g} N and {high:.3g} N this grid resolves no more; take a finer one, more forces in "
+            "between, or larger ones and a window of your own"
         )
 
     def __repr__(self) -> str:
