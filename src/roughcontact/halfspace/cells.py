@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence import Influence
+from roughcontact.halfspace.influence import Tables
 
 __all__ = ["CellsOperator"]
 
@@ -26,7 +27,7 @@ class CellsOperator:
     ----------
     grid : Grid
         A line of as many cells as the list holds, each as long as a cell of the list is large.
-    influence : Influence
+    influence : Tables
         Influence function on the cells.
     rows, columns : int arrays, shape (n,)
         Where the cells are.
@@ -35,13 +36,13 @@ class CellsOperator:
     """
 
     grid: Grid
-    influence: Influence
+    influence: Tables
     rows: Cells
     columns: Cells
     positive: bool = True
 
     @classmethod
-    def of(cls, grid: Grid, influence: Influence, cells: Cells | None, positive: bool) -> CellsOperator:
+    def of(cls, grid: Grid, influence: Tables, cells: Cells | None, positive: bool) -> CellsOperator:
         """Return the operator between `cells` (flat indices; all without) of a grid of two axes."""
         flat = np.arange(grid.size) if cells is None else cells
         rows, columns = np.divmod(flat, grid.shape[1])
@@ -78,10 +79,16 @@ class CellsOperator:
         grid = Grid(max(1, len(cells)), self.grid.spacing)
         return CellsOperator(grid, self.influence, self.rows[cells], self.columns[cells], self.positive)
 
+    @cached_property
+    def _reach(self) -> tuple[int, int]:
+        """Shape of the table that would hold every offset of the list."""
+        if not len(self.rows):
+            return 1, 1
+        return int(np.ptp(self.rows)) + 1, int(np.ptp(self.columns)) + 1
+
     def _influences(self, to: slice, of: Cells | slice) -> Array:
-        return self.influence.at(
-            self.rows[to, None] - self.rows[of], self.columns[to, None] - self.columns[of]
-        )
+        rows, columns = self.rows[to, None] - self.rows[of], self.columns[to, None] - self.columns[of]
+        return self.influence.at(rows, columns, self._reach)
 
     def _blocks(self, width: int) -> list[slice]:
         size = max(BLOCK, 8192 // max(1, width))

@@ -125,13 +125,14 @@ class Tables:
             self._largest = self.influence.table(room)
         return self._largest[: shape[0], : shape[1]]
 
-    def at(self, rows: Offsets, columns: Offsets) -> Array:
+    def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
 
-        A table is made as soon as single values have cost as much as it would.
+        A table is made as soon as single values have cost as much as it would. `reach` is the shape of the
+        table that would hold them all, where the caller knows it.
         """
         a, b = np.abs(rows), np.abs(columns)
-        needed = (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
+        needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
         if not self._has(needed):
             if min(self._largest.shape) < NEAR:
                 self.table(tuple(min(NEAR, end) for end in self.limit))

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.arrays import convolve, even_multiplier, fast_even_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
-from roughcontact.halfspace.influence import Influence, Periodic, Tables
+from roughcontact.halfspace.influence import Periodic, Tables
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -27,14 +27,14 @@ class FreeOperator:
     ----------
     grid : Grid
         Grid of two axes; its boundary condition is not looked at.
-    influence : Influence
+    influence : Tables
         Influence function on cells of the grid's size.
     positive : bool
         Whether the influence function is nowhere negative.
     """
 
     grid: Grid
-    influence: Influence
+    influence: Tables
     positive: bool = True
 
     @property
