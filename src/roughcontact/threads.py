@@ -15,8 +15,8 @@ __all__ = ["one_blas_thread"]
 def one_blas_thread() -> Iterator[None]:
     """Keep BLAS and LAPACK to one thread meanwhile.
 
-    The factorisations here are small. Two threads make them faster by less than two on an idle machine, and
-    slower by ten where another process wants a core, since BLAS threads spin while they wait.
+    The factorisations here are small. A second thread makes them at best twice as fast on an idle machine, and
+    much slower where another process wants a core, since BLAS threads spin while they wait for each other.
     """
     with _controller().limit(limits=1, user_api="blas"):
         yield

@@ -24,6 +24,7 @@ __all__ = ["ActiveSet"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
+Mask = npt.NDArray[np.bool_]
 
 LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
 SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
@@ -75,17 +76,15 @@ class ActiveSet:
             if steps >= self.max_steps or idle > 12:
                 break
             region = (p > 0) | (gap < -0.5 * tolerance * scale)
-            wrong = (p * own < gap) & region if guessed else None
-            if (
-                wrong is not None
-            ):  # a guess from other cells or loads: what a projected step of one cell leaves of it
+            if guessed:
+                # From other cells or another load: keep what a projected step of one cell leaves of it.
+                wrong = region & (p * own < gap)
                 region &= ~wrong
+                if self._worth_sifting(region, wrong, measure):
+                    limit = LOOSE * r * scale
+                    region = _sifted(operator, separation, control, np.flatnonzero(region), p, limit)
+                guessed = False
             cells = np.flatnonzero(region)
-            bad = wrong is not None and wrong.sum() > len(cells) / 100  # one load to the next is a good guess
-            if bad and SIFTED < len(cells) <= dense_limit and not measure.varies:
-                cells = _sifted(operator, separation, control, cells, p, LOOSE * r * scale)
-                region = _scatter(cells, np.ones(len(cells)), region.shape) > 0
-            guessed = False
             if not len(cells):  # too shallow a depth for this grid
                 p, u, fresh = np.zeros_like(p), np.zeros_like(p), True
                 continue
@@ -105,9 +104,8 @@ class ActiveSet:
                 u, fresh, steps = operator.apply(p), True, steps + 1
             else:
                 goal = 0.3 * tolerance
-                if not np.array_equal(
-                    region, p > 0
-                ):  # a region that still changes deserves no more than a part
+                if not np.array_equal(region, p > 0):
+                    # A region that still changes deserves no more than a part.
                     goal = max(goal, min(DEPTH_OF_SOLVE * r, 1e-2))
                 limit = scale * goal
                 relaxed = press_region(
@@ -118,14 +116,18 @@ class ActiveSet:
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, control, p, tolerance)
         return replace(rest, steps=rest.steps + steps)
 
+    def _worth_sifting(self, region: Mask, wrong: Mask, measure: Measure) -> bool:
+        """Whether a guess is bad, and its matrix large: one load to the next is a good guess."""
+        count = int(region.sum())
+        return wrong.sum() > count / 100 and SIFTED < count <= self.dense_limit and not measure.varies
+
 
 def _sifted(
     operator: Operator, separation: Array, control: Control, cells: Cells, pressure: Array, limit: float
-) -> Cells:
-    """Return those of many guessed cells that press when their problem is solved loosely.
+) -> Mask:
+    """Return the region of those guessed cells that press when their problem is solved loosely.
 
-    A product with their matrix costs a hundredth of its factorisation, which grows with the third power of
-    what is not sifted out.
+    A product with their matrix grows with the square of their number, its factorisation with the third power.
     """
     area = float(operator.weights)  # the same for all: who comes here has asked
     part = DenseOperator(Grid(len(cells), area), operator.as_matrix(cells))
@@ -140,7 +142,7 @@ def _sifted(
         limit=limit,
         max_steps=50,
     )
-    return cells[found.pressure > 0]
+    return _scatter(cells, found.pressure, separation.shape) > 0
 
 
 def _scatter(cells: npt.NDArray[np.intp], values: Array, shape: tuple[int, ...]) -> Array:

@@ -17,7 +17,7 @@ __all__ = ["DENSE_LIMIT", "Pressed", "press_cells", "solve_cells"]
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
-DENSE_LIMIT = 2000  # cells: above, conjugate gradients need less time and less memory (benchmarks/memory.py)
+DENSE_LIMIT = 2000  # cells: a matrix of 32 MB; time and memory grow with the third and second power beyond
 
 # Letting go of one cell costs two triangular solves, a new factorisation a sixth of the cells as many.
 FEW = 1 / 8

@@ -162,7 +162,8 @@ class Solution:
         if not self.status.converged:
             notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
         if self.missing:
-            notes.append(f"{self.missing} cells hold no height; they were kept out of contact.")
+            hold = "1 cell holds" if self.missing == 1 else f"{self.missing} cells hold"
+            notes.append(f"{hold} no height: kept out of contact.")
         if self.touches_edge and self.problem.surface is not None:
             notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
         if len(self._cells) == 1:
