@@ -44,3 +44,27 @@ def test_a_window_is_free():
 def test_nonsense_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
         rc.Grid(*arguments)
+
+
+def test_cells_have_centres_and_ends():
+    grid = rc.Grid((2, 3), (0.5, 2.0), (True, False))
+    np.testing.assert_array_equal(grid.coordinates[0], [0.25, 0.75])
+    np.testing.assert_array_equal(grid.coordinates[1], [1.0, 3.0, 5.0])
+    assert grid.ends == ((), (0, -1))
+
+
+def test_rings_fill_their_disc():
+    grid = rc.RadialGrid([0.0, 0.1, 0.5, 2.0])
+    np.testing.assert_allclose(grid.cell_area, np.pi * np.diff(grid.edges**2), rtol=1e-14)
+    assert grid.area == pytest.approx(4 * np.pi)
+    assert grid.lengths == (2.0,)
+    assert grid.ends == ((-1,),)
+    assert grid == rc.RadialGrid(np.array([0.0, 0.1, 0.5, 2.0]))
+    assert hash(grid) == hash(rc.RadialGrid([0.0, 0.1, 0.5, 2.0]))
+    assert grid != rc.RadialGrid.uniform(3, 2.0)
+
+
+def test_a_window_of_rings_has_a_hole():
+    window = rc.RadialGrid([0.0, 0.1, 0.5, 2.0]).window((slice(1, 3),))
+    assert window == rc.RadialGrid([0.1, 0.5, 2.0])
+    assert window.ends == ((0, -1),)

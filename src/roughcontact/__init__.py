@@ -10,10 +10,12 @@ __version__ = "0.1.0"
 # The public names and the rooms they live in; a room is opened when its name is first asked for.
 _ROOMS = {
     "Grid": "grid",
+    "RadialGrid": "grid",
     "Solid": "material",
     "reduced_modulus": "material",
     "reduced_shear_modulus": "material",
     "Surface": "surface.surface",
+    "RadialProfile": "surface.radial",
     "self_affine": "surface.fourier",
     "SelfAffineSpectrum": "surface.spectrum",
     "synthesise": "surface.fourier",
@@ -54,6 +56,11 @@ _ROOMS = {
     "material_ratio": "surface.parameters.material_ratio",
     "stratified_parameters": "surface.parameters.material_ratio",
     "half_space": "halfspace.build",
+    "ring": "halfspace.ring",
+    "line": "halfspace.line",
+    "foundation": "mdr.foundation",
+    "Geometry": "halfspace.geometry",
+    "Operator": "halfspace.operator",
     "Force": "contact.problem",
     "Depth": "contact.problem",
     "ContactProblem": "contact.problem",
@@ -79,11 +86,13 @@ _ROOMS = {
 }
 
 # Public names that are modules themselves.
-_MODULES = {"shapes": "surface.shapes"}
+_MODULES = {"shapes": "surface.shapes", "theory": "theory", "mdr": "mdr"}
 
 __all__ = ["__version__", *_ROOMS, *_MODULES]
 
 if TYPE_CHECKING:
+    from roughcontact import mdr as mdr
+    from roughcontact import theory as theory
     from roughcontact.contact.active_set import ActiveSet as ActiveSet
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.curve import PowerLaw as PowerLaw
@@ -107,10 +116,16 @@ if TYPE_CHECKING:
     from roughcontact.files.read import read_line as read_line
     from roughcontact.files.save import write as write
     from roughcontact.grid import Grid as Grid
+    from roughcontact.grid import RadialGrid as RadialGrid
     from roughcontact.halfspace.build import half_space as half_space
+    from roughcontact.halfspace.geometry import Geometry as Geometry
+    from roughcontact.halfspace.line import line as line
+    from roughcontact.halfspace.operator import Operator as Operator
+    from roughcontact.halfspace.ring import ring as ring
     from roughcontact.material import Solid as Solid
     from roughcontact.material import reduced_modulus as reduced_modulus
     from roughcontact.material import reduced_shear_modulus as reduced_shear_modulus
+    from roughcontact.mdr.foundation import foundation as foundation
     from roughcontact.surface import shapes as shapes
     from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
     from roughcontact.surface.analysis.correlation import structure_function as structure_function
@@ -147,6 +162,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.parameters.material_ratio import material_ratio as material_ratio
     from roughcontact.surface.parameters.material_ratio import stratified_parameters as stratified_parameters
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
+    from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.spectrum import DirectionalSpectrum as DirectionalSpectrum
     from roughcontact.surface.spectrum import RadialSpectrum as RadialSpectrum
     from roughcontact.surface.spectrum import SelfAffineSpectrum as SelfAffineSpectrum

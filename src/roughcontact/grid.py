@@ -1,4 +1,4 @@
-"""Where the cells are: one frozen value that also carries the boundary condition."""
+"""Where the cells are: frozen values that also carry the boundary condition."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-__all__ = ["Grid"]
+__all__ = ["AnyGrid", "Grid", "RadialGrid"]
+
+Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +88,126 @@ class Grid:
         """Nominal area of all cells [m^2]; on a line its length [m]."""
         return self.size * self.cell_area
 
+    @property
+    def coordinates(self) -> tuple[Array, ...]:
+        """Centres of the cells along each axis [m], counted from the first corner."""
+        pairs = zip(self.shape, self.spacing, strict=True)
+        return tuple(np.asarray((np.arange(n) + 0.5) * step, dtype=np.float64) for n, step in pairs)
+
+    @property
+    def ends(self) -> tuple[tuple[int, ...], ...]:
+        """Indices of the outermost cells along each axis, beyond which nothing is known."""
+        return tuple(() if periodic else (0, -1) for periodic in self.periodic)
+
     def window(self, slices: tuple[slice, ...]) -> Grid:
         """Return the free grid of the cells in `slices` (one slice of step 1 an axis)."""
         shape = tuple(len(range(*part.indices(n))) for part, n in zip(slices, self.shape, strict=True))
         return Grid(shape, self.spacing, periodic=False)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RadialGrid:
+    """Rings about an axis, of any widths.
+
+    Parameters
+    ----------
+    edges : array, shape (n + 1,)
+        Radii of the circles that bound the n rings, increasing [m]. From 0 on, the innermost ring is a disc.
+
+    Raises
+    ------
+    ValueError
+        If the radii do not increase from zero or above.
+    """
+
+    edges: Array
+
+    def __post_init__(self) -> None:
+        edges = np.array(self.edges, dtype=np.float64)
+        if edges.ndim != 1 or len(edges) < 2:
+            raise ValueError(f"edges must hold the radii of at least two circles, not shape {edges.shape}")
+        if not (np.isfinite(edges).all() and edges[0] >= 0 and (np.diff(edges) > 0).all()):
+            raise ValueError("edges must be finite radii [m] that increase strictly, from 0 or above")
+        edges.flags.writeable = False
+        object.__setattr__(self, "edges", edges)
+
+    @classmethod
+    def uniform(cls, rings: int, radius: float) -> RadialGrid:
+        """Return `rings` rings of one width over a disc of `radius` [m]."""
+        if rings < 1 or not (math.isfinite(radius) and radius > 0):
+            raise ValueError(f"a disc needs at least one ring and a radius above 0, not {rings} and {radius}")
+        return cls(np.linspace(0.0, radius, int(rings) + 1))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same circles."""
+        return isinstance(other, RadialGrid) and np.array_equal(self.edges, other.edges)
+
+    def __hash__(self) -> int:
+        return hash(self.edges.tobytes())
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of rings, as a tuple."""
+        return (len(self.edges) - 1,)
+
+    @property
+    def size(self) -> int:
+        """Number of rings."""
+        return len(self.edges) - 1
+
+    @property
+    def ndim(self) -> int:
+        """Number of axes: one."""
+        return 1
+
+    @property
+    def periodic(self) -> tuple[bool, ...]:
+        """Rings do not repeat themselves."""
+        return (False,)
+
+    @property
+    def radii(self) -> Array:
+        """Mean of the two radii of each ring [m], shape (n,)."""
+        return np.asarray((self.edges[1:] + self.edges[:-1]) / 2)
+
+    @property
+    def coordinates(self) -> tuple[Array, ...]:
+        """The mean radii [m], as a tuple."""
+        return (self.radii,)
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """Mean width of a ring [m], as a tuple."""
+        return (float(self.edges[-1] - self.edges[0]) / self.size,)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Outermost radius [m], as a tuple."""
+        return (float(self.edges[-1]),)
+
+    @property
+    def cell_area(self) -> Array:
+        """Area of each ring [m^2], shape (n,)."""
+        # The difference of two squares, without their cancellation.
+        return np.asarray(2 * math.pi * self.radii * np.diff(self.edges))
+
+    @property
+    def area(self) -> float:
+        """Area of all rings [m^2]."""
+        return float(self.cell_area.sum())
+
+    @property
+    def ends(self) -> tuple[tuple[int, ...], ...]:
+        """Indices of the rings beyond which nothing is known: the last, and the first if there is a hole."""
+        return ((0, -1) if self.edges[0] > 0 else (-1,),)
+
+    def window(self, slices: tuple[slice, ...]) -> RadialGrid:
+        """Return the rings of one slice of step 1."""
+        start, stop, _ = slices[0].indices(self.size)
+        return RadialGrid(self.edges[start : stop + 1])
+
+
+AnyGrid = Grid | RadialGrid
 
 
 def _per_axis(value: Any, ndim: int, name: str) -> tuple[Any, ...]:

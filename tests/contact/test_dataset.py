@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -163,8 +162,36 @@ def test_bodies_that_do_not_touch(surface):
     assert solution_record(apart)["largest_pressure"] == 0.0
 
 
-def test_a_line_is_refused_rather_than_given_wrong_units(curve):
-    line = replace(curve, lengths=(1.0,), spacing=(0.1,), periodic=(False,))
-    for convert in (curve_dataset, curve_record):
-        with pytest.raises(ValueError, match="two dimensions"):
-            convert(line)
+@pytest.mark.parametrize(
+    ("body", "units"),
+    [
+        (lambda grid: rc.line(grid, MODULUS), {"force": "N m-1", "stiffness": "N m-2", "contact_area": "m"}),
+        (
+            lambda grid: rc.foundation(grid, MODULUS),
+            {"force": "N", "stiffness": "N m-1", "contact_area": "m"},
+        ),
+    ],
+    ids=["line", "foundation"],
+)
+def test_a_line_has_units_of_its_own(body, units):
+    grid = rc.Grid(64, 1e-7)
+    line = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    operator = body(grid)
+    curve = rc.loading_curve(line, MODULUS, forces=[1.0, 2.0], operator=operator)
+    solution = rc.press(line, MODULUS, force=1.0, operator=operator)
+    for dataset in (curve_dataset(curve), solution_dataset(solution)):
+        assert {name: dataset[name].attrs["units"] for name in units} == units
+        assert dataset.attrs["geometry"] == operator.geometry.value
+        assert list(dataset.axis.values) == ["x"]
+    assert solution_dataset(solution).pressure.dims == ("x",)
+    for record in (curve_record(curve), solution_record(solution)):
+        assert {name: record["units"][name] for name in units} == units
+        json.dumps(record, allow_nan=False)
+
+
+def test_rings_lie_along_the_radius():
+    rings = rc.RadialGrid.uniform(16, 1e-5)
+    dataset = rc.press(rc.RadialProfile(-(rings.radii**2), rings), MODULUS, force=1.0).to_dataset()
+    assert dataset.pressure.dims == ("r",)
+    np.testing.assert_array_equal(dataset.r, rings.radii)
+    assert dataset.contact_area.attrs["units"] == "m2"

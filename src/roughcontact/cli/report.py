@@ -16,7 +16,7 @@ from roughcontact.plot.units import pretty, scale, written
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
-    from roughcontact.grid import Grid
+    from roughcontact.grid import AnyGrid
 
 __all__ = [
     "curve_table",
@@ -48,7 +48,7 @@ def quantity(name: str, value: float) -> str:
     return written(value, VARIABLES[name].unit, digits=4)
 
 
-def size_of(grid: Grid) -> str:
+def size_of(grid: AnyGrid) -> str:
     """Return the cells and the side lengths of a grid in words."""
     cells = " x ".join(str(n) for n in grid.shape)
     lengths = " x ".join(quantity("lengths", length) for length in grid.lengths)

@@ -46,11 +46,12 @@ def coarse_guess(
 
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
     """Return the operator on cells of twice the size and the factor of each axis; None if that ends here."""
-    if max(shape) <= COARSEST or not isinstance(operator, Coarsenable):
+    grid = operator.grid
+    if max(shape) <= COARSEST or not (isinstance(operator, Coarsenable) and isinstance(grid, Grid)):
         return None
     factors = tuple(2 if n > COARSEST // 2 else 1 for n in shape)
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
-    coarse = operator.coarsened(_coarse_grid(operator.grid, coarse_shape, factors))
+    coarse = operator.coarsened(_coarse_grid(grid, coarse_shape, factors))
     return None if coarse is None else (coarse, factors)
 
 

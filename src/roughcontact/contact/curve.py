@@ -14,7 +14,8 @@ from roughcontact.contact.power_law import PowerLaw, fit_power_law
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import Status
-from roughcontact.contact.stiffness import CELLS, SATURATED, cell_stiffness, saturation
+from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
+from roughcontact.halfspace.geometry import Geometry
 
 if TYPE_CHECKING:
     import xarray
@@ -51,6 +52,8 @@ class Curve:
     periodic : tuple of bool
     cell_stiffness, saturation : float
         Stiffness of one cell, and of all measured cells in contact [N/m].
+    geometry : Geometry
+        What the cells are. On a line forces, stiffness, areas and energy are per unit length.
     """
 
     force: Array
@@ -71,6 +74,7 @@ class Curve:
     periodic: tuple[bool, ...]
     cell_stiffness: float
     saturation: float
+    geometry: Geometry = Geometry.SURFACE
 
     def __len__(self) -> int:
         return len(self.force)
@@ -79,24 +83,24 @@ class Curve:
     def resolved(self) -> npt.NDArray[np.bool_]:
         """Mask of points above the one-cell artefact, below saturation, and solved to their tolerance."""
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
-        above = self.stiffness >= CELLS * self.cell_stiffness
-        below = self.stiffness < SATURATED * self.saturation
-        return np.asarray(above & below & solved)
+        if self.geometry is Geometry.LINE:
+            return solved & is_resolved(self.contact_area, self.spacing[0], self.lengths[0])
+        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.saturation)
 
     @property
     def length(self) -> float:
-        """The length L of the dimensionless numbers [m]: the square root of the nominal area."""
-        return math.sqrt(math.prod(self.lengths)) if len(self.lengths) == 2 else self.lengths[0]
+        """The length L of the dimensionless numbers [m]: the square root of the nominal area; that of a line."""
+        return length_scale(self.geometry, self.lengths)
 
     @property
     def force_scale(self) -> float:
-        """E* h L [N] (thesis, eq. 4.13)."""
-        return self.modulus * self.rms * self.length
+        """E* h L [N] (thesis, eq. 4.13); of a line contact E* h [N/m]."""
+        return self.rms * self.stiffness_scale
 
     @property
     def stiffness_scale(self) -> float:
-        """E* L [N/m] (thesis, eq. 4.8)."""
-        return self.modulus * self.length
+        """E* L [N/m] (thesis, eq. 4.8); of a line contact E* [N/m^2]."""
+        return self.modulus * (1.0 if self.geometry is Geometry.LINE else self.length)
 
     @property
     def dimensionless_force(self) -> Array:
@@ -206,7 +210,15 @@ def collect(path: Iterable[Solution]) -> Curve:
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
         saturation=saturation(problem),
+        geometry=problem.geometry,
     )
+
+
+def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
+    """Return the length L of the dimensionless numbers [m]."""
+    if geometry is Geometry.RING:
+        return math.sqrt(math.pi) * lengths[0]
+    return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]
 
 
 def _point(s: Solution) -> tuple[float, ...]:

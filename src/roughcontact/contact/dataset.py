@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.contact.variables import VARIABLES, unit_of
+from roughcontact.halfspace.geometry import Geometry
 
 if TYPE_CHECKING:
     import xarray
@@ -50,7 +51,6 @@ _SOLUTION_SCALARS = (
     "missing",
     "touches_edge",
 )
-_AXES = ("y", "x")
 
 
 def curve_dataset(curve: Curve) -> xarray.Dataset:
@@ -58,43 +58,43 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
 
     Every array of the curve is a variable along ``load``; the secant stiffness, which belongs to
     pairs of neighbours, lies along ``interval``; the scales are variables without a dimension, or
-    along ``axis`` (y, then x). Each carries ``units`` and ``long_name``.
+    along ``axis`` (y, then x). Each carries ``units`` and ``long_name``. On a line the units are per length.
     """
-    data = {name: _variable(name, ("load",), getattr(curve, name)) for name in _CURVE_POINTS}
+    kind = curve.geometry
+    data = {name: _variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_POINTS}
     data["status"] = _variable("status", ("load",), _words(curve.status))
-    data["secant_stiffness"] = _variable("secant_stiffness", ("interval",), curve.secant_stiffness)
-    data |= {name: _variable(name, (), getattr(curve, name)) for name in _CURVE_SCALES}
-    data |= _geometry(curve.lengths, curve.spacing, curve.periodic)
-    return _dataset(data, {}, "normal contact stiffness of a rough surface against load")
+    data["secant_stiffness"] = _variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
+    data |= {name: _variable(name, (), getattr(curve, name), kind) for name in _CURVE_SCALES}
+    data |= _sizes(curve.lengths, curve.spacing, curve.periodic)
+    return _dataset(data, {}, "normal contact stiffness of a rough surface against load", kind)
 
 
 def solution_dataset(solution: Solution) -> xarray.Dataset:
     """Return one loaded state as a dataset.
 
-    Maps lie along ``y, x`` with the cell centres [m] as coordinates. Row 0 is the top of the picture,
-    so y points down. Scalars are variables without a dimension, areas and loads of the spots lie
-    along ``spot`` (1, 2, ... as in ``spot_label``).
+    Maps lie along ``y, x`` with the cell centres [m] as coordinates, profiles along ``x``, rings along ``r``. Row 0
+    is the top of the picture, so y points down. Scalars are variables without a dimension, areas and loads of the
+    spots lie along ``spot`` (1, 2, ... as in ``spot_label``). On a line the units are per length.
     """
     problem, spots = solution.problem, solution.spots
-    grid = problem.grid
-    _check_two_dimensional(len(grid.shape))
-    data = {name: _variable(name, _AXES, getattr(solution, name)) for name in _SOLUTION_MAPS}
+    grid, kind = problem.grid, problem.geometry
+    axes = kind.axes
+    data = {name: _variable(name, axes, getattr(solution, name), kind) for name in _SOLUTION_MAPS}
     if problem.surface is not None:
-        data["heights"] = _variable("heights", _AXES, problem.surface.heights)
-    data["spot_label"] = _variable("spot_label", _AXES, spots.labels)
-    data["spot_area"] = _variable("spot_area", ("spot",), spots.areas)
-    data["spot_load"] = _variable("spot_load", ("spot",), spots.loads)
-    data |= {name: _variable(name, (), getattr(solution, name)) for name in _SOLUTION_SCALARS}
+        data["heights"] = _variable("heights", axes, problem.surface.heights)
+    data["spot_label"] = _variable("spot_label", axes, spots.labels)
+    data["spot_area"] = _variable("spot_area", ("spot",), spots.areas, kind)
+    data["spot_load"] = _variable("spot_load", ("spot",), spots.loads, kind)
+    data |= {name: _variable(name, (), getattr(solution, name), kind) for name in _SOLUTION_SCALARS}
     data["spots"] = _variable("spots", (), spots.count)
     data["status"] = _variable("status", (), _word(solution.status))
-    data |= {name: _variable(name, (), value) for name, value in _scales(solution).items()}
-    data |= _geometry(grid.lengths, grid.spacing, grid.periodic)
+    data |= {name: _variable(name, (), value, kind) for name, value in _scales(solution).items()}
+    data |= _sizes(grid.lengths, grid.spacing, grid.periodic)
     coordinates = {
-        axis: _variable(axis, (axis,), (np.arange(n) + 0.5) * step)
-        for axis, n, step in zip(_AXES, grid.shape, grid.spacing, strict=True)
+        axis: _variable(axis, (axis,), values) for axis, values in zip(axes, grid.coordinates, strict=True)
     }
     coordinates["spot"] = (("spot",), np.arange(1, spots.count + 1), {"long_name": "number of the spot"})
-    dataset = _dataset(data, coordinates, "contact of a rough surface under load")
+    dataset = _dataset(data, coordinates, "contact of a rough surface under load", kind)
     if solution.notes:
         dataset.attrs["notes"] = "\n".join(solution.notes)
     return dataset
@@ -105,11 +105,10 @@ def curve_record(curve: Curve) -> dict[str, Any]:
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
-    _check_two_dimensional(len(curve.lengths))
     names = (*_CURVE_POINTS, "secant_stiffness", *_CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: _plain(getattr(curve, name)) for name in names}
     record["status"] = _words(curve.status)
-    return record | {"units": _units(record)}
+    return record | {"geometry": curve.geometry.value, "units": _units(record, curve.geometry)}
 
 
 def solution_record(solution: Solution) -> dict[str, Any]:
@@ -117,21 +116,22 @@ def solution_record(solution: Solution) -> dict[str, Any]:
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
-    grid = solution.problem.grid
-    _check_two_dimensional(len(grid.shape))
+    grid, kind = solution.problem.grid, solution.problem.geometry
     record = {name: _plain(getattr(solution, name)) for name in _SOLUTION_SCALARS}
     record["spots"] = int(solution.spots.count)
     record["status"] = _word(solution.status)
     record["notes"] = list(solution.notes)
     record |= {name: _plain(value) for name, value in _scales(solution).items()}
     record |= {name: _plain(getattr(grid, name)) for name in ("shape", "lengths", "spacing", "periodic")}
-    return record | {"units": _units(record)}
+    return record | {"geometry": kind.value, "units": _units(record, kind)}
 
 
-def _variable(name: str, dimensions: tuple[str, ...], values: Any) -> tuple[Any, Any, dict[str, str]]:
+def _variable(
+    name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
+) -> tuple[Any, Any, dict[str, str]]:
     """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
-    known = VARIABLES[name]
-    attributes = {"long_name": known.long_name} | ({"units": known.unit} if known.unit else {})
+    unit = unit_of(name, geometry)
+    attributes = {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
     return dimensions, np.asarray(values), attributes
 
 
@@ -147,29 +147,26 @@ def _scales(solution: Solution) -> dict[str, float]:
     return scales if problem.surface is None else scales | {"rms": problem.surface.rms}
 
 
-def _geometry(lengths: Any, spacing: Any, periodic: Any) -> dict[str, Any]:
-    """Return the size of the map, one value for each axis."""
-    _check_two_dimensional(len(lengths))
+def _sizes(lengths: Any, spacing: Any, periodic: Any) -> dict[str, Any]:
+    """Return the size of the grid, one value for each axis."""
     values = {"lengths": lengths, "spacing": spacing, "periodic": periodic}
     return {name: _variable(name, ("axis",), value) for name, value in values.items()}
 
 
-def _dataset(data: dict[str, Any], coordinates: dict[str, Any], title: str) -> xarray.Dataset:
+def _dataset(
+    data: dict[str, Any], coordinates: dict[str, Any], title: str, geometry: Geometry
+) -> xarray.Dataset:
     import xarray
 
-    axis = (("axis",), list(_AXES), {"long_name": "axis of the map: rows run along x, down the picture is y"})
-    attributes = {"Conventions": "CF-1.11", "title": title}
+    words = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
+    axis = (("axis",), list(geometry.axes), {"long_name": words})
+    attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
     return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
 
 
-def _check_two_dimensional(ndim: int) -> None:
-    # On a line force is per unit length: the units of the table would be wrong without a word.
-    if ndim != 2:
-        raise ValueError(f"datasets and records describe surfaces of two dimensions, not {ndim}")
-
-
-def _units(record: dict[str, Any]) -> dict[str, str]:
-    return {name: VARIABLES[name].unit for name in record if name in VARIABLES and VARIABLES[name].unit}
+def _units(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
+    units = {name: unit_of(name, geometry) for name in record if name in VARIABLES}
+    return {name: unit for name, unit in units.items() if unit}
 
 
 def _word(status: Status) -> str:

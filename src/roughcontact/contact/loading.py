@@ -8,18 +8,18 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.active_set import ActiveSet
-from roughcontact.contact.curve import SUGGESTED, Curve, collect
+from roughcontact.contact.curve import SUGGESTED, Curve, collect, length_scale
 from roughcontact.contact.press import control_of, grid_of, make_problem
-from roughcontact.contact.problem import ContactProblem, Control, Force
+from roughcontact.contact.problem import Body, ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve_state
 from roughcontact.contact.state import Solver
 from roughcontact.contact.stiffness import FrozenContact, frozen_contact
 from roughcontact.contact.window import Windows, embed
-from roughcontact.grid import Grid
-from roughcontact.halfspace.operator import Operator
+from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
-from roughcontact.surface.surface import Surface
 
 __all__ = ["loading_curve", "loading_path", "suggested_forces"]
 
@@ -28,7 +28,7 @@ Loads = Sequence[float] | Array
 
 
 def loading_path(
-    surface: Surface,
+    surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     *,
     forces: Loads | None = None,
@@ -59,7 +59,7 @@ def loading_path(
         If the input makes no sense, at once and not at the first load.
     """
     if forces is None and depths is None and pressures is None:
-        forces = suggested_forces(surface, modulus)
+        forces = suggested_forces(surface, modulus, operator=operator)
     controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
     problem = make_problem(surface, modulus, controls[0], operator, tolerance)
     for control in controls[1:]:
@@ -68,7 +68,7 @@ def loading_path(
 
 
 def loading_curve(
-    surface: Surface,
+    surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     *,
     forces: Loads | None = None,
@@ -93,12 +93,16 @@ def loading_curve(
 
 
 def suggested_forces(
-    surface: Surface, modulus: float | Solid | tuple[Solid, Solid], count: int = 30
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    count: int = 30,
+    *,
+    operator: Operator | None = None,
 ) -> Array:
     """Return forces [N] over the range in which a rough surface is worth looking at.
 
     From 1e-4 to 0.07 of E* h L in equal ratios: from the first cells in contact to where the thesis ends its
-    fits of the power law (section 4.5).
+    fits of the power law (section 4.5). On a line contact, of which the `operator` tells, of E* h.
 
     Raises
     ------
@@ -108,7 +112,9 @@ def suggested_forces(
     grid = grid_of(surface)
     if not surface.rms > 0:
         raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
-    scale = as_modulus(modulus) * surface.rms * (grid.lengths[0] * grid.lengths[-1]) ** 0.5
+    geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
+    length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
+    scale = as_modulus(modulus) * surface.rms * length
     low, high = SUGGESTED
     return np.geomspace(low * scale, high * scale, count)
 
@@ -154,7 +160,7 @@ def _predict(solution: Solution, following: Control) -> tuple[Array, float] | No
 
 
 def _controls(
-    grid: Grid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
+    grid: AnyGrid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
 ) -> list[Control]:
     """Return the controls that exactly one of the three lists states."""
     given = {"force": forces, "depth": depths, "pressure": pressures}

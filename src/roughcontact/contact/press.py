@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.contact.problem import ContactProblem, Control, Depth, Force, separation_of
+from roughcontact.contact.problem import Body, ContactProblem, Control, Depth, Force, separation_of
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve
 from roughcontact.contact.state import Solver
 from roughcontact.contact.status import ConvergenceError
-from roughcontact.grid import Grid
-from roughcontact.halfspace.build import half_space
+from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.build import body_on
 from roughcontact.halfspace.operator import Operator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
 __all__ = ["press"]
 
 
 def press(
-    surface: Surface,
+    surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     *,
     force: float | None = None,
@@ -33,15 +34,16 @@ def press(
 
     Parameters
     ----------
-    surface : Surface
+    surface : Surface or RadialProfile
         Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     force, depth, pressure : float
         Exactly one: normal force [N], approach since first touch [m], or nominal pressure [Pa] (force over
-        the area of all cells).
+        the area of all cells). On a line, forces are per unit length [N/m].
     operator : Operator, optional
-        Another body than the half-space on the surface's grid.
+        Another body than the half-space on the surface's grid. A surface of one axis needs one: `line`, or the
+        `foundation` of the method of dimensionality reduction.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
@@ -65,15 +67,15 @@ def press(
     return solution
 
 
-def grid_of(surface: Surface) -> Grid:
+def grid_of(surface: Body) -> AnyGrid:
     """Return the grid of a surface, or say that it is none."""
-    if not isinstance(surface, Surface):
+    if not isinstance(surface, Surface | RadialProfile):
         raise ValueError(f"a Surface is wanted (heights and a grid), not {type(surface).__name__}")
     return surface.grid
 
 
 def make_problem(
-    surface: Surface,
+    surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     control: Control,
     operator: Operator | None,
@@ -81,14 +83,12 @@ def make_problem(
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)
-    body = half_space(surface.grid, value) if operator is None else operator
-    if body.grid != surface.grid:
-        raise ValueError(f"the operator's grid {body.grid} is not the surface's {surface.grid}")
+    body = body_on(surface.grid, value, operator)
     return ContactProblem(separation_of(surface), body, control, tolerance, surface, value)
 
 
 def control_of(
-    grid: Grid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
+    grid: AnyGrid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
 ) -> Control:
     """Return the control that exactly one of the three numbers states."""
     given = [

@@ -11,14 +11,19 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.measure import Measure
-from roughcontact.grid import Grid
-from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operator import Operator, geometry_of, is_semidefinite
+from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
-__all__ = ["ContactProblem", "Control", "Depth", "Force"]
+__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force"]
 
 Array = npt.NDArray[np.float64]
 T = TypeVar("T")
+
+Body = Surface | RadialProfile
+"""What is pressed: heights on a grid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +70,7 @@ class ContactProblem:
         What is prescribed.
     tolerance : float
         Largest residual of a solution, see `roughcontact.contact.optimality`.
-    surface : Surface, optional
+    surface : Surface or RadialProfile, optional
         Where the separation comes from.
     modulus : float
         Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
@@ -75,7 +80,7 @@ class ContactProblem:
     operator: Operator
     control: Control
     tolerance: float = 1e-8
-    surface: Surface | None = None
+    surface: Body | None = None
     modulus: float = math.nan
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
@@ -96,9 +101,14 @@ class ContactProblem:
             )
 
     @property
-    def grid(self) -> Grid:
+    def grid(self) -> AnyGrid:
         """The grid of the operator."""
         return self.operator.grid
+
+    @property
+    def geometry(self) -> Geometry:
+        """What the cells are: the units of the answers hang on it."""
+        return geometry_of(self.operator)
 
     @property
     def semidefinite(self) -> bool:
@@ -144,7 +154,7 @@ class ContactProblem:
         return value
 
 
-def separation_of(surface: Surface) -> Array:
+def separation_of(surface: Body) -> Array:
     """Return the undeformed gap at first touch [m]; infinite where nothing was measured."""
     separation = np.nanmax(surface.heights) - surface.heights
     separation[np.isnan(separation)] = np.inf

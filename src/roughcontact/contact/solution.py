@@ -15,12 +15,13 @@ from roughcontact.contact.spots import Spots, find_spots
 from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import (
     CELLS,
-    SATURATED,
     FrozenContact,
     cell_stiffness,
     frozen_contact,
+    is_resolved,
     saturation,
 )
+from roughcontact.halfspace.geometry import Geometry
 
 if TYPE_CHECKING:
     import xarray
@@ -145,15 +146,17 @@ class Solution:
     def touches_edge(self) -> bool:
         """Whether contact reaches the edge of a free grid, beyond which nothing is known."""
         return any(
-            bool(np.take(self.contact, (0, -1), axis=axis).any())
-            for axis, periodic in enumerate(self.problem.grid.periodic)
-            if not periodic
+            bool(np.take(self.contact, ends, axis=axis).any())
+            for axis, ends in enumerate(self.problem.grid.ends)
         )
 
     @cached_property
     def resolved(self) -> bool:
         """Whether the stiffness stands above the one-cell artefact and below saturation."""
-        return self._above_cells and self.stiffness < SATURATED * saturation(self.problem)
+        size, cell = self._size_and_cell
+        line = self.problem.geometry is Geometry.LINE
+        whole = self.problem.grid.lengths[0] if line else saturation(self.problem)
+        return bool(is_resolved(np.asarray(size), cell, whole))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -200,7 +203,15 @@ class Solution:
 
     @property
     def _above_cells(self) -> bool:
-        return self.stiffness >= CELLS * cell_stiffness(self.problem.operator)
+        size, cell = self._size_and_cell
+        return size >= CELLS * cell
+
+    @property
+    def _size_and_cell(self) -> tuple[float, float]:
+        """What tells a contact from a cell: its stiffness; on a line, where that hardly grows, its width."""
+        if self.problem.geometry is Geometry.LINE:
+            return self.contact_area, self.problem.grid.spacing[0]
+        return self.stiffness, cell_stiffness(self.problem.operator)
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

@@ -11,7 +11,7 @@ import scipy.sparse
 
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid
 
 __all__ = ["Spots", "find_spots"]
 
@@ -39,7 +39,7 @@ class Spots:
     labels: npt.NDArray[np.intp]
 
 
-def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: Grid, measure: Measure) -> Spots:
+def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: AnyGrid, measure: Measure) -> Spots:
     """Return the spots of a contact; along a periodic axis they go on across the edge."""
     labels = np.zeros(contact.shape, np.intp)
     box = bounding_box(contact)

@@ -12,8 +12,8 @@ from roughcontact.contact.measure import Measure
 from roughcontact.contact.prescribed import prescribe
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.state import Tangent
-from roughcontact.grid import Grid
-from roughcontact.halfspace.build import half_space
+from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.build import body_on
 from roughcontact.halfspace.operator import Operator, is_semidefinite
 from roughcontact.material import Solid
 
@@ -24,6 +24,7 @@ __all__ = [
     "cell_stiffness",
     "contact_stiffness",
     "frozen_contact",
+    "is_resolved",
     "saturation",
 ]
 
@@ -72,7 +73,12 @@ def frozen_contact(
 
 
 def contact_stiffness(
-    mask: Mask, grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, tolerance: float = TOLERANCE
+    mask: Mask,
+    grid: AnyGrid,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    operator: Operator | None = None,
+    tolerance: float = TOLERANCE,
 ) -> float:
     """Return the stiffness of a given contact region pressed as a flat punch [N/m].
 
@@ -80,10 +86,12 @@ def contact_stiffness(
     ----------
     mask : bool array, shape ``grid.shape``
         The cells in contact.
-    grid : Grid
+    grid : Grid or RadialGrid
         Free or periodic.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
+    operator : Operator, optional
+        Another body than the half-space on the grid; of a line the stiffness is per unit length [N/m^2].
     tolerance : float
         Largest error of the unit displacement on the region.
 
@@ -102,12 +110,18 @@ def contact_stiffness(
     region = np.asarray(mask, dtype=bool)
     if region.shape != grid.shape:
         raise ValueError(f"a mask of shape {region.shape} does not fit the grid of shape {grid.shape}")
-    frozen = frozen_contact(half_space(grid, modulus), region, tolerance=tolerance)
+    body = body_on(grid, modulus, operator)
+    frozen = frozen_contact(body, region, tolerance=tolerance)
     if frozen.residual > tolerance:
         raise RuntimeError(
             f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
         )
     return frozen.stiffness
+
+
+def is_resolved(size: Array, cell: float, whole: float) -> Mask:
+    """Return whether stiffnesses (of a line contact: widths) stand above a few cells and below saturation."""
+    return np.asarray((size >= CELLS * cell) & (size < SATURATED * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:

@@ -9,7 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-__all__ = ["VARIABLES", "Variable"]
+from roughcontact.halfspace.geometry import Geometry
+
+__all__ = ["VARIABLES", "Variable", "unit_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +83,7 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         # maps
         "x": Variable("m", "position along the rows of the picture, centre of the cell", "x"),
         "y": Variable("m", "position down the picture from its top, centre of the cell", "y"),
+        "r": Variable("m", "distance from the axis, mean radius of the ring", "r"),
         "heights": Variable("m", "height of the surface, positive toward the other body", "height"),
         "pressure": Variable("Pa", "contact pressure", "pressure"),
         "displacement": Variable("m", "normal displacement of the half-space", "displacement"),
@@ -95,3 +98,31 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "spot_load": Variable("N", "force carried by a contact spot", "spot load"),
     }
 )
+
+# On a line all that adds up over the contact is per unit length.
+_OF_A_LINE = {
+    "force": "N m-1",
+    "stiffness": "N m-2",
+    "interfacial_stiffness": "N m-2",
+    "secant_stiffness": "N m-2",
+    "saturation": "N m-2",
+    "cell_stiffness": "N m-2",
+    "contact_area": "m",
+    "spot_area": "m",
+    "spot_load": "N m-1",
+    "elastic_energy": "J m-1",
+}
+# Springs feel a force per length, and touch over a length.
+_OF_SPRINGS = {
+    "pressure": "N m-1",
+    "largest_pressure": "N m-1",
+    "nominal_pressure": "N m-1",
+    "contact_area": "m",
+    "spot_area": "m",
+}
+
+
+def unit_of(name: str, geometry: Geometry = Geometry.SURFACE) -> str:
+    """Return the unit of a quantity in a geometry."""
+    others = {Geometry.LINE: _OF_A_LINE, Geometry.FOUNDATION: _OF_SPRINGS}.get(geometry, {})
+    return others.get(name, VARIABLES[name].unit)

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+    from roughcontact.contact.problem import Body
 
 __all__ = ["provenance", "surface_hash"]
 
 
 def provenance(
-    surface: Surface | None = None,
+    surface: Body | None = None,
     *,
     modulus: float | None = None,
     control: str | None = None,
@@ -73,7 +73,7 @@ def _plain(value: str | float) -> str | float:
     return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 
 
-def surface_hash(surface: Surface) -> str:
+def surface_hash(surface: Body) -> str:
     """Return the SHA-256 of the heights and the grid of a surface, as 64 hexadecimal digits.
 
     Equal surfaces have equal hashes on every machine: heights count as little-endian doubles in the

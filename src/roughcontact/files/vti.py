@@ -10,17 +10,24 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid, RadialGrid
 
 __all__ = ["vti_bytes"]
 
 
-def vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: Grid) -> bytes:
+def vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
     """Return a ``.vti`` file of cell fields, each of the shape of the grid; NaN stays NaN, truth values are 0 and 1.
 
     The first row is the top of the picture: rows are turned round, so that y counts upwards from the lower left
     corner of the map.
+
+    Raises
+    ------
+    ValueError
+        If the grid is one of rings, which image data cannot hold.
     """
+    if isinstance(grid, RadialGrid):
+        raise ValueError("ParaView's image data hold cells in rows, not rings; write another format")
     ny, nx = (1, *grid.shape)[-2:]
     dy, dx = (grid.spacing[-1], *grid.spacing)[-2:]
     extent = f"0 {nx} 0 {ny if grid.ndim == 2 else 0} 0 0"

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import Literal
 
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.influence import Love, Periodic, Tables
 from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.ring import ring
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
 
-__all__ = ["half_space", "memory_needed"]
+__all__ = ["body_on", "half_space", "memory_needed"]
 
 
 def half_space(
@@ -35,7 +36,10 @@ def half_space(
     """
     value = as_modulus(modulus)
     if grid.ndim != 2:
-        raise ValueError("a half-space needs a grid of two axes; a line must name its own operator")
+        raise ValueError(
+            "a half-space needs a grid of two axes; a line must name its own operator: "
+            "operator=line(grid, modulus), or foundation(grid, modulus)"
+        )
     if any(grid.periodic) != all(grid.periodic):
         raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
     operator: FreeOperator | PeriodicOperator
@@ -47,6 +51,23 @@ def half_space(
         return DenseOperator(grid, operator.as_matrix(), operator.positive)
     if method != "fft":
         raise ValueError(f"method must be 'fft' or 'dense', not {method!r}")
+    return operator
+
+
+def body_on(
+    grid: AnyGrid, modulus: float | Solid | tuple[Solid, Solid], operator: Operator | None = None
+) -> Operator:
+    """Return `operator`, which must lie on `grid`; without one the half-space that the grid suggests.
+
+    Raises
+    ------
+    ValueError
+        If the operator lies on another grid, or there is none and the grid is a line.
+    """
+    if operator is None:
+        return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
+    if operator.grid != grid:
+        raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
     return operator
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid
 
 __all__ = ["DenseOperator"]
 
@@ -21,7 +21,7 @@ class DenseOperator:
 
     Parameters
     ----------
-    grid : Grid
+    grid : Grid or RadialGrid
         The grid, of any number of axes.
     matrix : array, shape (n, n)
         Displacement per pressure [m/Pa] between the n cells in flat order.
@@ -29,13 +29,13 @@ class DenseOperator:
         Whether no entry is negative.
     """
 
-    grid: Grid
+    grid: AnyGrid
     matrix: Array
     positive: bool = True
 
     @property
-    def weights(self) -> float:
-        """Area of a cell [m^2]."""
+    def weights(self) -> float | Array:
+        """Area of a cell [m^2], of each where they differ."""
         return self.grid.cell_area
 
     def apply(self, pressure: Array) -> Array:

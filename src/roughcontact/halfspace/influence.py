@@ -11,9 +11,9 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
+from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier, strip_table
 
-__all__ = ["Influence", "Love", "Periodic", "Tables"]
+__all__ = ["Influence", "Love", "Periodic", "Strip", "Tables"]
 
 NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
 
@@ -66,6 +66,40 @@ class Love:
     def coarsened(self, grid: Grid) -> Love:
         """Return the same body on the cells of `grid`."""
         return Love(grid.spacing, self.modulus)
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """A uniformly loaded strip, endless along y, on a half-space of reduced modulus `modulus` [Pa] (thesis, eq. A.45).
+
+    Displacements are means over a strip, in a plane of one row. They vanish at `reference` [m] from a load:
+    the logarithm has no other zero.
+    """
+
+    spacing: tuple[float, ...]
+    modulus: float
+    reference: float
+
+    def table(self, shape: tuple[int, ...]) -> Array:
+        """Return the table [m/Pa] of one row."""
+        dx = self.spacing[-1]
+        # The printed A.45 lacks the factor -2 (with it the sign) and hides the logarithm of the cell in a constant.
+        return (
+            dx / (math.pi * self.modulus) * (strip_table(shape[-1])[None] + 2 * math.log(self.reference / dx))
+        )
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values [m/Pa]."""
+        far = np.abs(columns) + 0 * rows
+        return np.asarray(self.table((1, int(far.max(initial=0)) + 1))[0, far])
+
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""
+        return self.modulus / 2 * _definite(_wavenumbers(shape, self.spacing))
+
+    def coarsened(self, grid: Grid) -> Strip:
+        """Return the same body on the cells of `grid`."""
+        return Strip(grid.spacing, self.modulus, self.reference)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,11 +1,12 @@
-"""Closed forms of the half-space: the displacement under a uniformly loaded rectangle."""
+"""Closed forms of the half-space: the displacement under uniformly loaded rectangles, strips and rings."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+from scipy.special import ellipe, ellipkm1
 
-__all__ = ["love", "love_table", "periodic_multiplier"]
+__all__ = ["love", "love_table", "periodic_multiplier", "ring_matrix", "strip_table"]
 
 Array = npt.NDArray[np.float64]
 
@@ -66,6 +67,67 @@ def periodic_multiplier(wavenumber: npt.ArrayLike) -> Array:
     """
     q = np.asarray(wavenumber, float)
     return np.asarray(np.divide(2.0, q, out=np.zeros_like(q), where=q > 0))
+
+
+def strip_table(count: int) -> Array:
+    """Return the mean of ``-2 ln|x|`` over a strip, integrated over another, for offsets from zero up (A.46).
+
+    The strips have width one. ``B_0 = 3``, ``B_k = 3 - (k+1)^2 ln(k+1) + 2 k^2 ln k - (k-1)^2 ln(k-1)``. The
+    thesis finds the same number for a hat-shaped pressure at its nodes, printed without the factor -2: a hat
+    is a strip averaged over a strip.
+
+    Parameters
+    ----------
+    count : int
+        Number of offsets.
+    """
+    k = np.arange(count, dtype=np.float64)
+    table = np.empty(count)
+    near = k[
+        :8
+    ]  # beyond, the closed form would lose k^2 units in the last place; the series has none to lose
+    table[:8] = 3 - _square_log(near + 1) + 2 * _square_log(near) - _square_log(near - 1)
+    far = k[8:]
+    table[8:] = -2 * np.log(far)
+    for m in range(1, 8):
+        table[8:] += 2 / (m * (2 * m + 1) * (2 * m + 2)) * far ** (-2 * m)
+    return table
+
+
+def _square_log(x: Array) -> Array:
+    return np.asarray(x**2 * np.log(np.where(x == 0, 1.0, np.abs(x))))
+
+
+def ring_matrix(edges: Array) -> Array:
+    """Return the mean of the integral of 1/r over each ring, for a unit load on each ring [m].
+
+    Parameters
+    ----------
+    edges : array, shape (n + 1,)
+        Radii of the circles that bound the rings [m].
+
+    Returns
+    -------
+    array, shape (n, n)
+        Entry (j, i): a pressure p on ring i displaces ring j by ``p/(pi E*)`` times it on the mean.
+
+    Notes
+    -----
+    A disc of radius a under a unit pressure displaces the half-space by ``4 a E(r^2/a^2)/(pi E*)`` (thesis, before
+    A.26; E of parameter m). Its integral over a disc of radius b <= a is closed too,
+    ``(8 pi a^3/3) [(1 + m) E(m) - (1 - m) K(m)]`` with ``m = (b/a)^2`` over ``pi E*``; rings are differences of discs.
+    Means instead of values in the middle make the matrix symmetric under the areas of the rings.
+    """
+    inner, outer = np.minimum.outer(edges, edges), np.maximum.outer(edges, edges)
+    ratio = np.divide(inner, outer, out=np.zeros_like(inner), where=outer > 0)
+    m = ratio**2
+    rest = (1 - ratio) * (1 + ratio)
+    # At m = 1 the second term is 0 times infinity; its limit is zero.
+    second = np.where(rest > 0, rest * ellipkm1(np.where(rest > 0, rest, 1.0)), 0.0)
+    discs = 8 * np.pi / 3 * outer**3 * ((1 + m) * ellipe(m) - second)
+    energy = np.diff(np.diff(discs, axis=0), axis=1)
+    areas = np.pi * np.diff(edges) * (edges[1:] + edges[:-1])
+    return np.asarray((energy + energy.T) / 2 / areas[:, None])
 
 
 def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:

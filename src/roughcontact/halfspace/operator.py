@@ -7,9 +7,18 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid, Grid
+from roughcontact.halfspace.geometry import Geometry
 
-__all__ = ["Coarsenable", "Invertible", "Listable", "Operator", "is_positive", "is_semidefinite"]
+__all__ = [
+    "Coarsenable",
+    "Invertible",
+    "Listable",
+    "Operator",
+    "geometry_of",
+    "is_positive",
+    "is_semidefinite",
+]
 
 Array = npt.NDArray[np.float64]
 
@@ -22,11 +31,12 @@ class Operator(Protocol):
     constant pressure moves nothing.
 
     What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`. Each
-    makes solves faster and none changes an answer.
+    makes solves faster and none changes an answer. One that is not a half-space under a surface says so by
+    its `geometry`, on which the units of the answers hang.
     """
 
     @property
-    def grid(self) -> Grid:
+    def grid(self) -> AnyGrid:
         """The grid it works on."""
         ...
 
@@ -53,9 +63,18 @@ def is_positive(operator: Operator) -> bool:
     return bool(getattr(operator, "positive", False))
 
 
+def geometry_of(operator: Operator) -> Geometry:
+    """Return what the operator's cells are: what it says, else what its grid suggests."""
+    stated = getattr(operator, "geometry", None)
+    return stated if isinstance(stated, Geometry) else Geometry.of(operator.grid)
+
+
 def is_semidefinite(operator: Operator) -> bool:
-    """Whether a constant pressure on all cells moves nothing: the whole of a periodic grid, never a part."""
-    return all(operator.grid.periodic)
+    """Whether a constant pressure on all cells moves nothing: the whole of a periodic body, never a part.
+
+    An operator may say so; else its grid does.
+    """
+    return bool(getattr(operator, "semidefinite", all(operator.grid.periodic)))
 
 
 @runtime_checkable

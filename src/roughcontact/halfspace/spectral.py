@@ -132,13 +132,17 @@ class PeriodicOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return CellsOperator.of(self.grid, self._tables, cells, self.positive).as_matrix()
+        return self.between(np.arange(self.grid.size) if cells is None else cells).as_matrix()
 
     def restrict(self, window: tuple[slice, ...]) -> FreeOperator | PeriodicOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
         if self.grid.window(window).shape == self.grid.shape:
             return self  # the whole keeps its period
         return FreeOperator(self.grid.window(window), self._tables, self.positive)
+
+    def between(self, cells: Cells) -> CellsOperator:
+        """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
+        return CellsOperator.of(self.grid, self._tables, cells, self.positive)
 
     def coarsened(self, grid: Grid) -> PeriodicOperator:
         """Return the same body on `grid`, whose cells are larger."""

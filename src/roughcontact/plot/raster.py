@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.colors import Colormap
     from matplotlib.image import AxesImage
 
-    from roughcontact.grid import Grid
+    from roughcontact.grid import AnyGrid
 
 __all__ = [
     "LABEL",
@@ -40,17 +40,25 @@ LABEL, TICK = 9, 8  # sizes of text [points]
 _DRAWN = 1024
 
 
-def part(grid: Grid, window: Window | None) -> Window:
-    """Return the cells to draw: those of `window`, or all."""
+def part(grid: AnyGrid, window: Window | None) -> Window:
+    """Return the cells to draw: those of `window`, or all.
+
+    Raises
+    ------
+    ValueError
+        If the grid has one axis: there is no map of it.
+    """
+    if grid.ndim != 2:
+        raise ValueError("a map shows a surface of two axes; draw the profile of a line or of rings")
     return (slice(0, grid.shape[0]), slice(0, grid.shape[1])) if window is None else window
 
 
-def length_scale(grid: Grid) -> Scale:
+def length_scale(grid: AnyGrid) -> Scale:
     """Return the unit of both axes of a map; a window keeps the unit of the whole."""
     return scale(max(grid.lengths), VARIABLES["lengths"].unit)
 
 
-def extent(grid: Grid, window: Window) -> tuple[float, float, float, float]:
+def extent(grid: AnyGrid, window: Window) -> tuple[float, float, float, float]:
     """Return the edges of `window` on the axes: left, right, bottom, top; row 0 is on top."""
     factor = length_scale(grid).factor
     (y0, y1), (x0, x1) = (
@@ -61,7 +69,7 @@ def extent(grid: Grid, window: Window) -> tuple[float, float, float, float]:
 
 
 def show(
-    axes: Axes, values: Array, grid: Grid, window: Window, colours: Colormap, limits: tuple[float, float]
+    axes: Axes, values: Array, grid: AnyGrid, window: Window, colours: Colormap, limits: tuple[float, float]
 ) -> AxesImage:
     """Draw `values`, the cells of `window`, each cell as it is; NaN stays transparent."""
     values = pooled(values)
@@ -99,7 +107,7 @@ def pooled(values: Array) -> Array:
 
 
 def heights_image(
-    axes: Axes, heights: Array, grid: Grid, window: Window | None, colours: Colormap
+    axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colormap
 ) -> tuple[AxesImage, str]:
     """Draw heights, hatched where they are missing; return the image and the unit."""
     window = part(grid, window)

@@ -1,0 +1,34 @@
+"""What the cells of an operator are, and with it what a force or a pressure on them is."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from roughcontact.grid import AnyGrid, RadialGrid
+
+__all__ = ["Geometry"]
+
+
+class Geometry(Enum):
+    """The four geometries of the thesis: three of its half-space and that of the springs.
+
+    On a line every force, stiffness, energy and contact area is per unit length along the cylinder; on a
+    foundation of springs forces are forces, the pressure is a force per length, and areas are lengths.
+    """
+
+    SURFACE = "surface"
+    RING = "ring"
+    LINE = "line"
+    FOUNDATION = "foundation"
+
+    @classmethod
+    def of(cls, grid: AnyGrid) -> Geometry:
+        """Return the geometry that a grid suggests."""
+        if isinstance(grid, RadialGrid):
+            return cls.RING
+        return cls.SURFACE if grid.ndim == 2 else cls.LINE
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of the axes of its grid."""
+        return {"surface": ("y", "x"), "ring": ("r",)}.get(self.value, ("x",))

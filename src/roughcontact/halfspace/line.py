@@ -1,0 +1,130 @@
+"""The half-space under loads that do not change along one direction: line contact, per unit length."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+from roughcontact.halfspace.cells import CellsOperator
+from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.influence import Periodic, Strip, Tables
+from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
+from roughcontact.material import Solid, as_modulus
+
+__all__ = ["LineOperator", "line"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineOperator:
+    """A line is a plane of one row, one metre wide.
+
+    Parameters
+    ----------
+    plane : FreeOperator or PeriodicOperator
+        On a grid of shape ``(1, n)`` and spacing ``(1, dx)``.
+    """
+
+    plane: FreeOperator | PeriodicOperator
+
+    @property
+    def geometry(self) -> Geometry:
+        """A line: forces are per unit length."""
+        return Geometry.LINE
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of one axis."""
+        plane = self.plane.grid
+        return Grid(plane.shape[1:], plane.spacing[1:], plane.periodic[1:])
+
+    @property
+    def positive(self) -> bool:
+        """Whether no pressure lifts any cell."""
+        return self.plane.positive
+
+    @property
+    def weights(self) -> float:
+        """Width of a cell [m]: force per unit length of a unit pressure."""
+        return self.plane.weights
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
+        return np.asarray(self.plane.apply(pressure[None])[0])
+
+    def as_matrix(self, cells: Cells | None = None) -> Array:
+        """Return the matrix [m/Pa] between `cells` (all cells without)."""
+        return self.plane.as_matrix(cells)
+
+    def restrict(self, window: tuple[slice, ...]) -> LineOperator:
+        """Return the map between the cells of `window`, with no pressure outside and the same reference length."""
+        return LineOperator(self.plane.restrict((slice(0, 1), *window)))
+
+    def between(self, cells: Cells) -> CellsOperator:
+        """Return the map between a list of cells, with no pressure elsewhere."""
+        return self.plane.between(cells)
+
+    def coarsened(self, grid: Grid) -> LineOperator | None:
+        """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""
+        coarse = self.plane.coarsened(_plane(grid))
+        return None if coarse is None else LineOperator(coarse)
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
+        return np.asarray(self.plane.approximate_inverse(displacement[None])[0])
+
+
+def line(
+    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
+) -> LineOperator:
+    """Return the half-space under loads that do not change along y: cylinders and rough lines.
+
+    Everything is per unit length along y: forces [N/m], stiffness [N/m^2], energy [J/m], contact area [m].
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of one axis, free or periodic.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    reference_length : float, optional
+        Of a free line: distance from a load at which its displacement is zero [m]; the grid's length without.
+        Depths hang on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
+        Pressures at given force do not.
+
+    Raises
+    ------
+    ValueError
+        If the grid has two axes, or the reference length is shorter than the grid or given for a periodic one.
+
+    Notes
+    -----
+    Strips of constant pressure, and means of the displacement over strips (thesis, eqs A.37 to A.46 as
+    corrected); a periodic line answers each wave by 2/(E* q), mean displacement zero.
+    """
+    value = as_modulus(modulus)
+    if grid.ndim != 1:
+        raise ValueError("a line contact needs a grid of one axis: Grid(n, spacing)")
+    plane = _plane(grid)
+    if all(grid.periodic):
+        if reference_length is not None:
+            raise ValueError("a periodic line has no reference length: its mean displacement is zero")
+        return LineOperator(PeriodicOperator(plane, Periodic(plane, value)))
+    length = grid.lengths[0]
+    reference = length if reference_length is None else float(reference_length)
+    if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
+        raise ValueError(
+            f"the reference length must be finite and at least that of the grid, {length:g} m, not {reference:g}: "
+            "with a shorter one a load would lift the far end"
+        )
+    return LineOperator(FreeOperator(plane, Tables(Strip(plane.spacing, value, reference), plane.shape)))
+
+
+def _plane(grid: Grid) -> Grid:
+    return Grid((1, *grid.shape), (1.0, *grid.spacing), (all(grid.periodic), *grid.periodic))

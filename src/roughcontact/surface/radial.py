@@ -1,0 +1,69 @@
+"""The profile of a body of revolution, as heights on rings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import RadialGrid
+
+__all__ = ["RadialProfile"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RadialProfile:
+    """Heights of a body of revolution, positive toward the other body.
+
+    Parameters
+    ----------
+    heights : array, shape (n,)
+        Heights of the rings [m]: of a profile f(r) measured upwards from its lowest point, ``-f(grid.radii)``.
+        NaN marks a ring that is not there.
+    grid : RadialGrid
+        The rings.
+    provenance : tuple of str
+        Where the heights come from.
+
+    Raises
+    ------
+    ValueError
+        If the heights do not fit the rings, are infinite, or hold no number.
+    """
+
+    heights: Array
+    grid: RadialGrid
+    provenance: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        heights = np.array(self.heights, dtype=np.float64)
+        if not isinstance(self.grid, RadialGrid):
+            raise ValueError(f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}")
+        if heights.shape != self.grid.shape:
+            raise ValueError(f"heights of shape {heights.shape} do not fit {self.grid.size} rings")
+        if np.isinf(heights).any() or np.isnan(heights).all():
+            raise ValueError("heights must be finite [m], NaN where there is no ring, and not all NaN")
+        heights.flags.writeable = False
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "provenance", tuple(self.provenance))
+
+    @property
+    def measured(self) -> npt.NDArray[np.bool_]:
+        """Mask of the rings that hold a height, shape (n,)."""
+        return ~np.isnan(self.heights)
+
+    @property
+    def missing(self) -> int:
+        """Number of rings without a height."""
+        return int(np.isnan(self.heights).sum())
+
+    @property
+    def rms(self) -> float:
+        """Root mean square height about the mean over the area of the rings [m]."""
+        there, areas = self.measured, self.grid.cell_area
+        mean = np.average(self.heights[there], weights=areas[there])
+        return math.sqrt(np.average((self.heights[there] - mean) ** 2, weights=areas[there]))
