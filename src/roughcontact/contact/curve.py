@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.contact.compare import Comparison, Law, compared
 from roughcontact.contact.power_law import PowerLaw, fit_power_law
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
@@ -147,6 +148,23 @@ class Curve:
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
         )
+
+    def compare(self, theory: Law, quantities: Sequence[str] | None = None) -> Comparison:
+        """Return what a theory says at the loads of this curve, beside what was computed.
+
+        Parameters
+        ----------
+        theory : Law
+            For example ``rc.theory.persson.law(...)``, or one of `rc.loading_laws`.
+        quantities : sequence of str, optional
+            Names of quantities of this curve; without, all that the theory speaks of.
+
+        Raises
+        ------
+        ValueError
+            If a quantity is none of the curve's, or the theory says nothing about it.
+        """
+        return compared(self, theory, quantities)
 
     def _remedy(self) -> str:
         """Say what would give more resolved points."""

@@ -1,0 +1,127 @@
+"""A theory beside a computed curve: the same loads, the same quantities, and how far apart they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from roughcontact.contact.curve import Curve
+
+__all__ = ["Comparison", "Law", "compared"]
+
+Array = npt.NDArray[np.float64]
+
+
+class Law(Protocol):
+    """What a theory offers: quantities of a loading curve as functions of the normal force.
+
+    `roughcontact.theory.law.LoadingLaw` is one; the theories make theirs by a function ``law``.
+    """
+
+    @property
+    def name(self) -> str:
+        """Name of the theory."""
+        ...
+
+    @property
+    def source(self) -> str:
+        """Where it comes from."""
+        ...
+
+    @property
+    def quantities(self) -> Mapping[str, Callable[[Array], Array]]:
+        """By the names of a curve's quantities."""
+        ...
+
+    def predict(self, quantity: str, force: Array) -> Array:
+        """Return a quantity at the forces [N]; NaN where the theory does not hold."""
+        ...
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison:
+    """Computed and predicted quantities at the forces of a curve.
+
+    Attributes
+    ----------
+    name, source : str
+        Of the theory.
+    force : array, shape (n,)
+        Loads [N].
+    resolved : bool array, shape (n,)
+        Where the computed curve is to be relied upon.
+    computed, predicted : mapping of str to array, shape (n,)
+        By quantity, in the units of the curve. Predictions are NaN where the theory does not hold.
+    """
+
+    name: str
+    source: str
+    force: Array
+    resolved: npt.NDArray[np.bool_]
+    computed: Mapping[str, Array]
+    predicted: Mapping[str, Array]
+
+    def ratio(self, quantity: str) -> Array:
+        """Return predicted over computed, shape (n,); NaN where either is missing or nothing is computed."""
+        computed = self.computed[quantity]
+        there = np.isfinite(computed) & (computed != 0)
+        return np.asarray(
+            np.divide(self.predicted[quantity], computed, out=np.full(computed.shape, np.nan), where=there)
+        )
+
+    def deviation(self, quantity: str) -> float:
+        """Return the root mean square of ln(predicted/computed) over the resolved loads; NaN without any.
+
+        0.1 is about ten per cent.
+        """
+        ratio = self.ratio(quantity)[self.resolved]
+        ratio = ratio[np.isfinite(ratio) & (ratio > 0)]
+        return float(np.sqrt(np.mean(np.log(ratio) ** 2))) if ratio.size else float("nan")
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the comparison as plain values, for JSON; None where there is no number."""
+        return {
+            "theory": self.name,
+            "source": self.source,
+            "predicted": {name: _plain(values) for name, values in self.predicted.items()},
+            "deviation": {name: _plain(np.array(self.deviation(name))) for name in self.predicted},
+        }
+
+    def __repr__(self) -> str:
+        """Say how far apart the two are."""
+        parts = (f"{name} {self.deviation(name):.2g}" for name in self.predicted)
+        return f"Comparison({self.name}: rms ln ratio {', '.join(parts)})"
+
+
+def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) -> Comparison:
+    """Return a theory's quantities at the loads of a curve beside the computed ones.
+
+    Raises
+    ------
+    ValueError
+        If a quantity that is named is none of the curve's, or the theory says nothing about it.
+    """
+    names = (
+        [name for name in law.quantities if hasattr(curve, name)] if quantities is None else list(quantities)
+    )
+    for name in names:
+        if not hasattr(curve, name):
+            raise ValueError(f"a curve has no {name!r}; {law.name} speaks of {sorted(law.quantities)}")
+    return Comparison(
+        law.name,
+        law.source,
+        curve.force,
+        curve.resolved,
+        {name: np.asarray(getattr(curve, name), dtype=np.float64) for name in names},
+        {name: law.predict(name, curve.force) for name in names},
+    )
+
+
+def _plain(values: Array) -> Any:
+    finite = np.where(np.isfinite(values), values, None)
+    return finite.tolist()

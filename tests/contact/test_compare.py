@@ -1,0 +1,70 @@
+"""A theory laid over a curve."""
+
+import json
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.theory.law import LoadingLaw
+
+MODULUS, RADIUS = 2.0, 1.0
+
+
+@pytest.fixture(scope="module")
+def curve():
+    grid = rc.RadialGrid.uniform(200, 0.6)
+    profile = rc.RadialProfile(-(grid.radii**2) / (2 * RADIUS), grid)
+    return rc.loading_curve(profile, MODULUS, depths=[0.01, 0.04, 0.09, 0.16])
+
+
+def hertz_law(domain=(0.0, np.inf)):
+    def stiffness(force):
+        return (6 * MODULUS**2 * RADIUS * force) ** (1 / 3)
+
+    def depth(force):
+        return (9 * force**2 / (16 * MODULUS**2 * RADIUS)) ** (1 / 3)
+
+    return LoadingLaw(
+        "Hertz", "Hertz 1881", {"stiffness": stiffness, "depth": depth, "glow": stiffness}, domain
+    )
+
+
+def test_the_right_theory_lies_on_the_curve(curve):
+    """To the order of the rings, one in the stiffness."""
+    comparison = curve.compare(hertz_law())
+    assert set(comparison.predicted) == {"stiffness", "depth"}  # of what a curve has
+    np.testing.assert_allclose(comparison.ratio("depth"), 1, rtol=1e-3)
+    np.testing.assert_allclose(comparison.ratio("stiffness"), 1, rtol=0.02)
+    assert comparison.deviation("depth") < 1e-3
+    assert "Hertz" in repr(comparison)
+
+
+def test_a_wrong_theory_does_not(curve):
+    twice = LoadingLaw("twice", "nobody", {"depth": lambda force: 2 * hertz_law().quantities["depth"](force)})
+    comparison = curve.compare(twice)
+    assert comparison.deviation("depth") == pytest.approx(np.log(2), abs=1e-3)
+
+
+def test_a_theory_is_silent_outside_its_domain(curve):
+    comparison = curve.compare(hertz_law((0.0, float(curve.force[1]))))
+    assert np.isfinite(comparison.predicted["depth"]).tolist() == [True, True, False, False]
+    record = comparison.to_record()
+    assert record["predicted"]["depth"][2:] == [None, None]
+    json.dumps(record, allow_nan=False)
+
+
+def test_deviation_is_none_without_resolved_loads(curve):
+    from dataclasses import replace
+
+    lost = replace(curve, cell_stiffness=float(curve.saturation))
+    assert np.isnan(lost.compare(hertz_law()).deviation("depth"))
+    assert lost.compare(hertz_law()).to_record()["deviation"]["depth"] is None
+
+
+@pytest.mark.parametrize(
+    ("name", "message"), [("glow", "a curve has no 'glow'"), ("force", "says nothing about")]
+)
+def test_what_nobody_speaks_of_is_refused(curve, name, message):
+    with pytest.raises(ValueError, match=message):
+        curve.compare(hertz_law(), [name])
