@@ -76,6 +76,8 @@ _ROOMS = {
     "loading_curve": "contact.loading",
     "suggested_forces": "contact.loading",
     "Curve": "contact.curve",
+    "Comparison": "contact.compare",
+    "conductance": "contact.conductance",
     "PowerLaw": "contact.curve",
     "read": "files.read",
     "read_line": "files.read",
@@ -94,6 +96,8 @@ if TYPE_CHECKING:
     from roughcontact import mdr as mdr
     from roughcontact import theory as theory
     from roughcontact.contact.active_set import ActiveSet as ActiveSet
+    from roughcontact.contact.compare import Comparison as Comparison
+    from roughcontact.contact.conductance import conductance as conductance
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.curve import PowerLaw as PowerLaw
     from roughcontact.contact.loading import loading_curve as loading_curve

@@ -123,5 +123,6 @@ def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) ->
 
 
 def _plain(values: Array) -> Any:
-    finite = np.where(np.isfinite(values), values, None)
+    finite = values.astype(object)
+    finite[~np.isfinite(values)] = None
     return finite.tolist()

@@ -59,6 +59,11 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "spots": Variable("1", "number of connected contact spots", "contact spots"),
         "dimensionless_force": Variable("1", "force over modulus, length and rms height", "force / (E* L h)"),
         "dimensionless_stiffness": Variable("1", "stiffness over modulus and length", "stiffness / (E* L)"),
+        # what it conducts
+        "electrical_conductance": Variable("S", "electrical conductance of the contact", "conductance"),
+        "electrical_resistance": Variable("ohm", "electrical resistance of the contact", "resistance"),
+        "thermal_conductance": Variable("W K-1", "thermal conductance of the contact", "thermal conductance"),
+        "thermal_resistance": Variable("K W-1", "thermal resistance of the contact", "thermal resistance"),
         # how far the answer can be trusted
         "residual": Variable(
             "1", "violation of the contact conditions, recomputed on the answer", "residual"
