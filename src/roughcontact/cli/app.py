@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from roughcontact import __version__
-from roughcontact.cli import curve, prepare, press, spectrum, surface, thesis
+from roughcontact.cli import conductance, curve, prepare, press, spectrum, surface, thesis
 
 __all__ = ["app"]
 
@@ -27,6 +27,7 @@ _surface = typer.Typer(help="Look at a surface file, make one, prepare or analys
 
 app.command(epilog=press.EXAMPLES)(press.press)
 app.command(epilog=curve.EXAMPLES)(curve.curve)
+app.command(epilog=conductance.EXAMPLES)(conductance.conductance)
 app.add_typer(_surface, name="surface")
 _surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
 _surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)

@@ -10,6 +10,7 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
+from roughcontact.cli.conductance import COLUMNS, ConductivityOption, Materials, ResistivityOption
 from roughcontact.cli.errors import note, plain, reported
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.output import all_or_none, command_line, output
@@ -19,7 +20,9 @@ from roughcontact.cli.report import curve_table, emit, print_facts, print_table,
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
+    import xarray
 
+    from roughcontact.contact.conductance import Conductors
     from roughcontact.contact.curve import Curve, PowerLaw
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
@@ -70,6 +73,8 @@ def curve(
     poisson: options.PoissonOption = None,
     young2: options.Young2Option = None,
     poisson2: options.Poisson2Option = None,
+    resistivity: ResistivityOption = None,
+    conductivity: ConductivityOption = None,
     channel: options.ChannelOption = None,
     unit: options.UnitOption = None,
     size: options.SizeOption = None,
@@ -87,6 +92,7 @@ def curve(
         text = given[name]
         loads = None if text is None else parse_loads(text, _KINDS[name], f"--{name}")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
+        conductors = Materials(resistivity, conductivity).conductors()
         asked = parse_tolerance(tolerance, "--tolerance")
         with output(out) as folder:
             surface = options.Reading(file, channel, unit, size, level, periodic).surface()
@@ -94,12 +100,14 @@ def curve(
                 loads = _suggested(surface, reduced)
             answer, notes = _load(surface, reduced, name, loads, asked)
             law = _fit(answer)
+            dataset = _dataset(answer, conductors)
             record = _record(answer, law, file, surface, asked) | {"notes": list(notes)}
+            _add_conductance(record, dataset)
             if folder is not None:
                 control = (
                     f"{name} from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}, {loads.size} of them"
                 )
-                _write(answer, law, record, folder, _source(surface, reduced, control, asked))
+                _write(answer, law, dataset, record, folder, _source(surface, reduced, control, asked))
         _tell(answer, law, surface, record, json)
         if folder is not None:
             note(f"summary.json, curve.csv, curve.nc and curve.png are in {folder}")
@@ -188,6 +196,23 @@ def _law_record(law: PowerLaw) -> dict[str, Any]:
     }
 
 
+def _dataset(curve: Curve, conductors: Conductors | None) -> xarray.Dataset:
+    from roughcontact.contact.dataset import curve_dataset, with_conductance
+
+    dataset = curve_dataset(curve)
+    return dataset if conductors is None else with_conductance(dataset, conductors)
+
+
+def _add_conductance(record: dict[str, Any], dataset: xarray.Dataset) -> None:
+    """Add the columns of conductance and their units, if there are any."""
+    from roughcontact.contact.dataset import plain_values
+
+    for name in COLUMNS:
+        if name in dataset:
+            record[name] = plain_values(dataset[name].to_numpy())
+            record["units"][name] = dataset[name].attrs["units"]
+
+
 def _source(surface: Surface, modulus: float, control: str, tolerance: float) -> dict[str, str | float]:
     from roughcontact.files.provenance import provenance
 
@@ -195,13 +220,16 @@ def _source(surface: Surface, modulus: float, control: str, tolerance: float) ->
 
 
 def _write(
-    curve: Curve, law: PowerLaw | None, record: dict[str, Any], folder: Path, source: dict[str, str | float]
+    curve: Curve,
+    law: PowerLaw | None,
+    dataset: xarray.Dataset,
+    record: dict[str, Any],
+    folder: Path,
+    source: dict[str, str | float],
 ) -> None:
-    from roughcontact.contact.dataset import curve_dataset
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.figures import curve_figure, save
 
-    dataset = curve_dataset(curve)
     with all_or_none(folder) as aside:
         write_netcdf(dataset, aside / "curve.nc", source)
         write_csv(dataset, aside / "curve.csv", source)
@@ -216,7 +244,7 @@ def _tell(curve: Curve, law: PowerLaw | None, surface: Surface, record: dict[str
         print_facts(
             [("surface", size_of(surface.grid)), ("reduced modulus E*", quantity("modulus", curve.modulus))]
         )
-        print_table(*curve_table(curve))
+        print_table(*curve_table(curve, {name: record[name] for name in COLUMNS if name in record}))
         print_facts(_law_facts(law, curve))
     missed = sum(not status.converged for status in curve.status)
     if missed:

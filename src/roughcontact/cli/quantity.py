@@ -14,14 +14,17 @@ import numpy.typing as npt
 from roughcontact.cli.errors import UsageError
 
 __all__ = [
+    "CONDUCTIVITY",
     "FORCE",
     "LENGTH",
     "PRESSURE",
+    "RESISTIVITY",
     "Kind",
     "parse",
     "parse_load",
     "parse_loads",
     "parse_number",
+    "parse_pair",
     "parse_points",
     "parse_seed",
     "parse_size",
@@ -50,6 +53,8 @@ class Kind:
 FORCE = Kind("a force", "N", "10N")
 LENGTH = Kind("a length", "m", "5um")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
+RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
+CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
 
 
 def parse(text: str, kind: Kind, option: str) -> float:
@@ -91,6 +96,25 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
     if kind is not LENGTH and not value > 0:
         raise UsageError(f"{option}: the {kind.name.split()[-1]} must be positive, not {text!r}")
     return value
+
+
+def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:
+    """Return a quantity of both bodies in SI, from "17nohm*m,26nohm*m" or one value for both.
+
+    Raises
+    ------
+    UsageError
+        If the text holds none or more than two, or a negative one.
+    """
+    parts = [part for part in text.split(",") if part.strip()]
+    if len(parts) not in (1, 2):
+        raise UsageError(
+            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}"
+        )
+    values = [parse(part, kind, option) for part in parts]
+    if min(values) < 0:
+        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
+    return values[0], values[-1]
 
 
 def parse_number(text: str, option: str, example: str) -> float:
@@ -218,7 +242,7 @@ def _factor(unit: str, kind: Kind, option: str, text: str) -> float:
             raise ValueError(unit)
         registry = _registry()
         given = registry.Quantity(1.0, registry.parse_units(unit))
-        right = given.check(f"[{kind.name.split()[-1]}]")
+        right = given.check(registry.parse_units(kind.unit).dimensionality)
     except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
         raise UsageError(f"{option}: unknown unit {unit!r} in {text!r}; {expected}") from error
     if not right:

@@ -10,17 +10,24 @@ import numpy as np
 import typer
 from rich.console import Console
 
+from roughcontact.cli.errors import note
 from roughcontact.contact.variables import VARIABLES
 from roughcontact.plot.units import pretty, scale, written
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import xarray
+
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
 
 __all__ = [
     "curve_table",
+    "dataset_table",
     "emit",
+    "note_files",
     "print_facts",
     "print_table",
     "quantity",
@@ -93,15 +100,36 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     ]
 
 
-def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of a curve, one row a load, each column in one unit."""
+def dataset_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Return the header and the rows of the named columns of a dataset, each in one unit."""
     header, columns = [], []
-    for name in _CURVE_COLUMNS:
-        values, known = getattr(curve, name), VARIABLES[name]
+    for name in names:
+        values = dataset[name].to_numpy()
+        finite = values[np.isfinite(values)]
+        chosen = scale(float(finite.max(initial=0.0)), dataset[name].attrs["units"])
+        header.append(f"{name.replace('_', ' ')} [{chosen.unit}]")
+        columns.append([format(value * chosen.factor, ".4g") for value in values])
+    return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def note_files(folder: Path | None, names: Sequence[str]) -> None:
+    """Say on standard error which files a folder holds now, if there is one."""
+    if folder is not None:
+        note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
+
+
+def curve_table(
+    curve: Curve, more: Mapping[str, Sequence[float | None]] | None = None
+) -> tuple[list[str], list[list[str]]]:
+    """Return the header and the rows of a curve and `more` columns, one row a load, each column in one unit."""
+    header, columns = [], []
+    further = {name: np.array(values, dtype=np.float64) for name, values in (more or {}).items()}
+    for name in (*_CURVE_COLUMNS, *further):
+        values, known = further[name] if name in further else getattr(curve, name), VARIABLES[name]
         if name == "mean_gap":
             values = _closed(values, curve.depth)
         plain = known.unit in ("", "1")
-        chosen = scale(float(values.max()), known.unit)
+        chosen = scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), known.unit)
         header.append(known.label if plain else f"{known.label} [{chosen.unit or pretty(known.unit)}]")
         digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
         columns.append([format(value if plain else value * chosen.factor, digits) for value in values])

@@ -94,6 +94,11 @@ class Curve:
         return length_scale(self.geometry, self.lengths)
 
     @property
+    def nominal_area(self) -> float:
+        """Area of all cells of a surface, of the disc under rings [m^2]; length of a line [m]."""
+        return self.length**2 if self.geometry in (Geometry.SURFACE, Geometry.RING) else self.length
+
+    @property
     def force_scale(self) -> float:
         """E* h L [N] (thesis, eq. 4.13); of a line contact E* h [N/m]."""
         return self.rms * self.stiffness_scale

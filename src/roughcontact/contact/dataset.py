@@ -14,11 +14,19 @@ from roughcontact.halfspace.geometry import Geometry
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.conductance import Conductors
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.contact.status import Status
 
-__all__ = ["curve_dataset", "curve_record", "solution_dataset", "solution_record"]
+__all__ = [
+    "curve_dataset",
+    "curve_record",
+    "plain_values",
+    "solution_dataset",
+    "solution_record",
+    "with_conductance",
+]
 
 _CURVE_POINTS = (
     "force",
@@ -106,7 +114,7 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
     names = (*_CURVE_POINTS, "secant_stiffness", *_CURVE_SCALES, "lengths", "spacing", "periodic")
-    record = {name: _plain(getattr(curve, name)) for name in names}
+    record = {name: plain_values(getattr(curve, name)) for name in names}
     record["status"] = _words(curve.status)
     return record | {"geometry": curve.geometry.value, "units": _units(record, curve.geometry)}
 
@@ -117,13 +125,45 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
     grid, kind = solution.problem.grid, solution.problem.geometry
-    record = {name: _plain(getattr(solution, name)) for name in _SOLUTION_SCALARS}
+    record = {name: plain_values(getattr(solution, name)) for name in _SOLUTION_SCALARS}
     record["spots"] = int(solution.spots.count)
     record["status"] = _word(solution.status)
     record["notes"] = list(solution.notes)
-    record |= {name: _plain(value) for name, value in _scales(solution).items()}
-    record |= {name: _plain(getattr(grid, name)) for name in ("shape", "lengths", "spacing", "periodic")}
+    record |= {name: plain_values(value) for name, value in _scales(solution).items()}
+    record |= {
+        name: plain_values(getattr(grid, name)) for name in ("shape", "lengths", "spacing", "periodic")
+    }
     return record | {"geometry": kind.value, "units": _units(record, kind)}
+
+
+def with_conductance(
+    dataset: xarray.Dataset, conductors: Conductors, of: str = "stiffness"
+) -> xarray.Dataset:
+    """Return the dataset of a curve with what it conducts as further columns along ``load``.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As `curve_dataset` makes it, or as it was read from a file.
+    conductors : Conductors
+        The two bodies.
+    of : {"stiffness", "interfacial_stiffness"}
+        See `roughcontact.conductance`.
+
+    Raises
+    ------
+    ValueError
+        If the dataset is not that of a curve, or that of a line contact.
+    """
+    missing = [name for name in ("force", of, "modulus") if name not in dataset]
+    if missing or dataset[of].dims != ("load",):
+        raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
+    if dataset.attrs.get("geometry") == Geometry.LINE.value:
+        raise ValueError(
+            "a line contact has no conductance of its own: it hangs on how far away the bodies end"
+        )
+    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
+    return dataset.assign({name: _variable(name, ("load",), values) for name, values in found.items()})
 
 
 def _variable(
@@ -177,14 +217,14 @@ def _words(statuses: Iterable[Status]) -> list[str]:
     return [_word(status) for status in statuses]
 
 
-def _plain(value: Any) -> Any:
+def plain_values(value: Any) -> Any:
     """Return a number, an array or a sequence as built-in types, with None for what is not finite."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     elif isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain_values(item) for item in value]
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.stiffness import CELLS
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.contact.variables import VARIABLES, unit_of
 from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.theories import draw_laws
 from roughcontact.plot.ticks import readable_ticks
 from roughcontact.plot.units import Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve, PowerLaw
 
 __all__ = ["area_curve", "depth_curve", "stiffness_curve"]
@@ -27,12 +30,15 @@ _POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
-def stiffness_curve(axes: Axes, curve: Curve, law: PowerLaw | None = None) -> None:
+def stiffness_curve(
+    axes: Axes, curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()
+) -> None:
     """Draw stiffness against force, both logarithmic.
 
     Resolved points are filled, the others open. `law` is drawn strongly over its window and thinly
     beyond. Horizontal lines mark the stiffness of twenty cells and that of all measured cells in
-    contact. The outer axes give force and stiffness without dimension.
+    contact. The outer axes give force and stiffness without dimension. `theories` are drawn as lines
+    in colours of their own.
     """
     x, y = _draw(axes, curve, "stiffness")
     values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
@@ -43,6 +49,7 @@ def stiffness_curve(axes: Axes, curve: Curve, law: PowerLaw | None = None) -> No
     readable_ticks(axes.yaxis, high / low)
     if law is not None:
         _draw_law(axes, curve, law, (x, y))
+    draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
     beside = axes.get_yaxis_transform()
     for level, place, side, text in zip(
         limits, (0.985, 0.015), ("right", "left"), (f"{CELLS} x one cell", "saturation"), strict=False
@@ -57,24 +64,31 @@ def stiffness_curve(axes: Axes, curve: Curve, law: PowerLaw | None = None) -> No
     _outer(axes, curve, (x, y))
 
 
-def area_curve(axes: Axes, curve: Curve) -> None:
+def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     """Draw the real contact area against force, both logarithmic; the right axis is its share of the map."""
-    _, y = _draw(axes, curve, "contact_area")
-    right = axes.secondary_yaxis("right", functions=_shares_of(math.prod(curve.lengths) * y.factor))
+    x, y = _draw(axes, curve, "contact_area")
+    draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
+    right = axes.secondary_yaxis("right", functions=_shares_of(curve.nominal_area * y.factor))
     right.set_ylabel("share of the map", fontsize=LABEL)
     right.tick_params(labelsize=TICK, which="both")
 
 
-def depth_curve(axes: Axes, curve: Curve) -> None:
+def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     """Draw the depth since first touch against force, both logarithmic."""
-    _draw(axes, curve, "depth")
+    draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+
+
+def _forces(curve: Curve) -> tuple[float, float]:
+    """Return the smallest and the largest force that a logarithmic axis can show."""
+    loads = curve.force[curve.force > 0]
+    return (float(loads.min()), float(loads.max())) if loads.size else (1.0, 1.0)
 
 
 def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
     """Draw one quantity of the curve against force; return the scales of both axes."""
     force, values = curve.force, np.asarray(getattr(curve, name))
     x, y = (
-        scale(float(np.max(v, initial=0.0, where=np.isfinite(v))), VARIABLES[n].unit)
+        scale(float(np.max(v, initial=0.0, where=np.isfinite(v))), unit_of(n, curve.geometry))
         for n, v in (("force", force), (name, values))
     )
     axes.set(xscale="log", yscale="log")

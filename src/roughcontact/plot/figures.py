@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from roughcontact.plot.raster import LABEL
 from roughcontact.plot.units import written
 
 if TYPE_CHECKING:
+    from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve, PowerLaw
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
@@ -44,13 +46,13 @@ def solution_figure(solution: Solution) -> Figure:
     return figure
 
 
-def curve_figure(curve: Curve, law: PowerLaw | None = None) -> Figure:
-    """Return stiffness, contact area and depth against force."""
+def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()) -> Figure:
+    """Return stiffness, contact area and depth against force, and what theories say about them."""
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "depth"]], width_ratios=(1.6, 1))
-    stiffness_curve(axes["stiffness"], curve, law)
-    area_curve(axes["area"], curve)
-    depth_curve(axes["depth"], curve)
+    stiffness_curve(axes["stiffness"], curve, law, theories)
+    area_curve(axes["area"], curve, theories)
+    depth_curve(axes["depth"], curve, theories)
     return figure
 
 

@@ -1,0 +1,77 @@
+"""The distribution of the contact pressure, computed and predicted, drawn on axes that the caller owns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import cycle
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
+
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.units import scale, written
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["pressure_distribution", "pressure_distribution_figure"]
+
+Array = npt.NDArray[np.float64]
+Density = Callable[[Array], Array]
+
+_BARS, _LINES = "#0072b2", ("#d55e00", "#009e73", "#cc79a7")
+_BEYOND = 0.999  # quantile of the pressure where the axis ends: a few cells at the edges of spots carry many times more
+
+
+def pressure_distribution(
+    axes: Axes, solution: Solution, theories: Mapping[str, Density] | None = None, bins: int = 60
+) -> None:
+    """Draw the probability density of the pressure over the nominal area, without the share that carries none.
+
+    Parameters
+    ----------
+    axes : Axes
+    solution : Solution
+        With at least one cell in contact.
+    theories : mapping of str to callable, optional
+        By name, the density [1/Pa] at pressures [Pa]; its integral is the theory's contact fraction.
+    bins : int
+        Number of bars.
+
+    Raises
+    ------
+    ValueError
+        If nothing is in contact.
+    """
+    pressures = solution.pressure[solution.contact]
+    if not pressures.size:
+        raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
+    end = float(np.quantile(pressures, _BEYOND)) * 1.05
+    x = scale(end, VARIABLES["pressure"].unit)
+    counts, edges = np.histogram(pressures, bins=bins, range=(0.0, end))
+    density = counts / (solution.pressure.size * np.diff(edges))
+    computed = f"computed, {100 * solution.contact_fraction:.3g} % in contact"
+    axes.stairs(density / x.factor, edges * x.factor, fill=True, color=_BARS, alpha=0.45, label=computed)
+    stress = np.linspace(0.0, end, 400)
+    for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
+        axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
+    nominal = solution.force / solution.problem.grid.area
+    axes.set_title(f"nominal pressure {written(nominal, 'Pa')}", fontsize=LABEL)
+    axes.set_xlim(0.0, end * x.factor)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel(f"{VARIABLES['pressure'].label} [{x.unit}]", fontsize=LABEL)
+    axes.set_ylabel(f"share of the nominal area [1/{x.unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK)
+    axes.legend(fontsize=TICK, frameon=False)
+
+
+def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
+    """Return the distribution of the pressure and what theories say about it."""
+    figure = Figure(figsize=(5.6, 4.0), layout="constrained")
+    pressure_distribution(figure.subplots(), solution, theories)
+    return figure

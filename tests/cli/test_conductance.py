@@ -1,0 +1,90 @@
+import json
+
+import numpy as np
+import pytest
+import xarray
+
+MODULUS = ("--modulus", "110GPa")
+COPPER = ("--resistivity", "17nohm*m")
+
+
+@pytest.fixture
+def curve(invoke, rough, tmp_path):
+    folder = tmp_path / "result"
+    assert invoke("curve", rough, "--forces", "1mN:1N:5", *MODULUS, "--out", folder).exit_code == 0
+    return folder / "curve.nc"
+
+
+def test_resistance_of_a_curve(invoke, curve):
+    """R = E* rho / k for equal bodies (thesis, eq. 4.2)."""
+    answer = invoke("conductance", curve, *COPPER, "--conductivity", "400W/m/K,50W/m/K", "--json")
+    assert answer.exit_code == 0
+    record = json.loads(answer.stdout)
+    with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
+        stiffness = dataset.stiffness.to_numpy()
+    np.testing.assert_allclose(record["electrical_resistance"], 110e9 * 17e-9 / stiffness, rtol=1e-14)
+    np.testing.assert_allclose(
+        record["thermal_resistance"], 110e9 * (1 / 400 + 1 / 50) / 2 / stiffness, rtol=1e-14
+    )
+    assert record["units"]["electrical_resistance"] == "ohm"
+    assert record["units"]["thermal_resistance"] == "K W-1"
+
+
+def test_of_the_interface(invoke, curve):
+    whole, interface = (
+        json.loads(invoke("conductance", curve, *COPPER, "--of", of, "--json").stdout)[
+            "electrical_resistance"
+        ]
+        for of in ("whole", "interface")
+    )
+    assert (np.array(interface) < np.array(whole)).all()
+
+
+def test_a_folder_serves_and_gets_files(invoke, curve):
+    answer = invoke("conductance", curve.parent, *COPPER, "--out", curve.parent)
+    assert answer.exit_code == 0
+    assert "electrical resistance [" in answer.stdout
+    assert {"conductance.csv", "conductance.nc", "conductance.png"} <= {
+        p.name for p in curve.parent.iterdir()
+    }
+    table = np.genfromtxt(curve.parent / "conductance.csv", delimiter=",", names=True)
+    assert (table["electrical_resistance"] > 0).all()
+
+
+def test_a_curve_has_the_columns_at_once(invoke, rough):
+    words = ("curve", rough, "--forces", "1mN:1N:3", *MODULUS, *COPPER)
+    record = json.loads(invoke(*words, "--json").stdout)
+    np.testing.assert_allclose(
+        np.array(record["electrical_resistance"]) * record["stiffness"], 110e9 * 17e-9, rtol=1e-14
+    )
+    assert record["units"]["electrical_conductance"] == "S"
+    assert "resistance [" in invoke(*words).stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ((), "give --resistivity, --conductivity, or both"),
+        (("--resistivity", "5N"), "'5N' is not a resistivity"),
+        (("--resistivity=-1"), "must not be negative"),
+        (("--resistivity", "1,2,3"), "one value for both bodies or two"),
+        (("--conductivity", "400W/m"), "is not a thermal conductivity"),
+        (("--resistivity", "0"), "no limit"),
+    ],
+)
+def test_nonsense_is_one_line(invoke, curve, words, message):
+    answer = invoke("conductance", curve, *([words] if isinstance(words, str) else words))
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+    assert len(answer.stderr.strip().splitlines()) == 1
+
+
+def test_what_is_no_curve_is_refused(invoke, rough, tmp_path):
+    for path, message in ((rough, "is not a curve.nc"), (tmp_path / "none.nc", "no such file")):
+        answer = invoke("conductance", path, *COPPER)
+        assert answer.exit_code == 2
+        assert message in answer.stderr
+    xarray.Dataset({"heights": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    answer = invoke("conductance", tmp_path / "other.nc", *COPPER)
+    assert answer.exit_code == 2
+    assert "not a stiffness curve" in answer.stderr
