@@ -8,11 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
+from roughcontact.contact.hard import press_hard
 from roughcontact.contact.iterative import press_region
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.polonsky_keer import PolonskyKeer
-from roughcontact.contact.problem import Control, Force
+from roughcontact.contact.problem import Control, Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
@@ -46,16 +47,24 @@ class ActiveSet:
     max_steps: int = 5000
     dense_limit: int = DENSE_LIMIT
 
-    def run(
-        self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float
-    ) -> State:
-        """Solve for the pressure from an `initial` one, down to a residual of `tolerance`."""
+    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given terms.
+
+        With a hardness that the answer would exceed, that answer is where Polonsky and Keer's method starts.
+        """
+        if terms.hardness < np.inf:
+            elastic = self.run(operator, separation, replace(terms, hardness=np.inf), initial)
+            if elastic.pressure.max() <= terms.hardness:
+                return elastic
+            rest = press_hard(operator, separation, terms, elastic.pressure, self.max_steps)
+            return replace(rest, steps=rest.steps + elastic.steps)
         measure = Measure(operator.weights)
-        judge = Judge.of(operator, control)
+        control, tolerance = terms.control, terms.tolerance
+        judge = Judge.of(operator, terms)
         own = judge.self_influence
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         dense_limit = self.dense_limit
-        given = None if isinstance(control, Force) else control.value
+        given = terms.depth
         p = start_pressure(measure, separation, control, initial, own)
         u, fresh, steps = operator.apply(p), True, 1
         tangent: Tangent | None = None
@@ -113,7 +122,7 @@ class ActiveSet:
                 )
                 p, u, tangent = relaxed.pressure, relaxed.displacement, None
                 fresh, steps = False, steps + relaxed.steps
-        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, control, p, tolerance)
+        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, p)
         return replace(rest, steps=rest.steps + steps)
 
     def _worth_sifting(self, region: Mask, wrong: Mask, measure: Measure) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.problem import Control, Depth
+from roughcontact.contact.problem import Control, Depth, Terms
 from roughcontact.contact.state import Solver
 from roughcontact.contact.window import Windows, embed
 from roughcontact.grid import Grid
@@ -36,7 +36,7 @@ def coarse_guess(
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, heights)
     guess = coarse_guess(part, heights, control, solver)
-    state, place = Windows(part).solve(solver, heights, control, guess, COARSE_TOLERANCE)
+    state, place = Windows(part).solve(solver, heights, Terms(control, COARSE_TOLERANCE), guess)
     pressure = embed(state.pressure, place, heights.shape)
     for axis, factor in enumerate(factors):
         pressure = np.repeat(pressure, factor, axis=axis)

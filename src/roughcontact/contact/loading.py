@@ -14,7 +14,7 @@ from roughcontact.contact.problem import Body, ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve_state
 from roughcontact.contact.state import Solver
-from roughcontact.contact.stiffness import FrozenContact, frozen_contact
+from roughcontact.contact.stiffness import FrozenContact, frozen_contact, yields_not
 from roughcontact.contact.window import Windows, embed
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
@@ -37,12 +37,13 @@ def loading_path(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
+    hardness: float | None = None,
 ) -> Iterator[Solution]:
     """Yield the solution of every load, in order; each starts from the one before.
 
     Parameters
     ----------
-    surface, modulus, operator, solver, tolerance
+    surface, modulus, operator, solver, tolerance, hardness
         As for `press`.
     forces, depths, pressures : array
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 30
@@ -61,7 +62,7 @@ def loading_path(
     if forces is None and depths is None and pressures is None:
         forces = suggested_forces(surface, modulus, operator=operator)
     controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
-    problem = make_problem(surface, modulus, controls[0], operator, tolerance)
+    problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
     return _follow(problem, controls, solver or ActiveSet())
@@ -77,6 +78,7 @@ def loading_curve(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
+    hardness: float | None = None,
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load; see `loading_path`."""
     path = loading_path(
@@ -88,6 +90,7 @@ def loading_curve(
         operator=operator,
         solver=solver,
         tolerance=tolerance,
+        hardness=hardness,
     )
     return collect(path)
 
@@ -125,7 +128,9 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here = problem.under(control)
         state, place = solve_state(here, solver, guess, windows)
-        frozen = frozen_contact(windows.part(place), state.pressure > 0, tangent=state.tangent)
+        frozen = frozen_contact(
+            windows.part(place), yields_not(state.pressure, problem.hardness), tangent=state.tangent
+        )
         shape = problem.grid.shape
         pressure = embed(state.pressure, place, shape)
         pressure.flags.writeable = False

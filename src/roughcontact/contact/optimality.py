@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.problem import Control, Force
+from roughcontact.contact.problem import Force, Terms
 from roughcontact.halfspace.operator import Operator
 
 __all__ = ["Judge"]
@@ -31,20 +31,23 @@ class Judge:
         Displacement of a cell per unit pressure on itself [m/Pa].
     allowance : float
         Part of a cell's own displacement that is rounding.
+    hardness : float
+        Pressure that no cell may exceed [Pa].
     """
 
     self_influence: float
     allowance: float
+    hardness: float = math.inf
 
     @classmethod
-    def of(cls, operator: Operator, control: Control) -> Judge:
-        """Return the judge of an operator under a control.
+    def of(cls, operator: Operator, terms: Terms) -> Judge:
+        """Return the judge of an operator and what is asked.
 
         At given depth nothing is allowed for rounding: the pressure has no given size there, and one that
         has run away could excuse itself.
         """
         own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
-        return cls(own, UNITS if isinstance(control, Force) else 0.0)
+        return cls(own, UNITS if isinstance(terms.control, Force) else 0.0, terms.hardness)
 
     def scale(self, displacement: Array) -> float:
         """Return what residuals are relative to [m]: the largest displacement."""
@@ -53,13 +56,16 @@ class Judge:
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
         """Return the largest violation of the conditions of contact, relative to the largest displacement.
 
-        That is the largest of ``|gap|`` where there is pressure and of ``-gap`` where there is none. It is
-        infinite for a negative pressure, or for numbers that are none. It speaks of the algebra, not of the
-        grid.
+        That is the largest of ``|gap|`` where there is pressure and of ``-gap`` where there is none; under the
+        hardness, where the body gives way, of ``gap``. It is infinite for a negative pressure or one beyond the
+        hardness, or for numbers that are none. It speaks of the algebra, not of the grid.
         """
-        if not np.isfinite(pressure).all() or (pressure < 0).any():
+        if not np.isfinite(pressure).all() or (pressure < 0).any() or (pressure > self.hardness).any():
             return math.inf
-        violation = float(np.where(pressure > 0, np.abs(gap), -gap).max())
+        violations = np.where(pressure > 0, np.abs(gap), -gap)
+        if self.hardness < math.inf:
+            violations = np.where(pressure == self.hardness, gap, violations)
+        violation = float(violations.max())
         if math.isnan(violation):
             return math.inf
         if violation <= 0:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
-from roughcontact.contact.problem import Control, Force
+from roughcontact.contact.problem import Force, Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State
 from roughcontact.contact.status import Status
@@ -18,7 +18,12 @@ from roughcontact.halfspace.operator import Operator
 __all__ = ["PolonskyKeer"]
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
+PASSES = (
+    50  # in which a force is shared out between cells; what is left then is shared out in the next iteration
+)
+ROUNDING = 1e-14  # of a force: a sum over many cells is no better
 PATIENCE = 500  # iterations without a smaller residual, after which rounding or a cycle has the better of it
 
 
@@ -28,34 +33,36 @@ class PolonskyKeer:
 
     max_steps: int = 20000
 
-    def run(
-        self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float
-    ) -> State:
-        """Solve for the pressure from an `initial` one, down to a residual of `tolerance`.
+    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given terms.
 
         Differs from the paper: any control, a stop by the conditions of contact instead of the step, and,
         where a step leaves too large a force, the projection on the pressures of the right one instead of a
-        common factor, with which the method can run in circles of two.
+        common factor, with which the method can run in circles of two. A hardness bounds the pressure from above
+        as zero does from below.
         """
         measure = Measure(operator.weights)
-        judge = Judge.of(operator, control)
-        own = judge.self_influence
-        forced = isinstance(control, Force)
-        p = start_pressure(measure, separation, control, initial, own)
+        judge = Judge.of(operator, terms)
+        own, hardness, given = judge.self_influence, terms.hardness, terms.depth
+        if hardness == np.inf:
+            p = start_pressure(measure, separation, terms.control, initial, own)
+        else:  # not scaled to the force: what is under the hardness is to stay there
+            p = np.where(np.isfinite(separation), np.maximum(initial, 0.0), 0.0)
+            p = _within(measure, p, separation, terms)
         t = np.zeros_like(p)
         delta, norm_old = 0.0, 1.0
         best, idle, steps = np.inf, 0, 0
         while True:
             u = operator.apply(p)
             steps += 1
-            inside = p > 0
+            inside = (p > 0) & (p < hardness)
             g = u + separation
-            d = measure.mean(g, inside) if forced else control.value
+            d = _depth(measure, g, p, inside) if given is None else given
             g -= d
             r = judge.residual(p, u, g)
             idle = 0 if r < best else idle + 1
             best = min(best, r)
-            if r <= tolerance:
+            if r <= terms.tolerance:
                 return State(p, d, r, steps, Status.CONVERGED)
             if steps >= self.max_steps:
                 return State(p, d, r, steps, Status.MAX_STEPS)
@@ -68,7 +75,7 @@ class PolonskyKeer:
                 t = np.where(inside, g + delta * (norm / norm_old) * t, 0.0)
                 v = operator.apply(t)
                 steps += 1
-                if forced:
+                if given is None:
                     v -= measure.mean(v, inside)
                 curvature = measure.dot(v, t)
                 if curvature > 0:
@@ -76,12 +83,54 @@ class PolonskyKeer:
             else:
                 t[:] = 0.0
             norm_old = norm if norm > 0 else 1.0
-            p = np.where(inside, np.maximum(p - tau * t, 0.0), 0.0)
-            overlap = (p == 0) & (g < 0)
-            p[overlap] = -tau * g[overlap]
-            delta = 0.0 if overlap.any() else 1.0
-            if forced and 0 < measure.total(p) < np.inf:
-                p = _under_force(measure, p, control.value)
+            wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
+            p = np.where(inside, np.clip(p - tau * t, 0.0, hardness), p)
+            p[wrong] = np.clip(p - tau * g, 0.0, hardness)[wrong]
+            delta = 0.0 if wrong.any() else 1.0
+            if given is None and 0 < measure.total(p) < np.inf:
+                p = _within(measure, p, g, terms)
+
+
+def _depth(measure: Measure, level: Array, pressure: Array, inside: Mask) -> float:
+    """Return the depth that leaves no gap on the mean of the cells between the bounds.
+
+    Without any it is the least at which no cell under the hardness would be pulled.
+    """
+    if inside.any():
+        return measure.mean(level, inside)
+    return float(level[pressure > 0].max())
+
+
+def _within(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:
+    """Return the pressure between zero and the hardness, under the force that is prescribed, if one is."""
+    hardness = terms.hardness
+    if not isinstance(terms.control, Force):
+        return np.minimum(pressure, hardness)
+    force = terms.control.value
+    if hardness == np.inf:
+        return _under_force(measure, pressure, force)
+    pressure = np.minimum(pressure, hardness)
+    # What exceeds the hardness, or lacks, is shared by the cells that can take it. Each pass takes at least one cell
+    # to a bound, or is the last but for rounding.
+    for _ in range(PASSES):
+        lacking = force - measure.total(pressure)
+        if abs(lacking) <= ROUNDING * force:
+            break
+        free = (pressure > 0) & (pressure < hardness)
+        if not free.any():  # all at the bounds: the next cells to touch help, or all give
+            free = _nearest(measure, gap, pressure, lacking / hardness) if lacking > 0 else pressure > 0
+        pressure = np.where(free, np.clip(pressure + lacking / measure.total(free), 0.0, hardness), pressure)
+    return pressure
+
+
+def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask:
+    """Return the cells without pressure that stand nearest, as many as have twice the `area`."""
+    free = np.flatnonzero((pressure == 0) & np.isfinite(gap))
+    free = free[np.argsort(gap.ravel()[free], kind="stable")]
+    enough = int(np.searchsorted(np.cumsum(measure.on(free)), 2 * area)) + 1
+    nearest = np.zeros(pressure.size, dtype=bool)
+    nearest[free[:enough]] = True
+    return nearest.reshape(pressure.shape)
 
 
 def _under_force(measure: Measure, pressure: Array, force: float) -> Array:

@@ -29,6 +29,7 @@ def press(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
+    hardness: float | None = None,
 ) -> Solution:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
@@ -48,6 +49,8 @@ def press(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual; see docs/conventions.md.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa]: there the softer body gives way.
 
     Returns
     -------
@@ -61,7 +64,10 @@ def press(
         If the tolerance was missed. It carries the solution.
     """
     control = control_of(grid_of(surface), force=force, depth=depth, pressure=pressure)
-    solution = solve(make_problem(surface, modulus, control, operator, tolerance), solver=solver)
+    solution = solve(
+        make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
+        solver=solver,
+    )
     if not solution.status.converged:
         raise ConvergenceError(solution)
     return solution
@@ -79,12 +85,15 @@ def make_problem(
     modulus: float | Solid | tuple[Solid, Solid],
     control: Control,
     operator: Operator | None,
+    *,
     tolerance: float,
+    hardness: float | None,
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
-    return ContactProblem(separation_of(surface), body, control, tolerance, surface, value)
+    strength = math.inf if hardness is None else float(hardness)
+    return ContactProblem(separation_of(surface), body, control, tolerance, surface, value, strength)
 
 
 def control_of(

@@ -17,7 +17,7 @@ from roughcontact.halfspace.operator import Operator, geometry_of, is_semidefini
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force"]
+__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms"]
 
 Array = npt.NDArray[np.float64]
 T = TypeVar("T")
@@ -52,6 +52,31 @@ class Depth:
 
 Control = Force | Depth
 
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What is asked of a solver, whatever the bodies.
+
+    Parameters
+    ----------
+    control : Force or Depth
+        What is prescribed.
+    tolerance : float
+        Largest residual of a solution, see `roughcontact.contact.optimality`.
+    hardness : float
+        Pressure that no cell exceeds [Pa]; a cell that reaches it gives way instead.
+    """
+
+    control: Control
+    tolerance: float = 1e-8
+    hardness: float = math.inf
+
+    @property
+    def depth(self) -> float | None:
+        """The prescribed depth [m]; None under a prescribed force."""
+        return None if isinstance(self.control, Force) else self.control.value
+
+
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -74,6 +99,8 @@ class ContactProblem:
         Where the separation comes from.
     modulus : float
         Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
+    hardness : float
+        Pressure that no cell exceeds [Pa]: there the body gives way, and the flat may stand below its surface.
     """
 
     separation: Array
@@ -82,6 +109,7 @@ class ContactProblem:
     tolerance: float = 1e-8
     surface: Body | None = None
     modulus: float = math.nan
+    hardness: float = math.inf
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -91,8 +119,19 @@ class ContactProblem:
             )
         if not 1e-14 < self.tolerance < 1e-2:
             raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {self.tolerance}")
+        if not self.hardness > 0:
+            raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
+        if isinstance(self.control, Force) and self.hardness < math.inf:
+            strongest = self.hardness * self._measure.total(np.isfinite(self.separation))
+            if self.control.value >= strongest:
+                raise ValueError(
+                    f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
+                    f"gives {strongest:.6g}; press by less, or give a greater hardness"
+                )
         if not isinstance(self.control, Depth) or not self.semidefinite or np.isinf(self.separation).any():
             return  # missing cells never touch and may bulge: contact is never full
+        if self.hardness < math.inf:
+            return  # a body that gives way can be pressed to any depth
         mean = self.mean_separation
         if self.control.value > mean * (1 + ROUNDING):
             raise ValueError(
@@ -104,6 +143,11 @@ class ContactProblem:
     def grid(self) -> AnyGrid:
         """The grid of the operator."""
         return self.operator.grid
+
+    @property
+    def terms(self) -> Terms:
+        """What is asked of a solver."""
+        return Terms(self.control, self.tolerance, self.hardness)
 
     @property
     def geometry(self) -> Geometry:

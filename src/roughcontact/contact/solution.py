@@ -20,6 +20,7 @@ from roughcontact.contact.stiffness import (
     frozen_contact,
     is_resolved,
     saturation,
+    yields_not,
 )
 from roughcontact.halfspace.geometry import Geometry
 
@@ -104,6 +105,8 @@ class Solution:
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
         cells = self._cells
+        if self.problem.hardness < np.inf:  # there part of the depth is flow
+            return 0.5 * self._measure.dot(self.pressure, self.displacement)
         work = self.pressure.ravel()[cells] * (self.depth - self.problem.separation.ravel()[cells])
         return 0.5 * float(self._measure.on(cells) @ work)
 
@@ -112,7 +115,7 @@ class Solution:
         """The response of the contact region as it is, displaced as one."""
         if self._frozen is not None:
             return self._frozen
-        return frozen_contact(self.problem.operator, self.contact)
+        return frozen_contact(self.problem.operator, yields_not(self.pressure, self.problem.hardness))
 
     @property
     def stiffness(self) -> float:
@@ -164,6 +167,12 @@ class Solution:
         notes = []
         if not self.status.converged:
             notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
+        yielding = int((self.pressure >= self.problem.hardness).sum())
+        if yielding:
+            notes.append(
+                f"{yielding} of {len(self._cells)} cells in contact are under the hardness: they give way, and the "
+                "stiffness is that of the others."
+            )
         if self.missing:
             hold = "1 cell holds" if self.missing == 1 else f"{self.missing} cells hold"
             notes.append(f"{hold} no height: kept out of contact.")

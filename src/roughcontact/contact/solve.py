@@ -52,7 +52,7 @@ def solve_state(
         return _untouched(problem)
     with one_blas_thread():
         guess = initial or coarse_guess(problem.operator, problem.separation, problem.control, solver)
-        return windows.solve(solver, problem.separation, problem.control, guess, problem.tolerance)
+        return windows.solve(solver, problem.separation, problem.terms, guess)
 
 
 def _untouched(problem: ContactProblem) -> tuple[State, Place]:

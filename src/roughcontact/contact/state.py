@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.problem import Control
+from roughcontact.contact.problem import Terms
 from roughcontact.contact.status import Status
 from roughcontact.halfspace.operator import Operator
 
@@ -43,8 +43,6 @@ class State:
 class Solver(Protocol):
     """Frozen settings with one method; everything that changes during a run stays inside the run."""
 
-    def run(
-        self, operator: Operator, separation: Array, control: Control, initial: Array, tolerance: float
-    ) -> State:
-        """Solve for the pressure from an `initial` one, down to a residual of `tolerance`."""
+    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given terms."""
         ...

@@ -26,6 +26,7 @@ __all__ = [
     "frozen_contact",
     "is_resolved",
     "saturation",
+    "yields_not",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -53,6 +54,11 @@ class FrozenContact:
     stiffness: float
     residual: float
     tangent: Array
+
+
+def yields_not(pressure: Array, hardness: float) -> Mask:
+    """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
+    return np.asarray((pressure > 0) & (pressure < hardness))
 
 
 def frozen_contact(

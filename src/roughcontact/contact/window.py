@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.problem import Control
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.problem import Terms
 from roughcontact.contact.state import Solver, State
 from roughcontact.halfspace.operator import Listable, Operator, is_positive
 
@@ -70,24 +71,22 @@ class Windows:
         self,
         solver: Solver,
         separation: Array,
-        control: Control,
+        terms: Terms,
         guess: tuple[Array, float],
-        tolerance: float,
     ) -> tuple[State, Place]:
         """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state in its place."""
         pressure, depth = guess
         if not is_positive(self.operator):
             whole = tuple(slice(0, n) for n in separation.shape)
-            return solver.run(self.operator, separation, control, pressure, tolerance), whole
+            return solver.run(self.operator, separation, terms, pressure), whole
         window = (separation < depth) | (pressure > 0)
         if not window.any():
             window = separation == separation.min()
+        window |= _carrying(Measure(self.operator.weights), separation, terms)
         steps = 0
         while True:
             place = self._place(window)
-            state = solver.run(
-                self.part(place), take(separation, place), control, take(pressure, place), tolerance
-            )
+            state = solver.run(self.part(place), take(separation, place), terms, take(pressure, place))
             inside = np.zeros(window.shape, dtype=bool)
             if isinstance(place, tuple):
                 inside[place] = True
@@ -125,6 +124,18 @@ class Windows:
         if self._box is not None and _holds(self._box[0], box) and _size(self._box[0]) < 1.3 * _size(roomy):
             return self._box[0]
         return roomy
+
+
+def _carrying(measure: Measure, separation: Array, terms: Terms) -> Mask:
+    """Return the lowest cells that could carry twice the force under the hardness: a window needs as many."""
+    if terms.hardness == math.inf or terms.depth is not None:
+        return np.zeros(separation.shape, dtype=bool)
+    order = np.argsort(separation, axis=None, kind="stable")
+    area = np.cumsum(measure.on(order))
+    count = int(np.searchsorted(area, 2 * terms.control.value / terms.hardness)) + 1
+    carrying = np.zeros(separation.size, dtype=bool)
+    carrying[order[:count]] = True
+    return (carrying & np.isfinite(separation).ravel()).reshape(separation.shape)
 
 
 def _holds(a: Box, b: Box) -> bool:

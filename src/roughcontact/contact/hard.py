@@ -1,0 +1,79 @@
+"""Bodies that give way under a hardness: from the elastic answer, or from the depth that carries the force."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.polonsky_keer import PolonskyKeer
+from roughcontact.contact.problem import Depth, Terms
+from roughcontact.contact.state import State
+from roughcontact.halfspace.operator import Operator
+
+__all__ = ["press_hard"]
+
+Array = npt.NDArray[np.float64]
+
+FLOWING = 0.3  # of the force: if more exceeds the hardness, most cells will give way
+TRIALS = 80  # depths: by halving alone, more than the digits of a depth
+CLOSE = 1e-9  # of the force: then the cells at the bounds are the right ones, but for some at the very edge
+
+
+def press_hard(operator: Operator, separation: Array, terms: Terms, elastic: Array, max_steps: int) -> State:
+    """Press on terms with a hardness that the `elastic` pressure [Pa] exceeds.
+
+    Where nearly every cell in contact gives way, too few are left to tell the depth at a given force, and the
+    projected method may run in circles. At given depth it does not; the force grows with the depth.
+    """
+    solver = PolonskyKeer(max_steps=max_steps)
+    excess = np.maximum(elastic - terms.hardness, 0.0)
+    mostly_elastic = Measure(operator.weights).total(excess) < FLOWING * terms.control.value
+    if terms.depth is not None or mostly_elastic:
+        state = solver.run(operator, separation, terms, elastic)
+        if state.status.converged or terms.depth is not None:
+            return state
+    pressure, steps = _by_depth(operator, separation, terms, solver)
+    state = solver.run(operator, separation, terms, pressure)
+    return replace(state, steps=state.steps + steps)
+
+
+def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: PolonskyKeer) -> tuple[Array, int]:
+    """Return a pressure whose force is nearly the one prescribed, and the products that it took."""
+    measure, force = Measure(operator.weights), terms.control.value
+    pressure, steps = np.zeros_like(separation), 0
+
+    def excess(depth: float) -> float:
+        nonlocal pressure, steps
+        state = solver.run(operator, separation, replace(terms, control=Depth(depth)), pressure)
+        pressure, steps = state.pressure, steps + state.steps
+        return measure.total(pressure) / force - 1
+
+    low, high = 0.0, _bearing_depth(measure, separation, force / terms.hardness)
+    below, above = -1.0, excess(high)
+    while above < 0:
+        low, below = high, above
+        high *= 2
+        above = excess(high)
+    for trial in range(TRIALS):
+        # The chord where it is safe, the middle where the curve is a staircase.
+        chord = low - below * (high - low) / (above - below)
+        middle = (low + high) / 2
+        depth = chord if abs(chord - middle) < 0.4 * (high - low) and trial % 2 else middle
+        found = excess(depth)
+        if abs(found) <= CLOSE or not low < depth < high:
+            break
+        if found < 0:
+            low, below = depth, found
+        else:
+            high, above = depth, found
+    return pressure, steps
+
+
+def _bearing_depth(measure: Measure, separation: Array, area: float) -> float:
+    """Return the depth at which the undeformed surface would bear on an area [m]."""
+    order = np.argsort(separation, axis=None, kind="stable")
+    count = int(np.searchsorted(np.cumsum(measure.on(order)), area))
+    return float(separation.ravel()[order[min(count, len(order) - 1)]])

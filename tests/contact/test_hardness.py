@@ -1,0 +1,147 @@
+"""A pressure that no cell exceeds: conditions of contact, limits, stiffness."""
+
+import numpy as np
+import oracles
+import pytest
+
+import roughcontact as rc
+
+MODULUS = 2.0
+SOLVERS = {"active set": rc.ActiveSet(), "Polonsky-Keer": rc.PolonskyKeer()}
+
+
+@pytest.fixture(params=[False, True], ids=["free", "periodic"])
+def rough(request):
+    grid = rc.Grid((48, 64), (1 / 64, 1 / 64), request.param)
+    return rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(4))
+
+
+@pytest.fixture(params=SOLVERS, ids=str)
+def solver(request):
+    return SOLVERS[request.param]
+
+
+def violation(solution, hardness):
+    """Largest violation of the conditions, by a product of our own, relative to the largest displacement."""
+    surface, p = solution.problem.surface, solution.pressure
+    u = oracles.displacement(surface.grid, MODULUS, p)
+    gap = u + surface.heights.max() - surface.heights - solution.depth
+    assert p.min() >= 0
+    assert p.max() <= hardness
+    wrong = np.where(p > 0, np.abs(gap), -gap)
+    wrong = np.where(p == hardness, gap, wrong)
+    return wrong.max() / np.abs(u).max()
+
+
+@pytest.mark.parametrize("hardness", [0.15, 0.05, 0.01])
+@pytest.mark.parametrize("load", [{"force": 2e-3}, {"depth": 0.006}], ids=str)
+def test_conditions(rough, solver, hardness, load):
+    solution = rc.press(rough, MODULUS, **load, hardness=hardness, solver=solver)
+    assert solution.status.converged
+    assert violation(solution, hardness) < 1.5e-8  # the certificate, and the rounding of another product
+    if "force" in load:
+        assert solution.force == pytest.approx(load["force"], rel=1e-12)
+    assert (solution.pressure == hardness).any()
+    assert "give way" in " ".join(solution.notes)
+
+
+def test_a_hardness_out_of_reach_changes_nothing(rough, solver):
+    plain, hard = (rc.press(rough, MODULUS, force=1e-3, solver=solver, hardness=h) for h in (None, 1e6))
+    np.testing.assert_allclose(plain.pressure, hard.pressure, rtol=0, atol=1e-6 * plain.pressure.max())
+    assert plain.elastic_energy == pytest.approx(hard.elastic_energy, rel=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.7])
+def test_a_soft_body_is_cut_off(rough, share):
+    """Next to no elasticity: area = F/hardness, where the surface stands highest (bearing area)."""
+    hardness = 1e-8
+    count = share * rough.grid.size
+    solution = rc.press(rough, MODULUS, force=hardness * count * rough.grid.cell_area, hardness=hardness)
+    lowest = np.sort((rough.heights.max() - rough.heights).ravel())
+    assert solution.contact.sum() == np.ceil(count)
+    # The displacement, of order hardness times length over modulus, is all that tells the depth from the cut.
+    assert solution.depth == pytest.approx(lowest[int(count)], abs=hardness)
+
+
+def test_stiffness_is_that_of_the_cells_that_do_not_give_way(rough):
+    """dF/dd at fixed sets, by a difference so small that no cell changes sides."""
+    hardness, depth, step = 0.2, 0.008, 1e-9
+    at, deeper = (
+        rc.press(rough, MODULUS, depth=d, hardness=hardness, tolerance=1e-13) for d in (depth, depth + step)
+    )
+    for state in (lambda s: s.contact, lambda s: s.pressure == hardness):
+        np.testing.assert_array_equal(state(at), state(deeper))
+    # Both forces are good to the certificate, 1e-13 of the largest displacement, over a step of 1e-9 / 0.008.
+    assert (deeper.force - at.force) / step == pytest.approx(at.stiffness, rel=1e-5)
+
+
+def test_softer_is_deeper(rough):
+    depths = [rc.press(rough, MODULUS, force=2e-3, hardness=h).depth for h in (1.0, 0.3, 0.1, 0.03)]
+    assert (np.diff(depths) > 0).all()
+
+
+def test_a_curve(rough):
+    curve = rc.loading_curve(rough, MODULUS, forces=np.geomspace(1e-4, 1e-2, 8), hardness=0.1)
+    assert all(status.converged for status in curve.status)
+    assert (np.diff(curve.depth) > 0).all()
+    assert (curve.contact_area >= curve.force / 0.1 * (1 - 1e-12)).all()
+    one = rc.press(rough, MODULUS, force=curve.force[5], hardness=0.1)
+    assert curve.depth[5] == pytest.approx(one.depth, rel=1e-6)
+    assert curve.stiffness[5] == pytest.approx(one.stiffness, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["ring", "line", "foundation"])
+def test_on_other_operators(kind, solver):
+    if kind == "ring":
+        grid = rc.RadialGrid.uniform(80, 1.0)
+        body, operator = rc.RadialProfile(-(grid.radii**2) / 2, grid), rc.ring(grid, MODULUS)
+    else:
+        grid = rc.Grid(80, 1 / 80)
+        body = rc.Surface(-((grid.coordinates[0] - 0.5) ** 2) / 2, grid)
+        operator = rc.line(grid, MODULUS) if kind == "line" else rc.foundation(grid, MODULUS)
+    plain = rc.press(body, MODULUS, depth=0.05, operator=operator, solver=solver)
+    hardness = plain.pressure.max() / 2
+    solution = rc.press(body, MODULUS, depth=0.05, operator=operator, solver=solver, hardness=hardness)
+    assert solution.pressure.max() == hardness
+    assert 0 < solution.force < plain.force
+
+
+def test_a_periodic_body_that_gives_way_has_no_deepest_depth():
+    grid = rc.Grid((8, 8), 0.1, True)
+    wavy = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(0))
+    solution = rc.press(wavy, MODULUS, depth=0.1, hardness=0.01)
+    assert (solution.pressure == 0.01).all()
+    assert solution.stiffness == 0.0
+
+
+@pytest.mark.parametrize(
+    ("hardness", "message"),
+    [(0.0, "positive"), (-1.0, "positive"), (np.nan, "positive"), (1e-3, "not to be carried")],
+)
+def test_nonsense_is_refused(rough, hardness, message):
+    with pytest.raises(ValueError, match=message):
+        rc.press(rough, MODULUS, force=1e-2, hardness=hardness)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_random_problems(seed):
+    """Free and periodic, missing cells, soft to nearly elastic, both controls: all certified."""
+    rng = np.random.default_rng(seed)
+    grid = rc.Grid(tuple(rng.integers(2, 24, 2)), tuple(rng.uniform(0.02, 0.1, 2)), bool(rng.integers(2)))
+    heights = 0.02 * rng.standard_normal(grid.shape)
+    heights[rng.random(grid.shape) < 0.1] = np.nan
+    heights.flat[0] = 0.05
+    surface = rc.Surface(heights, grid)
+    measured = np.isfinite(heights).sum() * grid.cell_area
+    hardness = 10 ** rng.uniform(-4, 0)
+    load = (
+        {"force": rng.uniform(0, 0.99) * hardness * measured}
+        if rng.integers(2)
+        else {"depth": rng.uniform(0, 0.06)}
+    )
+    solution = rc.press(surface, MODULUS, **load, hardness=hardness)
+    u = oracles.displacement(grid, MODULUS, solution.pressure)
+    gap = u + np.nanmax(heights) - heights - solution.depth
+    p = solution.pressure
+    wrong = np.where(p == hardness, gap, np.where(p > 0, np.abs(gap), -gap))
+    assert np.nanmax(wrong) <= 2e-8 * np.abs(u).max()
