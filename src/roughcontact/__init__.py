@@ -78,6 +78,7 @@ _ROOMS = {
     "Curve": "contact.curve",
     "Comparison": "contact.compare",
     "conductance": "contact.conductance",
+    "loading_laws": "contact.theories",
     "PowerLaw": "contact.curve",
     "read": "files.read",
     "read_line": "files.read",
@@ -113,6 +114,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.status import ConvergenceError as ConvergenceError
     from roughcontact.contact.status import Status as Status
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
+    from roughcontact.contact.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.errors import ReadError as ReadError
     from roughcontact.files.errors import SurfaceWarning as SurfaceWarning

@@ -146,3 +146,40 @@ def test_flat_heights_are_answered(invoke, tmp_path, verb):
     loads = {"press": ("--force", "1mN"), "curve": ("--forces", "1mN,2mN")}[verb]
     answer = invoke(verb, tmp_path / "flat.npz", *loads, *MODULUS, "--out", tmp_path / "out")
     assert answer.exit_code == 0
+
+
+def test_theories_stand_beside_the_curve(invoke, rough, tmp_path):
+    folder = tmp_path / "result"
+    words = ("curve", rough, *FORCES, *MODULUS, "--theory", "persson, power-law", "--hurst", "0.8")
+    answer = invoke(*words, "--out", folder)
+    assert answer.exit_code == 0
+    assert "Persson" in answer.stdout
+    assert "Pohrt and Popov" in answer.stdout
+    with xarray.open_dataset(folder / "curve.nc", engine="h5netcdf") as dataset:
+        assert dataset.persson_contact_area.attrs["units"] == "m2"
+        assert "J. Chem. Phys." in dataset.persson_contact_area.attrs["references"]
+        assert (dataset.persson_contact_area > 0).all()
+        assert dataset.power_law_stiffness.dims == ("load",)
+    record = json.loads(invoke(*words, "--json").stdout)
+    assert record["theories"]["power-law"]["predicted"]["stiffness"][3] > 0
+    assert set(record["theories"]) == {"persson", "power-law"}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--theory", "person"), "there is no 'person'; there are persson"),
+        (("--theory", "gw,gw"), "each theory once"),
+        (("--theory", ","), "each theory once"),
+        (("--hurst", "0.8"), "--hurst is for theories"),
+        (("--theory", "hertz"), "radius missing"),
+        (("--theory", "power-law", "--hurst", "5"), "hurst"),
+        (("--theory", "power-law", "--hurst", "tall"), "not a number"),
+        (("--theory", "cgp", "--periodic"), "cgp is about a body"),
+    ],
+)
+def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
+    answer = invoke("curve", rough, *FORCES, *MODULUS, "--level", "none", *words)
+    assert answer.exit_code == 2
+    assert message.lower() in answer.stderr.lower()
+    assert len(answer.stderr.strip().splitlines()) == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -55,10 +56,7 @@ def test_units_are_understood_by_a_unit_library():
     registry = pint.UnitRegistry()
     for name, known in VARIABLES.items():
         # UDUNITS writes powers as bare numbers behind the unit.
-        text = " * ".join(
-            part if part == "1" else part.rstrip("-0123456789") + "**" + (part.lstrip("NmPaJ") or "1")
-            for part in known.unit.split()
-        )
+        text = re.sub(r"([A-Za-z]+)(-?\d+)", r"\1**\2", known.unit).replace(" ", " * ")
         if text:
             assert registry.Quantity(1.0, text).to_base_units().magnitude == 1.0, name
 

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
-from roughcontact.cli.conductance import COLUMNS, ConductivityOption, Materials, ResistivityOption
-from roughcontact.cli.errors import note, plain, reported
+from roughcontact.cli.conductance import ConductivityOption, Materials, ResistivityOption
+from roughcontact.cli.curve_answer import CurveAnswer
+from roughcontact.cli.errors import note, reported
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.output import output
 from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse_loads, parse_tolerance
-from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, screen, size_of
+from roughcontact.cli.report import note_files, quantity, screen
+from roughcontact.cli.theory import HurstOption, RadiusOption, RolloffOption, Theories, TheoryOption
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
-    import xarray
 
-    from roughcontact.contact.conductance import Conductors
-    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
 
@@ -36,6 +35,8 @@ roughcontact curve part.x3p --modulus 110GPa
 roughcontact curve part.x3p --forces 1mN:1N:100 --modulus 110GPa --out result
 
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
+
+roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
 """
@@ -75,6 +76,10 @@ def curve(
     poisson2: options.Poisson2Option = None,
     resistivity: ResistivityOption = None,
     conductivity: ConductivityOption = None,
+    theory: TheoryOption = None,
+    hurst: HurstOption = None,
+    rolloff: RolloffOption = None,
+    radius: RadiusOption = None,
     channel: options.ChannelOption = None,
     unit: options.UnitOption = None,
     size: options.SizeOption = None,
@@ -93,25 +98,24 @@ def curve(
         loads = None if text is None else parse_loads(text, _KINDS[name], f"--{name}")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
         conductors = Materials(resistivity, conductivity).conductors()
+        theories = Theories(theory, hurst, rolloff, radius)
+        theories.check()
         asked = parse_tolerance(tolerance, "--tolerance")
         with output(out) as folder:
             surface = options.Reading(file, channel, unit, size, level, periodic).surface()
+            laws = theories.laws(surface, reduced)
             if loads is None:
                 loads = _suggested(surface, reduced)
-            answer, notes = _load(surface, reduced, name, loads, asked)
-            law = _fit(answer)
-            dataset = _dataset(answer, conductors)
-            record = _record(answer, law, file, surface, asked) | {"notes": list(notes)}
-            _add_conductance(record, dataset)
+            computed, notes = _load(surface, reduced, name, loads, asked)
+            answer = CurveAnswer(computed, surface, file, asked, notes, laws, conductors)
             if folder is not None:
-                control = (
-                    f"{name} from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}, {loads.size} of them"
+                kind = _KINDS[name].unit
+                answer.write(
+                    folder, f"{name} from {loads[0]:g} to {loads[-1]:g} {kind}, {loads.size} of them"
                 )
-                _write(answer, law, dataset, record, folder, _source(surface, reduced, control, asked))
-        _tell(answer, law, surface, record, json)
-        if folder is not None:
-            note(f"summary.json, curve.csv, curve.nc and curve.png are in {folder}")
-        if not record["converged"]:
+        answer.tell(json)
+        note_files(folder, ("curve.csv", "curve.nc", "curve.png", "summary.json"))
+        if not answer.converged:
             raise typer.Exit(MISSED)
 
 
@@ -159,108 +163,3 @@ def _load(
     with Progress(*columns, console=screen()) as progress:
         curve = collect(progress.track(watched(path), total=loads.size))
     return curve, notes[0]
-
-
-def _fit(curve: Curve) -> PowerLaw | None:
-    """Return the power law through the resolved points, if they allow one."""
-    try:
-        return curve.fit()
-    except ValueError as error:
-        note(f"no power law: {error}")
-        return None
-
-
-def _record(
-    curve: Curve, law: PowerLaw | None, file: Path, surface: Surface, tolerance: float
-) -> dict[str, Any]:
-    from roughcontact.contact.dataset import curve_record
-
-    return {
-        "verb": "curve",
-        "file": plain(str(file)),
-        "surface": list(surface.provenance),
-        **curve_record(curve),
-        "fit": None if law is None else _law_record(law),
-        "tolerance": tolerance,
-        "converged": all(status.converged for status in curve.status),
-    }
-
-
-def _law_record(law: PowerLaw) -> dict[str, Any]:
-    return {
-        "exponent": float(law.exponent),
-        "prefactor": float(law.prefactor),
-        "scatter": float(law.scatter),
-        "window": [float(end) for end in law.window],
-        "count": int(law.count),
-    }
-
-
-def _dataset(curve: Curve, conductors: Conductors | None) -> xarray.Dataset:
-    from roughcontact.contact.dataset import curve_dataset, with_conductance
-
-    dataset = curve_dataset(curve)
-    return dataset if conductors is None else with_conductance(dataset, conductors)
-
-
-def _add_conductance(record: dict[str, Any], dataset: xarray.Dataset) -> None:
-    """Add the columns of conductance and their units, if there are any."""
-    from roughcontact.contact.dataset import plain_values
-
-    for name in COLUMNS:
-        if name in dataset:
-            record[name] = plain_values(dataset[name].to_numpy())
-            record["units"][name] = dataset[name].attrs["units"]
-
-
-def _source(surface: Surface, modulus: float, control: str, tolerance: float) -> dict[str, str | float]:
-    from roughcontact.files.provenance import provenance
-
-    return provenance(surface, modulus=modulus, control=control, tolerance=tolerance, command=command_line())
-
-
-def _write(
-    curve: Curve,
-    law: PowerLaw | None,
-    dataset: xarray.Dataset,
-    record: dict[str, Any],
-    folder: Path,
-    source: dict[str, str | float],
-) -> None:
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.figures import curve_figure, save
-
-    with all_or_none(folder) as aside:
-        write_netcdf(dataset, aside / "curve.nc", source)
-        write_csv(dataset, aside / "curve.csv", source)
-        save(curve_figure(curve, law), aside / "curve.png")
-        write_json(record, aside / "summary.json", source)
-
-
-def _tell(curve: Curve, law: PowerLaw | None, surface: Surface, record: dict[str, Any], json: bool) -> None:
-    if json:
-        emit(record)
-    else:
-        print_facts(
-            [("surface", size_of(surface.grid)), ("reduced modulus E*", quantity("modulus", curve.modulus))]
-        )
-        print_table(*curve_table(curve, {name: record[name] for name in COLUMNS if name in record}))
-        print_facts(_law_facts(law, curve))
-    missed = sum(not status.converged for status in curve.status)
-    if missed:
-        note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
-    for line in record["notes"]:
-        note(line)
-
-
-def _law_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
-    facts = [
-        ("saturation", f"{quantity('saturation', curve.saturation)}, every measured cell in contact"),
-        ("largest certificate", f"{curve.residual.max():.1e}"),
-    ]
-    if law is not None:
-        low, high = (quantity("force", end) for end in law.window)
-        text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
-        fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
-        facts = [("power law", text), ("fitted to", fitted), *facts]
-    return facts

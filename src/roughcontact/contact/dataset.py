@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from roughcontact.halfspace.geometry import Geometry
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conductance import Conductors
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
@@ -26,6 +27,7 @@ __all__ = [
     "solution_dataset",
     "solution_record",
     "with_conductance",
+    "with_theories",
 ]
 
 _CURVE_POINTS = (
@@ -164,6 +166,22 @@ def with_conductance(
         )
     found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
     return dataset.assign({name: _variable(name, ("load",), values) for name, values in found.items()})
+
+
+def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:
+    """Return the dataset of a curve with what theories say as further columns along ``load``.
+
+    A column is named by the key of its comparison and the quantity: ``persson_contact_area``. Where a theory does not
+    hold it is NaN.
+    """
+    columns = {}
+    for key, comparison in comparisons.items():
+        for quantity, values in comparison.predicted.items():
+            attributes = dict(dataset[quantity].attrs)
+            attributes["long_name"] = f"{attributes['long_name']}, by {comparison.name}"
+            attributes["references"] = comparison.source
+            columns[f"{key.replace('-', '_')}_{quantity}"] = (("load",), values, attributes)
+    return dataset.assign(columns)
 
 
 def _variable(

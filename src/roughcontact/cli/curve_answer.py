@@ -1,0 +1,165 @@
+"""What the verb ``curve`` answers: on the screen, as JSON, and in files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli.conductance import COLUMNS
+from roughcontact.cli.errors import note, plain
+from roughcontact.cli.output import all_or_none, command_line
+from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, size_of
+from roughcontact.cli.theory import deviations
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.contact.compare import Comparison
+    from roughcontact.contact.conductance import Conductors
+    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.surface.surface import Surface
+    from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["CurveAnswer"]
+
+
+@dataclass(frozen=True)
+class CurveAnswer:
+    """A computed curve and what was asked to stand beside it.
+
+    Parameters
+    ----------
+    curve : Curve
+    surface : Surface
+        What was pressed.
+    file : Path
+        Where it comes from.
+    tolerance : float
+        That was asked for.
+    notes : tuple of str
+        On the last load.
+    laws : mapping of str to LoadingLaw
+        Theories, by the names they were asked for.
+    conductors : Conductors or None
+        The conducting bodies.
+    """
+
+    curve: Curve
+    surface: Surface
+    file: Path
+    tolerance: float
+    notes: tuple[str, ...]
+    laws: Mapping[str, LoadingLaw]
+    conductors: Conductors | None
+
+    @property
+    def converged(self) -> bool:
+        """Whether every load met the tolerance."""
+        return all(status.converged for status in self.curve.status)
+
+    @cached_property
+    def fit(self) -> PowerLaw | None:
+        """The power law through the resolved points, if they allow one."""
+        try:
+            return self.curve.fit()
+        except ValueError as error:
+            note(f"no power law: {error}")
+            return None
+
+    @cached_property
+    def comparisons(self) -> dict[str, Comparison]:
+        """The curve beside each theory."""
+        return {key: self.curve.compare(law) for key, law in self.laws.items()}
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """The curve with the columns of theories and conductance."""
+        from roughcontact.contact.dataset import curve_dataset, with_conductance, with_theories
+
+        dataset = with_theories(curve_dataset(self.curve), self.comparisons)
+        return dataset if self.conductors is None else with_conductance(dataset, self.conductors)
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """The answer as plain values."""
+        from roughcontact.contact.dataset import curve_record, plain_values
+
+        conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
+        record = {
+            "verb": "curve",
+            "file": plain(str(self.file)),
+            "surface": list(self.surface.provenance),
+            **curve_record(self.curve),
+            **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
+            "fit": None if self.fit is None else _fit_record(self.fit),
+            "theories": {key: each.to_record() for key, each in self.comparisons.items()},
+            "tolerance": self.tolerance,
+            "converged": self.converged,
+            "notes": list(self.notes),
+        }
+        record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
+        return record
+
+    def write(self, folder: Path, control: str) -> None:
+        """Write NetCDF, CSV, picture and summary into a folder: all of them or none."""
+        from roughcontact.files.provenance import provenance
+        from roughcontact.files.write import write_csv, write_json, write_netcdf
+        from roughcontact.plot.figures import curve_figure, save
+
+        source = provenance(
+            self.surface,
+            modulus=self.curve.modulus,
+            control=control,
+            tolerance=self.tolerance,
+            command=command_line(),
+        )
+        with all_or_none(folder) as aside:
+            write_netcdf(self.dataset, aside / "curve.nc", source)
+            write_csv(self.dataset, aside / "curve.csv", source)
+            save(curve_figure(self.curve, self.fit, tuple(self.laws.values())), aside / "curve.png")
+            write_json(self.record, aside / "summary.json", source)
+
+    def tell(self, json: bool) -> None:
+        """Print the answer on standard output, and what a reader should know on standard error."""
+        curve = self.curve
+        if json:
+            emit(self.record)
+        else:
+            modulus = quantity("modulus", curve.modulus)
+            print_facts([("surface", size_of(self.surface.grid)), ("reduced modulus E*", modulus)])
+            columns = {name: self.record[name] for name in COLUMNS if name in self.record}
+            print_table(*curve_table(curve, columns))
+            print_facts(_fit_facts(self.fit, curve))
+            if self.comparisons:
+                print_facts(deviations(self.comparisons))
+        missed = sum(not status.converged for status in curve.status)
+        if missed:
+            note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
+        for line in self.notes:
+            note(line)
+
+
+def _fit_record(law: PowerLaw) -> dict[str, Any]:
+    return {
+        "exponent": float(law.exponent),
+        "prefactor": float(law.prefactor),
+        "scatter": float(law.scatter),
+        "window": [float(end) for end in law.window],
+        "count": int(law.count),
+    }
+
+
+def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
+    facts = [
+        ("saturation", f"{quantity('saturation', curve.saturation)}, every measured cell in contact"),
+        ("largest certificate", f"{curve.residual.max():.1e}"),
+    ]
+    if law is not None:
+        low, high = (quantity("force", end) for end in law.window)
+        text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
+        fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
+        facts = [("power law", text), ("fitted to", fitted), *facts]
+    return facts

@@ -1,0 +1,235 @@
+"""The discrete asperity model: each summit of a surface a Hertz contact that pushes all others down.
+
+Ciavarella, Delfine and Demelio (J. Mech. Phys. Solids 54, 2569 (2006); thesis, figs 31 and 32). Where a summit is, how
+high and how round is taken from the surface itself; around its contact it sinks the half-space like a point force.
+Without interaction it is Greenwood and Williamson's theory of this one surface.
+
+The model is one of separate spots. Its error is of the order (a/r)^3 of the depth, a the radius of a spot and r
+the distance of its neighbour. What it says of merged spots is a guess, and `AsperityContact.merged` counts them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.asperity_balance import balance, independent_depth
+from roughcontact.theory.domain import positive, require
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["Asperities", "AsperityContact", "law", "press"]
+
+Array = npt.NDArray[np.float64]
+
+SOURCE = "Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54, 2569 (2006)"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Asperities:
+    """Summits of a surface on an elastic half-space.
+
+    Parameters
+    ----------
+    x, y : array, shape (n,)
+        Where they are [m]. From the summits of a surface: columns and rows times the spacing.
+    height : array, shape (n,)
+        Above any common plane [m].
+    radius : array, shape (n,)
+        Radius of curvature [m].
+    modulus : float
+        Reduced modulus E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the arrays are not of one length, not finite, a radius is not positive, or two summits are in one place.
+    """
+
+    x: Array
+    y: Array
+    height: Array
+    radius: Array
+    modulus: float
+
+    def __post_init__(self) -> None:
+        for name in ("x", "y", "height", "radius"):
+            given = np.array(getattr(self, name), dtype=np.float64, ndmin=1)
+            require(np.isfinite(given), f"{name} must be finite [m]")
+            require(
+                given.ndim == 1 and given.size > 0 and given.size == np.size(self.x),
+                f"x, y, height and radius must be of one length above 0, not {name} of shape {given.shape}",
+            )
+            object.__setattr__(self, name, given)
+        positive(self.radius, "a radius [m]")
+        positive(self.modulus, "the reduced modulus [Pa]")
+        places = np.unique(np.stack([self.x, self.y]), axis=1)
+        require(places.shape[1] == self.x.size, "two summits are in the same place: leave the lower one out")
+
+    @property
+    def fall(self) -> Array:
+        """Of each summit below the highest one [m], shape (n,)."""
+        return np.asarray(self.height.max() - self.height)
+
+    @property
+    def coefficient(self) -> Array:
+        """Of Hertz' law, force over compression to the power 3/2 [N/m^1.5], shape (n,)."""
+        return np.asarray(4 / 3 * self.modulus * np.sqrt(self.radius))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AsperityContact:
+    """Summits pressed by a flat.
+
+    Attributes
+    ----------
+    asperities : Asperities
+    compression : array, shape (n,)
+        Of each summit against the half-space around it [m]; 0 where it does not touch.
+    depth : float
+        How far the flat has come since it touched the highest summit [m].
+    stiffness : float
+        dF/dd at the frozen contact [N/m]. With interaction that of the bodies' approach, as in thesis eq. 4.1; without,
+        that of the summits alone, an interfacial stiffness.
+    interaction : bool
+        Whether summits push each other down.
+    """
+
+    asperities: Asperities
+    compression: Array
+    depth: float
+    stiffness: float
+    interaction: bool
+
+    @property
+    def forces(self) -> Array:
+        """Force on each summit [N], shape (n,)."""
+        return self.asperities.coefficient * self.compression**1.5
+
+    @property
+    def spot_radius(self) -> Array:
+        """Radius of each contact spot [m], shape (n,)."""
+        return np.asarray(np.sqrt(self.asperities.radius * self.compression))
+
+    @property
+    def force(self) -> float:
+        """Total force [N]."""
+        return float(self.forces.sum())
+
+    @property
+    def plane(self) -> float:
+        """Height of the flat, counted like those of the summits [m]."""
+        return float(self.asperities.height.max()) - self.depth
+
+    @property
+    def contact_area(self) -> float:
+        """Sum of the areas of all spots [m^2]; what merged ones share counts twice."""
+        return float(np.pi * (self.asperities.radius * self.compression).sum())
+
+    @property
+    def count(self) -> int:
+        """Number of summits in contact."""
+        return int((self.compression > 0).sum())
+
+    @property
+    def elastic_energy(self) -> float:
+        """Work done by the flat [J]: 2/5 of force times compression, and half of force times deflection."""
+        touching = self.compression > 0
+        forces, compression = self.forces[touching], self.compression[touching]
+        deflection = self.depth - self.asperities.fall[touching] - compression
+        return float(forces @ (0.4 * compression + 0.5 * deflection * self.interaction))
+
+    @property
+    def merged(self) -> int:
+        """Number of spots that overlap another one: where it is not 0, the model is outside its domain."""
+        touching = self.compression > 0
+        x, y, a = self.asperities.x[touching], self.asperities.y[touching], self.spot_radius[touching]
+        apart = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2 >= (a[:, None] + a) ** 2
+        np.fill_diagonal(apart, True)
+        return int((~apart).any(axis=1).sum())
+
+
+def press(
+    asperities: Asperities,
+    *,
+    force: float | None = None,
+    depth: float | None = None,
+    interaction: bool = True,
+) -> AsperityContact:
+    """Press a flat against summits.
+
+    Parameters
+    ----------
+    asperities : Asperities
+        A few thousand of them in contact at most: their mutual influence is a dense matrix.
+    force, depth : float
+        One of the two: the total force [N], or how far the flat comes since first touch [m].
+    interaction : bool
+        Whether summits push each other down.
+
+    Returns
+    -------
+    AsperityContact
+
+    Raises
+    ------
+    ValueError
+        If not exactly one of force and depth is given, or it is not positive, or too many summits are in reach.
+    RuntimeError
+        If the balance is not met, which has not been seen of separate spots.
+
+    Notes
+    -----
+    Every summit is in balance: ``compression = depth - fall - sum_j F_j/(pi E* r_j)``, or its force is 0 if that is
+    negative. Inside the spot of another summit r is taken as the radius of the spot.
+    """
+    if (force is None) == (depth is None):
+        raise ValueError("give either a force [N] or a depth [m]")
+    if force is not None:
+        depth = float(independent_depth(asperities, np.atleast_1d(positive(force, "the force [N]")))[0])
+    depth = float(positive(depth or 0.0, "the depth [m]"))
+    if interaction:
+        return AsperityContact(asperities, *balance(asperities, depth, force), interaction)
+    compression = np.maximum(depth - asperities.fall, 0.0)
+    stiffness = float(2 * asperities.modulus * np.sqrt(asperities.radius * compression).sum())
+    return AsperityContact(asperities, compression, depth, stiffness, interaction)
+
+
+def law(asperities: Asperities, *, interaction: bool = True) -> LoadingLaw:
+    """Return the model as functions of the force.
+
+    Parameters
+    ----------
+    asperities : Asperities
+    interaction : bool
+        See `press`.
+
+    Returns
+    -------
+    LoadingLaw
+        "contact_area", "spots" and "elastic_energy"; with interaction "depth" and "stiffness", those of the approach of
+        the bodies, without it "interfacial_stiffness" alone, since nothing lies beneath the summits. Each call
+        solves for all forces again. The law has no upper force: `AsperityContact.merged` tells where spots merge.
+    """
+
+    def of(quantity: Callable[[AsperityContact], float]) -> Callable[[Array], Array]:
+        def values(force: Array) -> Array:
+            return np.array(
+                [quantity(press(asperities, force=one, interaction=interaction)) for one in force]
+            )
+
+        return values
+
+    quantities = {
+        "contact_area": of(lambda contact: contact.contact_area),
+        "spots": of(lambda contact: contact.count),
+        "elastic_energy": of(lambda contact: contact.elastic_energy),
+        "stiffness" if interaction else "interfacial_stiffness": of(lambda contact: contact.stiffness),
+    }
+    if interaction:
+        quantities["depth"] = of(lambda contact: contact.depth)
+    name = "Interacting asperities" if interaction else "Independent asperities"
+    return LoadingLaw(name, SOURCE, quantities, domain=(math.ulp(0.0), math.inf))

@@ -1,0 +1,140 @@
+"""Newton's method for the balance of summits that push each other down.
+
+Unknown is the compression w of every summit, signed: ``w_i + sum_j F_j/(pi E* r_ij) + fall_i - d = 0`` with
+``F_j = (4/3) E* sqrt(R_j) max(w_j, 0)^(3/2)``, its fall below the highest summit, and the depth d of the flat. Where
+w is negative a summit does not touch and -w is its gap, so that one smooth equation holds for all of them and no set
+of contacts has to be guessed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.concave_root import concave_root
+from roughcontact.theory.domain import require
+
+if TYPE_CHECKING:
+    from roughcontact.theory.asperities import Asperities
+
+__all__ = ["balance", "independent_depth"]
+
+Array = npt.NDArray[np.float64]
+
+TOLERANCE = 1e-12  # of the balance over the depth of the flat, and of the force
+STEPS = 60
+SHORTEST = 1e-4  # of a Newton step
+MOST = 5e7  # numbers in the matrix of influences, 0.4 GB
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _State:
+    """A trial: compressions and the depth of the flat, and how far they are from balance."""
+
+    compression: Array  # w, signed, shape (n,)
+    depth: float
+    touching: npt.NDArray[np.intp]  # indices, shape (m,)
+    influence: Array  # of the compression of a touching summit on the deflection of any other, shape (n, m)
+    rate: Array  # dF/dw = 2 E* a, shape (m,)
+    excess: Array  # left side of the balance, shape (n,)
+    missing: float  # force still to be found
+    error: float
+
+
+def balance(asperities: Asperities, depth: float, force: float | None = None) -> tuple[Array, float, float]:
+    """Return the compression of each summit (0 without contact) [m], the depth of the flat [m], and dF/dd [N/m].
+
+    Parameters
+    ----------
+    asperities : Asperities
+    depth : float
+        Of the flat since it touched the highest summit [m]; with a force only a first guess.
+    force : float, optional
+        What the summits are to carry together [N].
+
+    Raises
+    ------
+    ValueError
+        If so many summits are in reach that their influences do not fit into memory.
+    RuntimeError
+        If the iteration does not settle.
+    """
+    state = _state(asperities, depth - asperities.fall, depth, force)
+    for _ in range(STEPS):
+        touching = state.touching
+        tangent = state.influence[touching] + np.eye(touching.size)
+        sides = np.stack([-state.excess[touching], np.ones(touching.size)], axis=1)
+        own, with_flat = np.linalg.solve(tangent, sides).T
+        stiffness = float(state.rate @ with_flat)
+        if state.error <= TOLERANCE:
+            return np.maximum(state.compression, 0.0), state.depth, stiffness
+        deeper = 0.0 if force is None else float(state.missing - state.rate @ own) / stiffness
+        change = own + deeper * with_flat
+        step = deeper - state.excess - state.influence @ change
+        step[touching] = change
+        state = _search(asperities, state, step, deeper, force)
+    raise RuntimeError(
+        f"the balance of {asperities.fall.size} summits was met to {state.error:.2g} instead of {TOLERANCE:g} "
+        f"in {STEPS} steps: spots have probably merged; use a smaller load"
+    )
+
+
+def independent_depth(asperities: Asperities, force: Array) -> Array:
+    """Return the depths of the flat [m] at which summits without interaction carry the forces [N], shape (m,)."""
+    fall, coefficient = asperities.fall, asperities.coefficient
+
+    def minus_force(depth: Array) -> tuple[Array, Array]:
+        excess = np.maximum(depth[:, None] - fall, 0.0)
+        return -(excess**1.5 @ coefficient), -1.5 * (np.sqrt(excess) @ coefficient)
+
+    # The highest summit alone would take it at a larger depth.
+    start = (force / coefficient[np.argmin(fall)]) ** (2 / 3)
+    return concave_root(minus_force, -force, start, scale=0.0)
+
+
+def _state(asperities: Asperities, compression: Array, depth: float, force: float | None) -> _State:
+    modulus = asperities.modulus
+    touching = np.flatnonzero(compression > 0)
+    require(
+        touching.size * compression.size <= MOST,
+        f"{touching.size} of {compression.size} summits are in reach of the flat: take a smaller load, or a surface "
+        "without its shortest waves",
+    )
+    w, radius = compression[touching], asperities.radius[touching]
+    spot = np.sqrt(radius * w)
+    forces = asperities.coefficient[touching] * w**1.5
+    dx = asperities.x[:, None] - asperities.x[touching]
+    dy = asperities.y[:, None] - asperities.y[touching]
+    distance = np.sqrt(dx**2 + dy**2)
+    distance[touching, np.arange(touching.size)] = np.inf  # its own share is w
+    inside = distance < spot
+    influence = np.divide(1 / (math.pi * modulus), distance, out=distance)
+    # Inside a spot r stops at its rim. The deflection there, F/(pi E* a), is linear in w. With 1/r instead, of two
+    # near summits either one could carry all, and nothing would decide between them.
+    deflection = np.minimum(influence, 1 / (math.pi * modulus * spot)) @ forces
+    excess = compression + deflection + asperities.fall - depth
+    rate = 2 * modulus * spot
+    influence *= rate
+    influence[inside] = 4 / (3 * math.pi)
+    missing = 0.0 if force is None else force - float(forces.sum())
+    # Of a summit that does not touch only this matters: whether it should.
+    off = np.maximum(compression - excess, 0.0)
+    off[touching] = np.abs(excess[touching])
+    error = float(off.max()) / abs(depth)
+    if force is not None:
+        error = max(error, abs(missing) / force)
+    return _State(compression, depth, touching, influence, rate, excess, missing, error)
+
+
+def _search(asperities: Asperities, state: _State, step: Array, deeper: float, force: float | None) -> _State:
+    """Return the first of ever shorter steps that comes nearer to balance."""
+    length = 1.0
+    while True:
+        trial = _state(asperities, state.compression + length * step, state.depth + length * deeper, force)
+        if length < SHORTEST or (trial.touching.size and trial.error <= (1 - 1e-3 * length) * state.error):
+            return trial
+        length /= 2

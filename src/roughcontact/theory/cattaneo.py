@@ -1,0 +1,113 @@
+"""Partial slip of a sphere under constant normal and rising or oscillating tangential force.
+
+Cattaneo (1938) and Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2. Slip is taken to go along the
+force: exact if Poisson's ratio is 0; else slip turns aside by a part of order nu/(2 - nu), which is neglected.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.theory.domain import Array, positive, require
+
+__all__ = ["SlippingSphere"]
+
+
+@dataclass(frozen=True, slots=True)
+class SlippingSphere:
+    """A sphere pressed by a constant force and pulled sideways by Q, at most mu P.
+
+    Parameters
+    ----------
+    force : float
+        Normal force P [N].
+    radius : float
+        Radius R [m]; of two spheres 1/R = 1/R1 + 1/R2.
+    modulus : float
+        Reduced modulus E* [Pa].
+    friction : float
+        Coefficient of friction mu [-].
+    ratio : float
+        E*/G* [-], see `mindlin.ratio`.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+    """
+
+    force: float
+    radius: float
+    modulus: float
+    friction: float
+    ratio: float
+
+    def __post_init__(self) -> None:
+        for name in ("force", "radius", "modulus", "friction", "ratio"):
+            positive(getattr(self, name), f"the {name}")
+
+    @property
+    def contact_radius(self) -> float:
+        """Radius a of the contact [m], which Q does not change."""
+        return math.cbrt(3 * self.force * self.radius / (4 * self.modulus))
+
+    @property
+    def depth(self) -> float:
+        """Indentation depth a^2/R [m]."""
+        return self.contact_radius**2 / self.radius
+
+    @property
+    def peak_pressure(self) -> float:
+        """Pressure at the centre [Pa]."""
+        return 2 * self.contact_radius * self.modulus / (math.pi * self.radius)
+
+    @property
+    def gross_slip(self) -> float:
+        """Displacement at Q = mu P [m], beyond which nothing holds."""
+        return self.friction * self.ratio * self.depth
+
+    def stick_radius(self, tangential: float | Array) -> Array:
+        """Return the radius c = a (1 - Q/(mu P))^(1/3) of the disc that sticks [m] under Q [N]."""
+        return np.asarray(self.contact_radius * (1 - self._part(tangential)) ** (1 / 3))
+
+    def traction(self, distance: float | Array, tangential: float) -> Array:
+        """Return the traction q [Pa] at a distance from the centre [m]."""
+        r, a = positive(distance, "the distance [m]", zero=True), self.contact_radius
+        c = float(self.stick_radius(tangential))
+        # c sqrt(1 - r^2/c^2), without a division by a vanishing c
+        full, held = (np.sqrt(np.maximum(edge**2 - r**2, 0)) / a for edge in (a, c))
+        return np.asarray(self.friction * self.peak_pressure * (full - held))
+
+    def displacement(self, tangential: float | Array) -> Array:
+        """Return the tangential displacement [m] as Q [N] rises from zero."""
+        f = self._part(tangential)
+        y = (1 - f) ** (1 / 3)
+        # 1 - y^2, exact for small f = 1 - y^3
+        return np.asarray(self.gross_slip * f * (1 + y) / (1 + y + y**2))
+
+    def reversed_displacement(self, tangential: float | Array, turned: float) -> Array:
+        """Return the displacement [m] as Q [N] falls after it had risen to `turned` [N], down to -`turned`."""
+        fall = (turned - np.asarray(tangential, dtype=np.float64)) / 2
+        return np.asarray(self.displacement(turned) - 2 * self.displacement(fall))
+
+    def stiffness(self, tangential: float | Array) -> Array:
+        """Return dQ/d displacement = 2 G* c [N/m] as Q [N] rises from zero."""
+        return np.asarray(2 * self.modulus / self.ratio * self.stick_radius(tangential))
+
+    def cycle_loss(self, amplitude: float | Array) -> Array:
+        """Return the work [J] that friction takes in a cycle between +Q and -Q [N]."""
+        f = self._part(amplitude)
+        y = (1 - f) ** (1 / 3)
+        # 1 - y^5 - (5/6) (1 - y^3) (1 + y^2), without its cancellation at small f = 1 - y^3
+        part = (f / (1 + y + y**2)) ** 3 * (1 + 3 * y + y**2) / 6
+        scale = (self.friction * self.force) ** 2 * self.ratio / (self.contact_radius * self.modulus)
+        return np.asarray(18 / 5 * scale * part)
+
+    def _part(self, tangential: float | Array) -> Array:
+        part = positive(tangential, "the tangential force [N]", zero=True) / (self.friction * self.force)
+        top = self.friction * self.force
+        require(part <= 1, f"a tangential force above mu P = {top:g} N is not to be had: the sphere slides")
+        return part

@@ -1,0 +1,160 @@
+"""Electrical and thermal conductance of a contact from its stiffness, and back: an exact analogy.
+
+Potential and temperature obey the same equation as the displacement under normal pressure. In the same contact
+region ``k/E* = Lambda_e (rho1 + rho2)/2`` (thesis, eq. 4.2) and ``k/E* = Lambda_t (1/lambda1 + 1/lambda2)/2``: eq. 4.4
+and with it 7.3 are printed with an arithmetic mean of conductivities where the harmonic one belongs (Barber,
+Proc. R. Soc. A 459, 53 (2003)).
+
+The stiffness against the approach gives the conductance of the whole, the constriction towards the contact as a
+whole included; that against the mean gap the share of the interface, ``h A0 = lambda K/E*``. Current and
+heat cross in the contact region only: no film, no gas, no radiation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = [
+    "electrical",
+    "harmonic_mean",
+    "law",
+    "resistance",
+    "stiffness_from_electrical",
+    "stiffness_from_thermal",
+    "thermal",
+]
+
+Pair = tuple[float, float]
+
+
+def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) -> Array:
+    """Return the electrical conductance Lambda_e [S] (thesis, eq. 4.2).
+
+    Parameters
+    ----------
+    stiffness : float or array
+        k [N/m]; per nominal area [Pa/m] the conductance is one per area, too.
+    modulus : float
+        Reduced modulus E* [Pa] of the computation of k, whatever bodies it belongs to.
+    resistivities : tuple of float
+        rho of both bodies [ohm m]; 0 for a superconductor.
+
+    Raises
+    ------
+    ValueError
+        If a number is negative, or both bodies are superconductors: then nothing limits the current.
+    """
+    first, second = _not_negative(resistivities, "a resistivity [ohm m]")
+    require(first + second > 0, "between two bodies without resistivity the conductance has no limit")
+    return np.asarray(_lengths(stiffness, modulus) * 2 / (first + second))
+
+
+def stiffness_from_electrical(conductance: float | Array, modulus: float, resistivities: Pair) -> Array:
+    """Return the stiffness k [N/m] of the contact with an electrical conductance [S] (thesis, eq. 4.2)."""
+    return _inverse(electrical, conductance, modulus, resistivities)
+
+
+def thermal(stiffness: float | Array, modulus: float, conductivities: Pair) -> Array:
+    """Return the thermal conductance Lambda_t [W/K], ``k/E*`` times the harmonic mean (thesis, eq. 4.4 corrected).
+
+    Parameters
+    ----------
+    stiffness, modulus
+        See `electrical`.
+    conductivities : tuple of float
+        Thermal conductivity lambda of both bodies [W/(m K)]; 0 for an insulator, infinite for an isothermal body.
+    """
+    return np.asarray(_lengths(stiffness, modulus) * harmonic_mean(conductivities))
+
+
+def stiffness_from_thermal(conductance: float | Array, modulus: float, conductivities: Pair) -> Array:
+    """Return the stiffness k [N/m] of the contact with a thermal conductance [W/K] (thesis, eq. 4.4 corrected)."""
+    return _inverse(thermal, conductance, modulus, conductivities)
+
+
+def harmonic_mean(conductivities: Pair) -> float:
+    """Return the conductivity of two bodies in series, ``2/(1/lambda1 + 1/lambda2)`` [W/(m K)]."""
+    given = _not_negative(conductivities, "a conductivity [W/(m K)]")
+    require(
+        np.isfinite(given).any(), "between two bodies of infinite conductivity the conductance has no limit"
+    )
+    with np.errstate(divide="ignore"):
+        return float(2 / np.sum(1 / given))
+
+
+def resistance(conductance: float | Array) -> Array:
+    """Return 1/conductance: ohm of S, K/W of W/K, m^2 K/W of W/(m^2 K); infinite of 0."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(1 / _not_negative(conductance, "a conductance"))
+
+
+def law(
+    mechanical: LoadingLaw,
+    modulus: float,
+    *,
+    resistivities: Pair | None = None,
+    conductivities: Pair | None = None,
+    quantity: str = "stiffness",
+) -> LoadingLaw:
+    """Return the conductances that belong to the stiffness of another law (thesis, eq. 7.3 with 4.4 corrected).
+
+    Parameters
+    ----------
+    mechanical : LoadingLaw
+        That predicts a stiffness.
+    modulus : float
+        Reduced modulus E* [Pa] of that law.
+    resistivities, conductivities : tuple of float, optional
+        Of both bodies, at least one of the two pairs; see `electrical` and `thermal`.
+    quantity : str
+        ``"stiffness"`` for the conductance of the whole, ``"interfacial_stiffness"`` for that of the interface.
+
+    Returns
+    -------
+    LoadingLaw
+        Of ``"electrical_conductance"`` [S] and ``"thermal_conductance"`` [W/K], what was asked for.
+
+    Raises
+    ------
+    ValueError
+        If neither pair is given, or the law knows no such stiffness.
+    """
+    if quantity not in mechanical.quantities:
+        raise ValueError(f"{mechanical.name} has no {quantity!r}; it has {sorted(mechanical.quantities)}")
+    stiffness = mechanical.quantities[quantity]
+    quantities: dict[str, Callable[[Array], Array]] = {}
+    if resistivities is not None:
+        electrical(0.0, modulus, resistivities)
+        quantities["electrical_conductance"] = lambda f: electrical(stiffness(f), modulus, resistivities)
+    if conductivities is not None:
+        thermal(0.0, modulus, conductivities)
+        quantities["thermal_conductance"] = lambda f: thermal(stiffness(f), modulus, conductivities)
+    if not quantities:
+        raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
+    return LoadingLaw(mechanical.name, mechanical.source, quantities, mechanical.domain)
+
+
+def _lengths(stiffness: float | Array, modulus: float) -> Array:
+    """Return k/E* [m], twice the radius of the equivalent spot: all of the mechanics that is in a conductance."""
+    return _not_negative(stiffness, "a stiffness [N/m]") / positive(modulus, "the modulus [Pa]")
+
+
+def _inverse(
+    forward: Callable[[float, float, Pair], Array], conductance: float | Array, modulus: float, pair: Pair
+) -> Array:
+    unit = float(forward(1.0, modulus, pair))
+    require(unit > 0, "next to an insulator no stiffness has a conductance")
+    return _not_negative(conductance, "a conductance") / unit
+
+
+def _not_negative(values: npt.ArrayLike, what: str) -> Array:
+    """Return numbers from 0 to infinity: full contact is infinitely stiff, and there are insulators."""
+    given = np.asarray(values, dtype=np.float64)
+    require(given >= 0, f"{what} must not be negative or missing, not {values!r}")
+    return given

@@ -1,0 +1,116 @@
+"""White heights on springs: the stiffness of rough lines of low Hurst exponent in closed form.
+
+For H below about -1/4 the heights of a rough line are as good as independent and Gaussian. Pressed on the springs
+of the method of dimensionality reduction down to t standard deviations above the mean, with the normal density phi and
+Q = erfc(t/sqrt 2)/2,
+
+    F/(E* h L) = phi(t) - t Q(t),    k/(E* L) = Q(t).
+
+There is no highest peak, so no depth; and no number of grid points, which eq. 4.73 of the thesis has.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import ndtr
+
+from roughcontact.theory.domain import Array, positive
+from roughcontact.theory.inverse import bisect
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["exponent", "force", "law", "stiffness"]
+
+# Higher than the highest of any number of points.
+HIGHEST = 38.0
+
+
+def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    """Return the force when the flat body stands at a level above the mean height [N].
+
+    Parameters
+    ----------
+    level : float or array
+        t, in rms heights; negative below the mean.
+    rms : float or array
+        Root mean square height h [m].
+    length : float or array
+        Length L of the line [m].
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    """
+    t = np.asarray(level, dtype=np.float64)[()]
+    return _scale(length, modulus) * positive(rms, "rms [m]") * _force(t)
+
+
+def stiffness(
+    force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
+) -> Array:
+    """Return the contact stiffness at a force [N/m].
+
+    Parameters
+    ----------
+    force : float or array
+        Normal force F [N].
+    rms, length, modulus : float or array
+        See `force`.
+    """
+    return _scale(length, modulus) * ndtr(-_level(force, rms, length, modulus))
+
+
+def exponent(
+    force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
+) -> Array:
+    """Return the local exponent d ln k/d ln F at a force [-]: it rises towards 1 as the force falls.
+
+    Parameters
+    ----------
+    force, rms, length, modulus : float or array
+        See `stiffness`; the force above 0.
+    """
+    positive(force, "force [N]")
+    t = _level(force, rms, length, modulus)
+    value: Array = _force(t) * _density(t) / ndtr(-t) ** 2
+    return value
+
+
+def law(rms: float, length: float, modulus: float) -> LoadingLaw:
+    """Return the stiffness as a function of force.
+
+    Parameters
+    ----------
+    rms, length, modulus : float
+        See `force`.
+    """
+    # A wrong body is refused now, not at the first force.
+    force(0.0, rms, length, modulus)
+    return LoadingLaw(
+        "White heights on springs",
+        "Gaussian heights in thesis, eq. 4.59",
+        {"stiffness": lambda force: stiffness(force, rms, length, modulus)},
+    )
+
+
+def _force(t: Array) -> Array:
+    """Return F/(E* h L)."""
+    value: Array = _density(t) - t * ndtr(-t)
+    return value
+
+
+def _density(t: Array) -> Array:
+    value: Array = np.exp(-(t**2) / 2) / np.sqrt(2 * np.pi)
+    return value
+
+
+def _level(force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    """Return the t at which the line carries a force."""
+    scale = _scale(length, modulus) * positive(rms, "rms [m]")
+    f = positive(force, "force [N]", zero=True) / scale
+    # phi - t Q falls with t and is nowhere below -t.
+    value: Array = -bisect(lambda minus_t: _force(-minus_t), f, np.asarray(-HIGHEST), f)
+    return value
+
+
+def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    """Return E* L [N/m]."""
+    return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")

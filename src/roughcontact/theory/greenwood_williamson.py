@@ -1,0 +1,234 @@
+"""Greenwood and Williamson's theory: independent asperities of one shape and random height under a flat.
+
+The load is what the asperities above the flat carry, each according to its own excess (Proc. R. Soc. A 295, 300
+(1966); thesis, section 3.1). Nothing here knows of the deformation between asperities: its stiffness is that
+against the distance of the mean planes, an *interfacial* stiffness. See `interaction` for the body underneath.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import gammaln
+
+from roughcontact.theory.concave_root import concave_root
+from roughcontact.theory.domain import positive, require
+from roughcontact.theory.interface import loading_law
+from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.nayak import summits
+from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
+
+__all__ = ["Asperity", "Population", "law", "population"]
+
+Array = npt.NDArray[np.float64]
+
+ROUNDING = 1e-12  # a flat that rests on the lowest asperity has not passed it, whatever its last digit
+SOURCE = "Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966); parameters: McCool, Wear 107, 37 (1986)"
+
+
+@dataclass(frozen=True, slots=True)
+class Asperity:
+    """One asperity: a spring of force ``coefficient * depth**exponent`` (thesis, eq. 3.2).
+
+    Parameters
+    ----------
+    coefficient : float
+        c [N/m^exponent].
+    exponent : float
+        beta, from 1 to 11 [-]: 3/2 of a sphere, 1 + 1/H of a tip of height r^H, 1 of a flat end. A spring that
+        softens is no axisymmetric asperity and has no contact area.
+    modulus : float
+        Reduced modulus E* [Pa].
+    """
+
+    coefficient: float
+    exponent: float
+    modulus: float
+
+    def __post_init__(self) -> None:
+        positive(self.coefficient, "the coefficient of an asperity")
+        positive(self.modulus, "the reduced modulus [Pa]")
+        require(
+            1 <= self.exponent <= 11, f"an asperity's exponent must lie from 1 to 11, not {self.exponent}"
+        )
+
+    @classmethod
+    def hertz(cls, radius: float, modulus: float) -> Asperity:
+        """Return a sphere of the given radius [m] on a body of reduced modulus [Pa]."""
+        return cls(4 / 3 * modulus * math.sqrt(positive(radius, "the radius [m]")), 1.5, modulus)
+
+    @property
+    def area_coefficient(self) -> float:
+        """Of the contact area ``c_A depth**(2 exponent - 2)``, since stiffness is 2 E* times the radius."""
+        return math.pi * (self.coefficient * self.exponent / (2 * self.modulus)) ** 2
+
+
+@dataclass(frozen=True, slots=True)
+class Population:
+    """Asperities of one shape whose heights are random; all results are per nominal area.
+
+    Parameters
+    ----------
+    asperity : Asperity
+        Each of them.
+    density : float
+        Asperities per area [1/m^2].
+    std : float
+        Standard deviation of their heights [m].
+    mean_height : float
+        Mean of their heights above the mean plane of the surface [m]. Separations are counted from that plane.
+    distribution : {"gaussian", "exponential"}
+        Of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at `mean_height - std`.
+    """
+
+    asperity: Asperity
+    density: float
+    std: float
+    mean_height: float = 0.0
+    distribution: Distribution = "gaussian"
+
+    def __post_init__(self) -> None:
+        positive(self.density, "the density of asperities [1/m^2]")
+        positive(self.std, "the standard deviation of asperity heights [m]")
+        require(math.isfinite(self.mean_height), f"mean_height must be finite [m], not {self.mean_height}")
+        require(
+            self.distribution in DISTRIBUTIONS,
+            f"distribution must be one of {sorted(DISTRIBUTIONS)}, not {self.distribution!r}",
+        )
+
+    @property
+    def origin(self) -> float:
+        """Height above the mean plane of the surface from which the distribution counts its heights [m]."""
+        return self.mean_height - (self.std if self.distribution == "exponential" else 0.0)
+
+    @property
+    def lowest(self) -> float:
+        """The smallest separation that the flat may have [m]: that of the lowest exponential height."""
+        return self.origin if self.distribution == "exponential" else -math.inf
+
+    @property
+    def scale(self) -> float:
+        """The length over which pressures change [m]: the standard deviation of heights."""
+        return self.std
+
+    def pressure(self, separation: float | Array) -> Array:
+        """Return the nominal pressure [Pa] at a height of the flat above the mean plane of the surface [m].
+
+        Raises
+        ------
+        ValueError
+            For exponential heights, if the flat lies below the lowest asperity.
+        """
+        return self._above(separation, self.asperity.coefficient, self.asperity.exponent)
+
+    def stiffness(self, separation: float | Array) -> Array:
+        """Return -dp/ds, the interfacial stiffness per nominal area [Pa/m]."""
+        n = self.asperity.exponent
+        return self._above(separation, self.asperity.coefficient * n, n - 1)
+
+    def contact_fraction(self, separation: float | Array) -> Array:
+        """Return the real contact area over the nominal one [-]; above 1 if spots must overlap."""
+        return self._above(separation, self.asperity.area_coefficient, 2 * self.asperity.exponent - 2)
+
+    def spot_density(self, separation: float | Array) -> Array:
+        """Return the number of asperities in contact per area [1/m^2]."""
+        return self._above(separation, 1.0, 0.0)
+
+    def energy(self, separation: float | Array) -> Array:
+        """Return the elastic energy of the asperities per area [J/m^2]: the work of the pressure."""
+        n = self.asperity.exponent
+        return self._above(separation, self.asperity.coefficient / (n + 1), n + 1)
+
+    def separation(self, pressure: float | Array) -> Array:
+        """Return the height of the flat above the mean plane of the surface [m] at a nominal pressure [Pa].
+
+        Without load the flat is at infinity.
+
+        Raises
+        ------
+        ValueError
+            If a pressure is negative. For exponential heights also if it pushes the flat below the lowest asperity.
+        """
+        load = positive(pressure, "the pressure [Pa]", zero=True)
+        n, plane = self.asperity.exponent, np.full(np.shape(load), np.inf)
+        scale = self.density * self.asperity.coefficient * self.std**n
+        plane[load > 0] = self._plane(np.log(load[load > 0] / scale))
+        return np.asarray(self.origin + self.std * plane)
+
+    def _plane(self, log_moment: Array) -> Array:
+        """Return the standardised height t of the flat at which ln F_n(t) has a value, n the asperity's exponent."""
+        n, log_at = self.asperity.exponent, DISTRIBUTIONS[self.distribution]
+        if self.distribution == "exponential":
+            plane = gammaln(n + 1) - log_moment
+            require(
+                plane > -ROUNDING, "this pressure pushes the flat below the lowest of the exponential heights"
+            )
+            return np.asarray(np.maximum(plane, 0.0))
+
+        def log_load(plane: Array) -> tuple[Array, Array]:
+            value = log_at(n, plane)
+            return value, -n * np.exp(log_at(n - 1, plane) - value)
+
+        # F_n(t) is near |t|^n far below the mean and falls like exp(-t^2/2) above.
+        falls = log_at(n, 0.0) - log_moment
+        start = np.where(falls > 0, np.sqrt(2 * np.abs(falls)), -np.exp(log_moment / n))
+        return concave_root(log_load, log_moment, start)
+
+    def _above(self, separation: float | Array, coefficient: float, order: float) -> Array:
+        """Return the mean per area of ``coefficient * excess**order`` over the asperities above the flat."""
+        plane = (np.asarray(separation, dtype=np.float64) - self.origin) / self.std
+        if self.distribution == "exponential":
+            plane = np.where(np.abs(plane) < ROUNDING, 0.0, plane)
+        moment = np.exp(DISTRIBUTIONS[self.distribution](order, plane))
+        return np.asarray(self.density * coefficient * self.std**order * moment)
+
+
+def population(
+    moments: ProfileMoments, modulus: float, *, distribution: Distribution = "gaussian"
+) -> Population:
+    """Return the spheres that stand for the summits of a surface (McCool 1986; see `nayak.summits`).
+
+    Parameters
+    ----------
+    moments : ProfileMoments
+        Of an isotropic Gaussian surface.
+    modulus : float
+        Reduced modulus E* [Pa].
+    distribution : {"gaussian", "exponential"}
+        Of the summit heights; both with the mean and the standard deviation that follow from the moments.
+    """
+    mean = summits(moments)
+    sphere = Asperity.hertz(mean.radius, modulus)
+    return Population(sphere, mean.density, mean.std, mean.mean_height, distribution)
+
+
+def law(
+    moments: ProfileMoments, modulus: float, area: float, *, distribution: Distribution = "gaussian"
+) -> LoadingLaw:
+    """Return the theory for a surface with these moments, as functions of the force.
+
+    Parameters
+    ----------
+    moments, modulus, distribution
+        See `population`.
+    area : float
+        Nominal area A0 [m^2].
+
+    Returns
+    -------
+    LoadingLaw
+        "interfacial_stiffness", "contact_area", "mean_gap", "spots" and "elastic_energy". With exponential
+        heights the stiffness is F/std (thesis, eq. 3.9). No "stiffness": that takes the compliance of the body,
+        see `interaction`.
+
+    Raises
+    ------
+    ValueError
+        If the moments are not those of an isotropic Gaussian surface.
+    """
+    asperities = population(moments, modulus, distribution=distribution)
+    return loading_law(asperities, area, name="Greenwood-Williamson", source=SOURCE)

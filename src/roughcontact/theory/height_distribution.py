@@ -1,0 +1,256 @@
+"""Force and stiffness of a line on springs, from the distribution of its heights (thesis, section 4.5.2).
+
+In the method of dimensionality reduction the springs under a rough line take no note of each other. So the force
+follows from the density Phi(z) of heights alone, z measured downwards from the highest peak (thesis, eq. 4.59):
+
+    F(u) = E* L int_0^u Phi(z) (u - z) dz,    k(u) = E* L int_0^u Phi(z) dz.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+from scipy.integrate import quad
+from scipy.interpolate import PPoly
+
+from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.inverse import bisect
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = [
+    "HeightDistribution",
+    "density_exponent",
+    "from_density",
+    "from_samples",
+    "legacy_density_exponent",
+    "legacy_stiffness_exponent",
+    "stiffness_exponent",
+]
+
+# What an integral of a density may miss, relative to its value.
+PRECISION = 1e-8
+# A depth [m] beyond which no force is looked for.
+FARTHEST = 1e300
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeightDistribution:
+    """Heights of a line below its highest peak, as two integrals of their density.
+
+    Parameters
+    ----------
+    name : str
+        For legends.
+    fraction : callable
+        int_0^u Phi(z) dz [-]: the part of the line above the depth u [m]; array in, array out.
+    excess : callable
+        int_0^u Phi(z) (u - z) dz [m]: how far the line reaches above the depth u in the mean; array in, array out.
+    source : str
+        Equation.
+    """
+
+    name: str
+    fraction: Callable[[Array], Array]
+    excess: Callable[[Array], Array]
+    source: str = "thesis, eq. 4.59"
+
+    def force(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+        """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59)."""
+        u = positive(depth, "depth [m]", zero=True)
+        return _scale(length, modulus) * self.excess(u)
+
+    def stiffness(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+        """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61)."""
+        u = positive(depth, "depth [m]", zero=True)
+        return _scale(length, modulus) * self.fraction(u)
+
+    def depth(self, force: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+        """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`."""
+        wanted = positive(force, "force [N]", zero=True) / _scale(length, modulus)
+        loaded = wanted > 0
+        # No line carries more than its length times the depth.
+        low, high = np.where(loaded, wanted, 1.0), np.where(loaded, wanted, 1.0)
+        while (short := loaded & (self.excess(high) < wanted)).any():
+            low, high = np.where(short, high, low), np.where(short, 2 * high, high)
+            require(high < FARTHEST, "no depth gives this force: the density has no heights near the peak")
+        value: Array = np.where(loaded, bisect(self.excess, wanted, low, high), 0.0)[()]
+        return value
+
+    def law(self, length: float, modulus: float) -> LoadingLaw:
+        """Return stiffness and depth as functions of force: the exact k(F) of these heights on springs.
+
+        Parameters
+        ----------
+        length : float
+            Length L of the line [m].
+        modulus : float
+            Reduced modulus E* [Pa].
+        """
+        # A wrong body is refused now, not at the first force.
+        _scale(length, modulus)
+        return LoadingLaw(
+            self.name,
+            self.source,
+            {
+                "stiffness": lambda force: self.stiffness(
+                    self.depth(force, length, modulus), length, modulus
+                ),
+                "depth": lambda force: self.depth(force, length, modulus),
+            },
+        )
+
+
+def from_density(
+    density: Callable[[float], float], *, name: str = "Heights", breaks: Sequence[float] = ()
+) -> HeightDistribution:
+    """Return the distribution with a given density.
+
+    Parameters
+    ----------
+    density : callable
+        Phi(z) [1/m] at a depth z > 0 below the highest peak [m]: a number in, a number out. It may have a root
+        singularity at 0.
+    name : str
+        For legends.
+    breaks : sequence of float
+        Depths [m] where the density jumps or is singular, such as its end.
+
+    Raises
+    ------
+    ValueError
+        When evaluated: if an integral cannot be had to a relative error of 1e-8, for want of `breaks`.
+    """
+    inner = sorted(float(positive(z, "breaks [m]")) for z in breaks)
+
+    def integral(weight: Callable[[float, float], float]) -> Callable[[Array], Array]:
+        def at(u: float) -> float:
+            ends = [0.0, *(z for z in inner if z < u), u]
+            return math.fsum(_integral(lambda z: density(z) * weight(u, z), *part) for part in pairwise(ends))
+
+        many = np.vectorize(at, otypes=[np.float64])
+        return lambda u: many(u)[()]
+
+    return HeightDistribution(name, integral(lambda u, z: 1.0), integral(lambda u, z: u - z))
+
+
+def from_samples(
+    depth: npt.ArrayLike, density: npt.ArrayLike, *, name: str = "Heights"
+) -> HeightDistribution:
+    """Return the distribution whose density is sampled, and linear between the samples.
+
+    Parameters
+    ----------
+    depth : array
+        Increasing depths z >= 0 below the highest peak [m], shape (n,).
+    density : array
+        Phi(z) [1/m], shape (n,); taken as 0 before the first depth and after the last.
+    name : str
+        For legends.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ, the depths do not increase, or a number is negative.
+    """
+    z, phi = positive(depth, "depth [m]", zero=True), positive(density, "density [1/m]", zero=True)
+    require(
+        z.ndim == 1 and z.shape == phi.shape and len(z) > 1,
+        f"depth and density must be lists of one length, at least 2, not of shapes {z.shape} and {phi.shape}",
+    )
+    require(np.diff(z) > 0, "depth must increase from sample to sample")
+    once = PPoly(np.array([np.diff(phi) / np.diff(z), phi[:-1]]), z).antiderivative()
+    twice = once.antiderivative()
+    end, whole = z[-1], once(z[-1])
+
+    def fraction(u: Array) -> Array:
+        value: Array = once(np.clip(u, z[0], end))
+        return value
+
+    def excess(u: Array) -> Array:
+        value: Array = twice(np.clip(u, z[0], end)) + whole * np.maximum(u - end, 0.0)
+        return value
+
+    return HeightDistribution(name, fraction, excess)
+
+
+def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
+    """Return alpha = (beta + 1)/(beta + 2) of k ~ F^alpha for Phi ~ z^beta (thesis, eqs 4.60 to 4.63) [-].
+
+    Parameters
+    ----------
+    density_exponent : float or array
+        beta, above -1: below, the density has no integral.
+    """
+    beta = np.asarray(density_exponent, dtype=np.float64)[()]
+    require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise")
+    value: Array = (beta + 1) / (beta + 2)
+    return value
+
+
+def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
+    """Return beta = (2 alpha - 1)/(1 - alpha) of Phi ~ z^beta for k ~ F^alpha (thesis, eq. 4.64) [-].
+
+    Parameters
+    ----------
+    stiffness_exponent : float or array
+        alpha, between 0 and 1: at 1 the density is no power but an exponential, and there is no highest peak.
+    """
+    alpha = np.asarray(stiffness_exponent, dtype=np.float64)[()]
+    require(
+        (alpha > 0) & (alpha < 1),
+        "stiffness_exponent must lie between 0 and 1; at 1 there is no highest peak",
+    )
+    value: Array = (2 * alpha - 1) / (1 - alpha)
+    return value
+
+
+def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
+    """Return the thesis' beta = -1/2 + (1/2) log2 N, a heuristic (eq. 4.72), to redraw its figures.
+
+    N waves of independent phases have beta = N/2 - 1 (`beat_wave`), which agrees at N = 1 and 2 only; adjacent
+    harmonics of one line have beta near 0 for every N above 1.
+
+    Parameters
+    ----------
+    modes : float or array
+        Number N of waves, at least 1.
+    """
+    n = positive(modes, "modes")
+    require(n >= 1, "modes must be at least 1")
+    value: Array = (np.log2(n) - 1) / 2
+    return value
+
+
+def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
+    """Return the thesis' alpha = (1 + log2 N)/(3 + log2 N), a heuristic (eq. 4.73), to redraw its fig. 25.
+
+    The curve k(F) of low Hurst exponents does not depend on the number of grid points (`gaussian_heights`); a
+    fitted exponent does, since the lower end of the window of the fit falls with 1/N.
+
+    Parameters
+    ----------
+    modes : float or array
+        Number N of waves, at least 1.
+    """
+    return stiffness_exponent(legacy_density_exponent(modes))
+
+
+def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    """Return E* L [N/m]."""
+    return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
+
+
+def _integral(function: Callable[[float], float], low: float, high: float) -> float:
+    # With the full output, trouble is a number to judge and not a warning.
+    value, error, *_ = quad(function, low, high, epsabs=0.0, epsrel=PRECISION / 100, limit=200, full_output=1)
+    require(
+        error <= PRECISION * abs(value),
+        f"the density cannot be integrated from {low:.6g} m to {high:.6g} m; name the depths where it jumps "
+        "or is singular in breaks",
+    )
+    return float(value)

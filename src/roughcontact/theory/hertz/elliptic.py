@@ -1,0 +1,158 @@
+"""Hertz' contact of a body with two radii of curvature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import elliprd, elliprf
+
+from roughcontact.theory.domain import Array, positive
+from roughcontact.theory.products import Product, checked, solve
+
+__all__ = ["EllipticContact", "elliptic"]
+
+# ln(Rx/Ry) over ln(a/b) rises from 3/2 (a circle) to 2 (a line), so a step with the slope between takes six
+# sevenths of the error away.
+SLOPE, STEPS = 7 / 4, 22
+TINY = np.finfo(np.float64).tiny
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EllipticContact:
+    """An elliptic paraboloid on an elastic half-space; numbers or arrays of one shape.
+
+    Attributes
+    ----------
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    radii : tuple of (float or array)
+        Radii of curvature (Rx, Ry) at the apex [m].
+    semi_axes : tuple of (float or array)
+        Semi-axes of the contact along x and y [m]; the longer one lies along the larger radius.
+    depth : float or array
+        Indentation depth d [m].
+    force : float or array
+        Normal force F [N].
+    max_pressure : float or array
+        Pressure p0 in the centre [Pa]; the mean is 2/3 of it.
+    stiffness : float or array
+        dF/dd [N/m]: that of a flat punch of the same ellipse.
+    """
+
+    modulus: Array
+    radii: tuple[Array, Array]
+    semi_axes: tuple[Array, Array]
+    depth: Array
+    force: Array
+    max_pressure: Array
+    stiffness: Array
+
+    @property
+    def contact_area(self) -> Array:
+        """Area of the contact [m^2]."""
+        return np.pi * self.semi_axes[0] * self.semi_axes[1]
+
+    @property
+    def elastic_energy(self) -> Array:
+        """Work done by the force, 2/5 F d [J]."""
+        return 2 / 5 * self.force * self.depth
+
+    def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+        """Return the pressure [Pa] at a point [m]; 0 outside the contact."""
+        a, b = self.semi_axes
+        u, v = np.asarray(x, np.float64) / a, np.asarray(y, np.float64) / b
+        value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
+        return value
+
+    def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+        """Return the displacement of the surface [m] at a point [m], inside and outside."""
+        xx, yy = np.asarray(x, np.float64) ** 2, np.asarray(y, np.float64) ** 2
+        aa, bb = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
+        # The ellipse through the point that has the foci of the contact: x^2/(a^2+s) + y^2/(b^2+s) = 1.
+        half, rest = (xx + yy - aa - bb) / 2, xx * bb + yy * aa - aa * bb
+        root = np.sqrt(np.maximum(half**2 + rest, 0.0))
+        # The larger root without cancellation.
+        far = root + np.abs(half)
+        s = np.maximum(np.where(half > 0, far, rest / np.maximum(far, TINY)), 0.0)
+        curved = xx * elliprd(s, bb + s, aa + s) + yy * elliprd(s, aa + s, bb + s)
+        form = elliprf(s, aa + s, bb + s) - curved / 3
+        value: Array = self.max_pressure / self.modulus * self.semi_axes[0] * self.semi_axes[1] * form
+        return value
+
+
+def elliptic(
+    modulus: npt.ArrayLike | None = None,
+    *,
+    radii: tuple[npt.ArrayLike, npt.ArrayLike],
+    force: npt.ArrayLike | None = None,
+    depth: npt.ArrayLike | None = None,
+    max_pressure: npt.ArrayLike | None = None,
+    stiffness: npt.ArrayLike | None = None,
+) -> EllipticContact:
+    """Return the contact of a body with two radii of curvature from two further quantities (Johnson 1985, ch. 4).
+
+    Parameters
+    ----------
+    modulus, force, depth, max_pressure, stiffness : float or array, optional
+        Two of them, see `EllipticContact`; arrays are broadcast.
+    radii : tuple of (float or array)
+        Radii of curvature (Rx, Ry) at the apex [m], those of the gap between two bodies whose axes agree. They
+        may be equal.
+
+    Raises
+    ------
+    ValueError
+        If not two quantities are given, if they depend on each other, or if one is not positive.
+
+    Notes
+    -----
+    With Carlson's integrals R_F and R_D, for any a and b,
+
+        E*/(2 Rx) = p0 a b R_D(0, b^2, a^2)/3,    E*/(2 Ry) = p0 a b R_D(0, a^2, b^2)/3,
+        d = p0 a b R_F(0, a^2, b^2)/E*,    F = (2/3) pi a b p0,    k = pi E*/R_F(0, a^2, b^2).
+
+    No difference of complete elliptic integrals is taken, so nothing is lost near a circle or near a line.
+    """
+    rx, ry = (positive(radius, "radii [m]") for radius in radii)
+    # The squares of the semi-axes over their product, which is that of the third base quantity.
+    aa = _aspect(rx / ry)
+    bb = 1 / aa
+    flat: Array = np.asarray(elliprf(0.0, aa, bb), dtype=np.float64)
+    curved: Array = np.asarray(2 / 3 * np.sqrt(elliprd(0.0, bb, aa) * elliprd(0.0, aa, bb)), dtype=np.float64)
+    # Powers of E*, sqrt(Rx Ry) and sqrt(a b).
+    quantities = {
+        "modulus": Product((1, 0, 0), unit="Pa"),
+        "radii": Product((0, 1, 0), unit="m"),
+        "force": Product((1, -1, 3), 2 / 3 * np.pi / curved, unit="N"),
+        "depth": Product((0, -1, 2), flat / curved, unit="m"),
+        "max_pressure": Product((1, -1, 1), 1 / curved, unit="Pa"),
+        "stiffness": Product((1, 0, 1), np.pi / flat, unit="N/m"),
+    }
+    given = {
+        "modulus": modulus,
+        "force": force,
+        "depth": depth,
+        "max_pressure": max_pressure,
+        "stiffness": stiffness,
+    }
+    radius = np.sqrt(rx * ry)
+    found = solve(quantities, {"radii": radius, **checked(quantities, given)})
+    size = np.sqrt(found["depth"] * radius * curved / flat)
+    return EllipticContact(
+        radii=(rx, ry),
+        semi_axes=(size * np.sqrt(aa), size * np.sqrt(bb)),
+        **{name: found[name] for name in given},
+    )
+
+
+def _aspect(ratio: Array) -> Array:
+    """Return the ratio a/b of the semi-axes at a ratio Rx/Ry of the radii."""
+    wanted = np.log(ratio)
+    t = wanted / SLOPE
+    for _ in range(STEPS):
+        aa, bb = np.exp(t), np.exp(-t)
+        t = t + (wanted - np.log(elliprd(0.0, aa, bb) / elliprd(0.0, bb, aa))) / SLOPE
+    aspect: Array = np.exp(t)
+    return aspect

@@ -1,0 +1,175 @@
+"""Hertz' line contact, per unit length, from any three of its quantities."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import lambertw
+
+from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.products import Product, checked, solve
+
+__all__ = ["LineContact", "line"]
+
+# Powers of E*, R and a.
+QUANTITIES = {
+    "modulus": Product((1, 0, 0), unit="Pa"),
+    "radius": Product((0, 1, 0), unit="m"),
+    "half_width": Product((0, 0, 1), unit="m"),
+    "force": Product((1, -1, 2), np.pi / 4, unit="N/m"),
+    "max_pressure": Product((1, -1, 1), 1 / 2, unit="Pa"),
+}
+# The scale of the depth, F'/(pi E*).
+WITH_SCALE = {**QUANTITIES, "scale": Product((0, -1, 2), 1 / 4, unit="m")}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineContact:
+    """A parabolic cylinder on an elastic half-space; numbers or arrays of one shape.
+
+    Attributes
+    ----------
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    radius : float or array
+        Radius of curvature R at the apex [m].
+    half_width : float or array
+        Half the width of the contact, a [m].
+    force : float or array
+        Normal force per length, F' [N/m].
+    max_pressure : float or array
+        Pressure p0 in the middle [Pa]; the mean is pi/4 of it.
+    reference_length : float or None
+        Distance L from a line load at which its displacement is zero [m]; None leaves depths open.
+    """
+
+    modulus: Array
+    radius: Array
+    half_width: Array
+    force: Array
+    max_pressure: Array
+    reference_length: float | None = None
+
+    @property
+    def depth(self) -> Array:
+        """Indentation depth against the reference length, F'/(pi E*) (2 ln(2L/a) + 1) [m]."""
+        return self.half_width**2 / (4 * self.radius) * (2 * self._logarithm() + 1)
+
+    @property
+    def stiffness(self) -> Array:
+        """dF'/dd per length, pi E*/(2 ln(2L/a)): that of a flat strip of the same width [N/m^2]."""
+        return np.pi * self.modulus / (2 * self._logarithm())
+
+    def pressure(self, position: npt.ArrayLike) -> Array:
+        """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact."""
+        x = np.asarray(position, dtype=np.float64)
+        half_chord = np.sqrt(np.maximum(self.half_width**2 - x**2, 0.0))
+        value: Array = self.modulus / (2 * self.radius) * half_chord
+        return value
+
+    def displacement(self, position: npt.ArrayLike) -> Array:
+        """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside."""
+        x = np.abs(np.asarray(position, dtype=np.float64))
+        theta = np.arccosh(np.maximum(x / self.half_width, 1.0))
+        sagitta = self.half_width**2 / (4 * self.radius)
+        outside = sagitta * (2 * self._logarithm() - 2 * theta - np.exp(-2 * theta))
+        value: Array = np.where(x <= self.half_width, self.depth - x**2 / (2 * self.radius), outside)[()]
+        return value
+
+    def _logarithm(self) -> Array:
+        """Return ln(2L/a)."""
+        if self.reference_length is None:
+            raise ValueError(
+                "the depth of a line contact grows with the size of the body: give a reference_length [m], "
+                "the distance at which the displacement is zero"
+            )
+        value: Array = np.log(2 * self.reference_length / self.half_width)
+        return value
+
+
+def line(
+    modulus: npt.ArrayLike | None = None,
+    *,
+    radius: npt.ArrayLike | None = None,
+    half_width: npt.ArrayLike | None = None,
+    force: npt.ArrayLike | None = None,
+    max_pressure: npt.ArrayLike | None = None,
+    depth: npt.ArrayLike | None = None,
+    reference_length: float | None = None,
+) -> LineContact:
+    """Return the contact of a parabolic cylinder from any three independent quantities (beside thesis, eq. A.37).
+
+    F' = pi E* a^2/(4R), p0 = E* a/(2R), d = F'/(pi E*) (2 ln(2L/a) + 1).
+
+    Parameters
+    ----------
+    modulus, radius, half_width, force, max_pressure : float or array, optional
+        See `LineContact`; arrays are broadcast.
+    depth : float or array, optional
+        Indentation depth against `reference_length` [m].
+    reference_length : float, optional
+        Needed for depths, stiffness and displacements [m]. At least the size of the body; a displacement far
+        away that is not zero shifts the depth by 2 F' ln(L2/L1)/(pi E*).
+
+    Raises
+    ------
+    ValueError
+        If not three are given, if they depend on each other, if one is not positive, or if the reference length
+        is below a quarter of the width: more force would then mean less depth.
+    """
+    given = {
+        "modulus": modulus,
+        "radius": radius,
+        "half_width": half_width,
+        "force": force,
+        "max_pressure": max_pressure,
+    }
+    known = checked(QUANTITIES, given)
+    if reference_length is not None:
+        reference_length = float(positive(reference_length, "reference_length [m]"))
+    if depth is not None:
+        known |= _replaced(known, positive(depth, "depth [m]"), reference_length)
+    quantities = solve(WITH_SCALE if "scale" in known else QUANTITIES, known)
+    contact = LineContact(
+        **{name: quantities[name] for name in QUANTITIES}, reference_length=reference_length
+    )
+    if reference_length is not None:
+        require(
+            2 * reference_length > contact.half_width,
+            f"reference_length must exceed a quarter of the contact's width, not {reference_length} m: "
+            "below, more force would mean less depth",
+        )
+    return contact
+
+
+def _replaced(known: dict[str, Array], depth: Array, reference_length: float | None) -> dict[str, Array]:
+    """Return what stands for the depth: its scale F'/(pi E*), or the half width."""
+    if reference_length is None:
+        raise ValueError("the depth of a line contact means nothing without a reference_length [m]")
+    if known.keys() == {"force", "max_pressure"}:
+        half_width = 2 * known["force"] / (np.pi * known["max_pressure"])
+    elif "half_width" in known:
+        half_width = known["half_width"]
+    else:
+        return {"half_width": _half_width(known, depth, reference_length)}
+    return {"scale": depth / (2 * np.log(2 * reference_length / half_width) + 1)}
+
+
+def _half_width(known: dict[str, Array], depth: Array, reference_length: float) -> Array:
+    """Solve depth = scale (1 - 2 ln x) for the half width a = 2 L x; the scale goes as x^n with n = 0, 1 or 2."""
+    wide = 2 * reference_length
+    once, twice = (solve(WITH_SCALE, {**known, "half_width": np.array(x * wide)})["scale"] for x in (1, 2))
+    n = float(np.round(np.log2(twice / once)).flat[0])
+    if n == 0:
+        return wide * np.exp((1 - depth / once) / 2)
+    # With w = ln(x^n) - n/2 it reads w e^w = -(n/2) (depth/scale) e^(-n/2); the branch -1 has the smaller x.
+    argument = -n / 2 * depth / once * math.exp(-n / 2)
+    require(
+        argument >= -1 / math.e,
+        f"no contact has this depth: reference_length {reference_length} m is too short",
+    )
+    w: Array = lambertw(argument, -1).real
+    return wide * np.exp(w / n + 1 / 2)

@@ -1,0 +1,109 @@
+"""Holm's contacts: the constriction resistance of one spot, of several, and the radius that stands for them.
+
+Holm, Electric Contacts (1967); several spots after Greenwood, Brit. J. Appl. Phys. 17, 1621 (1966). Everything
+is stated as a stiffness over E*, the contact length [m] that `conductance` turns into ohms or K/W: a disc of radius a
+has ``k/E* = 2a``, and the resistance ``(rho1 + rho2)/(4a)``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughcontact.theory.domain import Array, positive, require
+
+__all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
+
+
+def spot_resistance(radius: float | Array, resistivities: tuple[float, float]) -> Array:
+    """Return the constriction resistance of a round spot between two half-spaces [ohm], (rho1 + rho2)/(4a).
+
+    Parameters
+    ----------
+    radius : float or array
+        a [m].
+    resistivities : tuple of float
+        rho of both bodies [ohm m]. With 1/lambda, the inverse conductivities [m K/W], it is thermal [K/W].
+    """
+    rho = _resistivity(resistivities)
+    with np.errstate(divide="ignore"):
+        return np.asarray(rho / (2 * positive(radius, "the radius [m]", zero=True)))
+
+
+def spots_resistance(radii: Array, positions: Array, resistivities: tuple[float, float]) -> float:
+    """Return the resistance of round spots of a plane between two half-spaces [ohm] (Greenwood 1966).
+
+    ``R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} a_i a_j/s_ij / (sum a_i)^2``, rho the mean of both.
+    It takes the current of each spot for proportional to its radius, and the other spots for points: right for
+    spots that are small beside their distances. See `contact_length` for the arguments and errors.
+    """
+    return _resistivity(resistivities) / contact_length(radii, positions)
+
+
+def contact_length(radii: Array, positions: Array) -> float:
+    """Return k/E* [m] of round spots of a plane (Greenwood 1966): 2a of one, twice the sum of those far apart.
+
+    Parameters
+    ----------
+    radii : array, shape (n,)
+        a_i [m].
+    positions : array, shape (n, 2)
+        Centres of the spots [m].
+
+    Raises
+    ------
+    ValueError
+        If a radius is not positive, or two spots overlap: then their shapes matter, and a computation is wanted
+        (`roughcontact.contact_stiffness`).
+    """
+    a, centre = np.asarray(radii, dtype=np.float64), np.asarray(positions, dtype=np.float64)
+    if a.ndim != 1 or a.size == 0 or centre.shape != (a.size, 2):
+        raise ValueError(f"spots need radii (n,) and positions (n, 2), not {a.shape} and {centre.shape}")
+    if not (np.isfinite(a).all() and (a > 0).all() and np.isfinite(centre).all()):
+        raise ValueError("radii must be positive, and radii and positions finite")
+    mutual = 0.0
+    # One row of distances at a time: spots may be many.
+    for i in range(a.size - 1):
+        distance = np.hypot(*(centre[i + 1 :] - centre[i]).T)
+        if (distance < a[i] + a[i + 1 :]).any():
+            raise ValueError(
+                f"spot {i} overlaps another: the formula is one of separate spots; compute such a region with "
+                "roughcontact.contact_stiffness"
+            )
+        mutual += 2 * a[i] * float(np.sum(a[i + 1 :] / distance))
+    total = float(a.sum())
+    return 1 / (1 / (2 * total) + mutual / (np.pi * total**2))
+
+
+def holm_radius(stiffness: float | Array, modulus: float) -> Array:
+    """Return the radius [m] of the one round spot with this stiffness, and so with its conductance: k/(2 E*).
+
+    Also called contact length or Hertz radius (thesis, section 4.2, after eq. 4.6).
+    """
+    return positive(stiffness, "the stiffness [N/m]", zero=True) / (2 * positive(modulus, "the modulus [Pa]"))
+
+
+def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
+    """Return Holm's radius of a cluster [m]: ``1/k = 1/k_local + 1/(2 E* radius)``.
+
+    Parameters
+    ----------
+    stiffness : float
+        k [N/m], of the whole.
+    local : float
+        Stiffness [N/m] of the spots without each other, ``2 E* sum a_i``, or that against the mean gap.
+    modulus : float
+        Reduced modulus E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the whole is not softer than its spots: then there is no cluster.
+    """
+    k, apart = positive(stiffness, "the stiffness [N/m]"), positive(local, "the local stiffness [N/m]")
+    require(k < apart, f"spots that share a load are softer than apart: {k} N/m is not below {apart} N/m")
+    return float(k * apart / (2 * positive(modulus, "the modulus [Pa]") * (apart - k)))
+
+
+def _resistivity(resistivities: tuple[float, float]) -> float:
+    """Return the mean of both [ohm m]."""
+    return float(np.mean(positive(resistivities, "the resistivity [ohm m]", zero=True)))

@@ -1,0 +1,94 @@
+"""What a theory of independent asperities says of a nominally flat interface, per area and as a loading law."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.domain import positive
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["Interface", "loading_law"]
+
+Array = npt.NDArray[np.float64]
+
+
+class Interface(Protocol):
+    """Nominally flat rough contact as a function of the separation of the mean planes [m].
+
+    `greenwood_williamson.Population` and `bush_gibson_thomas.Summits` are such.
+    """
+
+    @property
+    def lowest(self) -> float:
+        """The smallest separation at which the theory holds [m]."""
+        ...
+
+    @property
+    def scale(self) -> float:
+        """A length over which pressures change by much: the standard deviation of heights [m]."""
+        ...
+
+    def pressure(self, separation: float | Array) -> Array:
+        """Nominal pressure [Pa]: decreasing, convex, and log-concave."""
+        ...
+
+    def stiffness(self, separation: float | Array) -> Array:
+        """-dp/ds, interfacial stiffness per nominal area [Pa/m]."""
+        ...
+
+    def contact_fraction(self, separation: float | Array) -> Array:
+        """Real contact area over the nominal one [-]."""
+        ...
+
+    def spot_density(self, separation: float | Array) -> Array:
+        """Contacts per nominal area [1/m^2]."""
+        ...
+
+    def energy(self, separation: float | Array) -> Array:
+        """Elastic energy of the asperities per nominal area [J/m^2]: the work of the pressure."""
+        ...
+
+    def separation(self, pressure: float | Array) -> Array:
+        """Separation [m] at a nominal pressure [Pa]; infinite without load."""
+        ...
+
+
+def loading_law(interface: Interface, area: float, *, name: str, source: str) -> LoadingLaw:
+    """Return what the theory says of a nominal area, as functions of the force.
+
+    Parameters
+    ----------
+    interface : Interface
+        The theory, with its parameters.
+    area : float
+        Nominal area A0 [m^2].
+    name, source : str
+        See `LoadingLaw`.
+
+    Returns
+    -------
+    LoadingLaw
+        "interfacial_stiffness", "contact_area", "mean_gap" (the separation of the mean planes), "spots" and
+        "elastic_energy" (that of the asperities alone). Its domain ends where the flat would reach the mean plane of
+        the surface: the gap of a contact is not negative.
+    """
+    nominal = float(positive(area, "the nominal area [m^2]"))
+
+    def at(force: Array) -> Array:
+        return interface.separation(force / nominal)
+
+    return LoadingLaw(
+        name,
+        source,
+        {
+            "interfacial_stiffness": lambda force: nominal * interface.stiffness(at(force)),
+            "contact_area": lambda force: nominal * interface.contact_fraction(at(force)),
+            "mean_gap": at,
+            "spots": lambda force: nominal * interface.spot_density(at(force)),
+            "elastic_energy": lambda force: nominal * interface.energy(at(force)),
+        },
+        domain=(0.0, nominal * float(interface.pressure(max(0.0, interface.lowest)))),
+    )

@@ -1,0 +1,87 @@
+"""Partial slip of any contact from its frictionless loading curve alone.
+
+The traction is mu times what the pressure has gained since a smaller force, ``q = mu [p(F) - p(F - Q/mu)]``; so the
+displacement is mu E*/G* times what the depth has gained, and the region that sticks is the contact at the smaller force
+(Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27 (1998)). Exact on a line and
+for Poisson's ratio 0; else slip is taken to go along the force, and the ratio E*/G* for that of a disc.
+
+F stays constant while Q rises from zero. `loading` is a law that predicts ``"depth"``; for a computed curve,
+``LoadingLaw("computed", "", {"depth": lambda f: np.interp(f, curve.force, curve.depth)})``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import quad
+
+from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["cycle_loss", "displacement", "stiffness"]
+
+
+def displacement(
+    loading: LoadingLaw, force: float, tangential: float | Array, *, friction: float, ratio: float
+) -> Array:
+    """Return the tangential displacement [m], ``mu (E*/G*) [d(F) - d(F - Q/mu)]``.
+
+    Parameters
+    ----------
+    loading : LoadingLaw
+        That predicts the depth d of the frictionless contact.
+    force : float
+        Normal force F [N].
+    tangential : float or array
+        Q [N], at most mu F.
+    friction : float
+        Coefficient of friction mu [-].
+    ratio : float
+        E*/G* [-], see `mindlin.ratio`.
+
+    Raises
+    ------
+    ValueError
+        If the law knows no depth, a number is out of range, or Q above mu F.
+    """
+    held = _held(force, tangential, friction)
+    gained = loading.predict("depth", positive(force, "the force [N]")) - loading.predict("depth", held)
+    return np.asarray(friction * positive(ratio, "the ratio E*/G*") * gained)
+
+
+def stiffness(
+    loading: LoadingLaw, force: float, tangential: float | Array, *, friction: float, ratio: float
+) -> Array:
+    """Return dQ/d displacement [N/m], ``(G*/E*) k(F - Q/mu)``, of a law that predicts the stiffness k.
+
+    Parameters as of `displacement`.
+    """
+    held = _held(force, tangential, friction)
+    return np.asarray(loading.predict("stiffness", held) / positive(ratio, "the ratio E*/G*"))
+
+
+def cycle_loss(
+    loading: LoadingLaw, force: float, amplitude: float, *, friction: float, ratio: float
+) -> float:
+    """Return the work [J] that friction takes in a cycle between +Q1 and -Q1 [N].
+
+    ``W = 4 Q1 D(Q1) - 8 int_0^Q1 D dQ``, D the displacement as Q rises from zero: the branches of a cycle are
+    copies of that curve at twice the scale (Masing's rule). Parameters as of `displacement`.
+    """
+
+    def rise(tangential: float) -> float:
+        return float(displacement(loading, force, tangential, friction=friction, ratio=ratio))
+
+    area, _ = quad(rise, 0, amplitude, epsabs=0, epsrel=1e-10, limit=200)
+    return 4 * amplitude * rise(amplitude) - 8 * area
+
+
+def _held(force: float, tangential: float | Array, friction: float) -> Array:
+    """Return the force F - Q/mu [N] whose contact sticks."""
+    pulled = positive(tangential, "the tangential force [N]", zero=True) / positive(
+        friction, "the friction coefficient"
+    )
+    require(
+        pulled <= positive(force, "the force [N]"),
+        f"a tangential force above mu F = {friction * force:g} N is not to be had: the contact slides",
+    )
+    return np.asarray(force - pulled)

@@ -1,0 +1,185 @@
+"""Loading laws by name: what each wants to know of a surface, and one function that makes it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from functools import partial
+from types import MappingProxyType
+from typing import Any
+
+from roughcontact.theory import (
+    bush_gibson_thomas,
+    finite_size,
+    greenwood_williamson,
+    hertz,
+    interaction,
+    persson,
+    pohrt_popov,
+    rough_sphere,
+)
+from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.waves import Spectrum, Waves
+
+__all__ = ["LAWS", "NamedLaw", "SurfaceFacts", "named"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SurfaceFacts:
+    """What is known of a rough contact; None is not known.
+
+    Parameters
+    ----------
+    modulus : float, optional
+        Reduced modulus E* [Pa].
+    area : float, optional
+        Nominal area [m^2]; by default the square of `length`.
+    length : float, optional
+        Side of the surface [m]; by default the square root of `area`.
+    spectrum : Waves, measured or continuous spectrum, optional
+        C2D of the surface, see `Waves.of`.
+    moments : ProfileMoments, optional
+        By default those of the spectrum.
+    rms : float, optional
+        Root mean square height [m]; by default that of the moments.
+    hurst : float, optional
+        Hurst exponent [-].
+    rolloff : float, optional
+        Length of the longest waves [m]; by default `length`.
+    radius : float, optional
+        Radius of curvature of the surface at large [m].
+    """
+
+    modulus: float | None = None
+    area: float | None = None
+    length: float | None = None
+    spectrum: Spectrum | None = None
+    moments: ProfileMoments | None = None
+    rms: float | None = None
+    hurst: float | None = None
+    rolloff: float | None = None
+    radius: float | None = None
+
+    def completed(self) -> SurfaceFacts:
+        """Return the facts with the defaults that follow from others."""
+        area, length, moments = self.area, self.length, self.moments
+        if area is None and length is not None:
+            area = length**2
+        if length is None and area is not None:
+            length = math.sqrt(area)
+        if moments is None and self.spectrum is not None:
+            moments = Waves.of(self.spectrum)
+        rms = math.sqrt(moments.m0) if self.rms is None and moments is not None else self.rms
+        return SurfaceFacts(
+            self.modulus,
+            area,
+            length,
+            self.spectrum,
+            moments,
+            rms,
+            self.hurst,
+            length if self.rolloff is None else self.rolloff,
+            self.radius,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class NamedLaw:
+    """A law that can be had by name.
+
+    Parameters
+    ----------
+    about : str
+        One line for a list of laws.
+    needs : tuple of str
+        The facts that it wants, in the order in which `make` takes them.
+    make : callable
+        Returns the `LoadingLaw`.
+    """
+
+    about: str
+    needs: tuple[str, ...]
+    make: Callable[..., LoadingLaw]
+
+
+def _finite_size(
+    hurst: float, rms: float, rolloff: float, spectrum: Spectrum, modulus: float, area: float
+) -> LoadingLaw:
+    return finite_size.law(finite_size.Cell(hurst, rms, rolloff), spectrum, modulus, area)
+
+
+_NOMINALLY_FLAT = ("moments", "modulus", "area")
+
+LAWS: Mapping[str, NamedLaw] = MappingProxyType(
+    {
+        "persson": NamedLaw(
+            "nominally flat, many contacts (Persson)", ("spectrum", "modulus", "area"), persson.law
+        ),
+        "finite-size": NamedLaw(
+            "Persson's law, and one cell of roughness at low loads (after Pastewka and others, heuristic)",
+            ("hurst", "rms", "rolloff", "spectrum", "modulus", "area"),
+            _finite_size,
+        ),
+        "gw": NamedLaw(
+            "independent asperities of Gaussian heights (Greenwood and Williamson)",
+            _NOMINALLY_FLAT,
+            greenwood_williamson.law,
+        ),
+        "gw-exponential": NamedLaw(
+            "independent asperities of exponential heights",
+            _NOMINALLY_FLAT,
+            partial(greenwood_williamson.law, distribution="exponential"),
+        ),
+        "bgt": NamedLaw(
+            "independent elliptic summits of a Gaussian surface (Bush, Gibson and Thomas)",
+            _NOMINALLY_FLAT,
+            bush_gibson_thomas.law,
+        ),
+        "cgp": NamedLaw(
+            "asperities on a body that yields as a whole (Ciavarella, Greenwood and Paggi)",
+            _NOMINALLY_FLAT,
+            interaction.law,
+        ),
+        "power-law": NamedLaw(
+            "self-affine up to its own size (Pohrt and Popov)",
+            ("hurst", "rms", "length", "modulus"),
+            pohrt_popov.law,
+        ),
+        "hertz": NamedLaw("smooth sphere (Hertz)", ("radius", "modulus"), hertz.law),
+        "rough-sphere": NamedLaw(
+            "sphere with self-affine roughness (thesis, eq. 5.9)",
+            ("radius", "hurst", "rms", "length", "modulus"),
+            rough_sphere.law,
+        ),
+    }
+)
+
+
+def named(name: str, **knowns: Any) -> LoadingLaw:
+    """Return a loading law by its name.
+
+    Parameters
+    ----------
+    name : str
+        One of `LAWS`.
+    **knowns
+        The fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
+
+    Raises
+    ------
+    ValueError
+        If the name or a fact is not known, a fact that the law needs is missing, or the law refuses one.
+    """
+    if name not in LAWS:
+        raise ValueError(f"there is no law named {name!r}; there are {', '.join(LAWS)}")
+    strange = knowns.keys() - {field.name for field in fields(SurfaceFacts)}
+    if strange:
+        raise ValueError(f"no law asks for {', '.join(sorted(strange))}")
+    law, facts = LAWS[name], SurfaceFacts(**knowns).completed()
+    wanted = {need: getattr(facts, need) for need in law.needs}
+    missing = [need for need, value in wanted.items() if value is None]
+    if missing:
+        raise ValueError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")
+    return law.make(*wanted.values())

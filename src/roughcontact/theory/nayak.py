@@ -1,0 +1,162 @@
+"""Summits of an isotropic Gaussian surface: how many, how high, how sharp (Nayak 1971; McCool 1986).
+
+Dimensionless throughout the densities: heights in ``sqrt(m0)`` above the mean plane, curvatures in ``sqrt(m4)``,
+summits per area in ``m4/(2 pi m2)``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import log_ndtr
+
+from roughcontact.theory.domain import positive, require
+from roughcontact.theory.moments import ProfileMoments
+
+__all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
+
+Array = npt.NDArray[np.float64]
+
+NARROWEST = 1.5  # Nayak's parameter of waves of one length from all directions: no isotropic surface has less
+SPREAD = 1 + 16 / math.pi - 3 * math.sqrt(3)  # 0.8968: what 1/alpha takes from the variance of summit heights
+
+
+@dataclass(frozen=True, slots=True)
+class SummitStatistics:
+    """The mean asperity of a surface, as theories of equal spheres take it.
+
+    Attributes
+    ----------
+    density : float
+        Summits per area [1/m^2].
+    radius : float
+        Of the sphere with the mean curvature of all summits [m].
+    std : float
+        Standard deviation of summit heights [m].
+    mean_height : float
+        Mean of summit heights above the mean plane of the surface [m].
+    """
+
+    density: float
+    radius: float
+    std: float
+    mean_height: float
+
+
+def bandwidth(moments: ProfileMoments) -> float:
+    """Return Nayak's parameter ``alpha = m0 m4/m2^2`` [-].
+
+    Raises
+    ------
+    ValueError
+        If a moment is zero or infinite, or alpha below 3/2: then the moments are not those of an isotropic
+        Gaussian surface (those of a line, or of a surface with a lay, may be lower).
+    """
+    m0, m2, m4 = (
+        float(positive(getattr(moments, name), f"the moment {name}")) for name in ("m0", "m2", "m4")
+    )
+    alpha = m0 * m4 / m2**2
+    # One part in 10^9 is left to the rounding of moments that were summed.
+    require(
+        alpha >= NARROWEST * (1 - 1e-9),
+        f"Nayak's parameter of an isotropic surface is at least 3/2, not {alpha:.6g}: are these the moments of "
+        "a line, or of a surface with a lay?",
+    )
+    return alpha
+
+
+def summits(moments: ProfileMoments) -> SummitStatistics:
+    """Return density, mean radius and heights of the summits of a surface with these profile moments.
+
+    Parameters
+    ----------
+    moments : ProfileMoments
+        m0 [m^2], m2 [-], m4 [1/m^2] of an isotropic Gaussian surface.
+
+    Raises
+    ------
+    ValueError
+        If there is no such surface, see `bandwidth`.
+
+    Notes
+    -----
+    ``m4/(6 sqrt(3) pi m2)``, ``(3/8) sqrt(pi/m4)``, ``(1 - 0.8968/alpha) m0`` (squared) and ``4 sqrt(m0/(pi alpha))``
+    (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. All but the last two hang on the shortest
+    waves: without a shortest wave a fractal has no summits to count.
+    """
+    alpha = bandwidth(moments)
+    return SummitStatistics(
+        density=moments.m4 / (6 * math.sqrt(3) * math.pi * moments.m2),
+        radius=3 / 8 * math.sqrt(math.pi / moments.m4),
+        std=math.sqrt((1 - SPREAD / alpha) * moments.m0),
+        mean_height=4 * math.sqrt(moments.m0 / (math.pi * alpha)),
+    )
+
+
+def summit_density(height: Array, mean: Array, deviator: Array, alpha: float) -> Array:
+    """Return the density D(s, t, r) of summits over height and curvatures; its integral is ``1/(3 sqrt(3))``.
+
+    Parameters
+    ----------
+    height : array
+        s, above the mean plane.
+    mean, deviator : array
+        t and r: the principal curvatures are ``t + r`` and ``t - r``, and a summit has ``t > r >= 0``.
+    alpha : float
+        Nayak's parameter, above 3/2, see `free_variance`.
+
+    Notes
+    -----
+    ``(t^2 - r^2) N(t; 0, 2/3) N(s; 3t/(2 sqrt(alpha)), 1 - 3/(2 alpha)) 3 r exp(-3 r^2/2)``, N(x; mean, variance) the
+    normal density: the determinant of the curvatures counts the points where both slopes vanish.
+    """
+    s, t, r = (np.asarray(x, dtype=np.float64) for x in (height, mean, deviator))
+    variance = free_variance(alpha)
+    exponent = 0.75 * t**2 + (s - 1.5 * t / math.sqrt(alpha)) ** 2 / (2 * variance) + 1.5 * r**2
+    scale = 3 / (2 * math.pi * math.sqrt(2 / 3 * variance))
+    return np.where((t > r) & (r >= 0), scale * (t**2 - r**2) * r * np.exp(-exponent), 0.0)
+
+
+def geometric_density(height: Array, curvature: Array, alpha: float) -> Array:
+    """Return the density D(s, g) of summits over height and the geometric mean ``g = sqrt(k1 k2)`` of curvatures.
+
+    Parameters
+    ----------
+    height : array
+        s, above the mean plane.
+    curvature : array
+        g, not negative.
+    alpha : float
+        Nayak's parameter, above 3/2, see `free_variance`.
+
+    Notes
+    -----
+    `summit_density` integrated at fixed g (Greenwood, Wear 261, 191 (2006)). In logarithms, since its two
+    exponentials and the error function leave the range of floats one by one where their product does not.
+    """
+    s, g = np.asarray(height, dtype=np.float64), np.asarray(curvature, dtype=np.float64)
+    rest = 2 * alpha * free_variance(alpha)  # 2 alpha - 3
+    w = 3 * math.sqrt((alpha - 1) / (2 * rest)) * (g - s * math.sqrt(alpha) / (3 * (alpha - 1)))
+    # erfc(w) = 2 Phi(-sqrt(2) w)
+    exponent = 1.5 * g**2 - alpha * s**2 / (2 * (alpha - 1)) + log_ndtr(-math.sqrt(2) * w)
+    scale = 6 * math.sqrt(alpha / (24 * math.pi * (alpha - 1)))
+    return np.where(g > 0, scale * g**3 * np.exp(exponent), 0.0)
+
+
+def free_variance(alpha: float) -> float:
+    """Return the variance of a summit's height at given curvatures, ``1 - 3/(2 alpha)``, in m0.
+
+    Raises
+    ------
+    ValueError
+        If it is not positive: waves of one length have summits whose curvature is a multiple of their height.
+    """
+    require(
+        alpha > NARROWEST,
+        "a joint density of summit heights and curvatures needs a Nayak parameter above 3/2, that of waves of one "
+        f"length, not {alpha:.6g}",
+    )
+    return 1 - NARROWEST / alpha

@@ -1,0 +1,111 @@
+"""Partial moments of a height distribution: what lies above a plane, weighed by a power of its excess."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+from scipy import special
+
+__all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
+
+Array = npt.NDArray[np.float64]
+Distribution = Literal["gaussian", "exponential"]
+
+HIGHEST_ORDER = 20.0  # the area of a tip of height r^H asks for 2/H; beyond, digits are lost at LOW
+LOW = 1.5  # below, two Kummer functions cancel little; above, 96 nodes of Laguerre are exact to rounding
+NODES = 96
+
+
+def log_gaussian(order: float, plane: float | Array) -> Array:
+    """Return ln F_n(t) of heights with zero mean and unit standard deviation.
+
+    Parameters
+    ----------
+    order : float
+        n, above -1 and at most 20.
+    plane : float or array
+        Height t of the plane, any real numbers.
+
+    Returns
+    -------
+    array
+        The logarithm, since F_n itself falls like exp(-t^2/2) and is no number any more at t = 39.
+
+    Raises
+    ------
+    ValueError
+        If the order lies outside.
+
+    Notes
+    -----
+    ``F_n(t) = int_t^inf (x - t)^n phi(x) dx`` with ``dF_n/dt = -n F_{n-1}`` (Greenwood and Williamson 1966); F_0
+    is the upper tail of the normal distribution. It is ``Gamma(n + 1)/sqrt(2 pi) exp(-t^2/4) D_{-n-1}(t)`` with
+    the parabolic cylinder function, but that of the library underflows at t = 37 and keeps nine digits at t = 6.
+    """
+    n = _checked(order)
+    t = np.asarray(plane, dtype=np.float64)
+    value = np.empty(t.shape)
+    low = t < LOW
+    value[low] = _by_kummer(n, t[low])
+    value[~low] = _by_laguerre(n, t[~low])
+    return value
+
+
+def log_exponential(order: float, plane: float | Array) -> Array:
+    """Return ln F_n(t) of the heights ``phi(x) = exp(-x)``, x > 0: ``ln Gamma(n + 1) - t``.
+
+    Parameters
+    ----------
+    order : float
+        n, above -1 and at most 20.
+    plane : float or array
+        Height t of the plane, not negative: see Raises.
+
+    Raises
+    ------
+    ValueError
+        If the order lies outside, or a plane is below 0, where every height counts and the law is another.
+    """
+    n = _checked(order)
+    t = np.asarray(plane, dtype=np.float64)
+    if (t < 0).any():
+        raise ValueError(
+            f"a plane {-t.min():.3g} standard deviations below the lowest of all exponential heights touches "
+            "every asperity: the exponential law holds above it only"
+        )
+    return np.asarray(special.gammaln(n + 1) - t)
+
+
+DISTRIBUTIONS: dict[Distribution, Callable[[float, float | Array], Array]] = {
+    "gaussian": log_gaussian,
+    "exponential": log_exponential,
+}
+
+
+def _checked(order: float) -> float:
+    if not -1 < order <= HIGHEST_ORDER:
+        raise ValueError(
+            f"the order of a partial moment must lie above -1, where the integral exists, and at most at "
+            f"{HIGHEST_ORDER:g}, not {order}"
+        )
+    return float(order)
+
+
+def _by_kummer(n: float, t: Array) -> Array:
+    """Return ln F_n as its even and its odd part (DLMF 12.4, 12.7.12); at negative t both are positive."""
+    x = t**2 / 2
+    even = special.gamma((n + 1) / 2) * special.hyp1f1(-n / 2, 0.5, -x)
+    odd = special.gamma(n / 2 + 1) * special.hyp1f1((1 - n) / 2, 1.5, -x)
+    scale = (n / 2 - 1) * math.log(2) - math.log(math.pi) / 2
+    return np.asarray(scale + np.log(even - math.sqrt(2) * t * odd))
+
+
+def _by_laguerre(n: float, t: Array) -> Array:
+    """Return ln F_n from ``F_n = phi(t) t^(-n-1) int_0^inf v^n exp(-v) exp(-v^2/(2 t^2)) dv``."""
+    nodes, weights = special.roots_genlaguerre(NODES, n)
+    integral = np.exp(-((nodes / t[..., None]) ** 2) / 2) @ weights
+    return np.asarray(np.log(integral) - (n + 1) * np.log(t) - t**2 / 2 - math.log(2 * math.pi) / 2)

@@ -1,0 +1,105 @@
+"""Quantities that are products of powers of a few base quantities: any independent set of them gives the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.domain import Array, positive
+
+__all__ = ["Product", "checked", "solve"]
+
+# Exponents are of order one: smaller ones are the rounding of zero.
+ROUNDING = 1e-12
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Product:
+    """``factor * b0**e0 * b1**e1 * ...`` of the base quantities b.
+
+    Parameters
+    ----------
+    exponents : tuple of float
+        One for each base quantity.
+    factor : float or array
+        Pure number.
+    unit : str
+        For messages.
+    """
+
+    exponents: tuple[float, ...]
+    factor: float | Array = 1.0
+    unit: str = ""
+
+
+def checked(
+    products: Mapping[str, Product],
+    given: Mapping[str, npt.ArrayLike | None],
+    *,
+    body: Collection[str] = (),
+) -> dict[str, Array]:
+    """Return those quantities that are given and not None, as numbers or arrays.
+
+    Parameters
+    ----------
+    products : mapping of str to Product
+        At least the quantities that may be given.
+    given : mapping of str to (array_like or None)
+        Values.
+    body : collection of str
+        Quantities that describe the unloaded body. Where they are all given, the others may be 0.
+
+    Raises
+    ------
+    ValueError
+        If a value is not positive and finite.
+    """
+    unloaded = bool(body) and all(given[name] is not None for name in body)
+    return {
+        name: positive(value, f"{name} [{products[name].unit}]", zero=unloaded and name not in body)
+        for name, value in given.items()
+        if value is not None
+    }
+
+
+def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[str, Array]:
+    """Return all quantities from as many of them as there are base quantities.
+
+    Parameters
+    ----------
+    products : mapping of str to Product
+        All quantities.
+    known : mapping of str to array
+        Those given; they are returned as they are.
+
+    Raises
+    ------
+    ValueError
+        If too few or too many are known, or those known depend on each other.
+    """
+    names = list(known)
+    exponents = np.array([products[name].exponents for name in names], dtype=np.float64)
+    wanted = len(next(iter(products.values())).exponents)
+    if len(names) != wanted:
+        raise ValueError(
+            f"{wanted} of {', '.join(products)} determine the rest, not {len(names)}: {', '.join(names) or 'none'}"
+        )
+    if np.linalg.matrix_rank(exponents) < wanted:
+        raise ValueError(
+            f"{', '.join(names)} depend on each other and leave the rest open: "
+            f"replace one of them by another of {', '.join(products)}"
+        )
+    inverse = np.asarray(np.linalg.inv(exponents), dtype=np.float64)
+    ratios = [known[name] / products[name].factor for name in names]
+    return {name: known.get(name, _product(product, inverse, ratios)) for name, product in products.items()}
+
+
+def _product(product: Product, inverse: Array, ratios: list[Array]) -> Array:
+    powers = np.asarray(product.exponents) @ inverse
+    # A factor that does not matter must not: 0**1e-17 is 0, not 1.
+    powers[np.abs(powers) < ROUNDING] = 0.0
+    value: Array = product.factor * np.prod(np.broadcast_arrays(*map(np.power, ratios, powers)), axis=0)
+    return value

@@ -1,0 +1,166 @@
+"""Flat punches in closed form: disc, ellipse and strip."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import elliprf
+
+from roughcontact.theory.domain import Array, positive, require
+
+__all__ = [
+    "disc",
+    "disc_displacement",
+    "disc_pressure",
+    "ellipse",
+    "ellipse_pressure",
+    "strip",
+    "strip_pressure",
+]
+
+
+def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+    """Return the stiffness of a disc, k = 2 E* a [N/m] (thesis, eq. 4.6).
+
+    It is that of any axisymmetric indenter whose contact is a disc, whatever its pressure.
+
+    Parameters
+    ----------
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    radius : float or array
+        Contact radius a [m].
+    """
+    return 2 * positive(modulus, "modulus [Pa]") * positive(radius, "radius [m]")
+
+
+def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
+    """Return the pressure under a disc, F/(2 pi a sqrt(a^2 - r^2)) [Pa] (Boussinesq).
+
+    Infinite at the edge, 0 outside.
+
+    Parameters
+    ----------
+    force : float or array
+        Normal force F [N].
+    radius : float or array
+        Radius a [m].
+    distance : float or array
+        Distance r from the centre [m].
+    """
+    r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
+    f = positive(force, "force [N]", zero=True)
+    return _edged(f / (2 * np.pi * a**2), 1 - (r / a) ** 2)
+
+
+def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
+    """Return the displacement of the surface under and around a disc, (2/pi) d asin(a/r) outside [m].
+
+    Parameters
+    ----------
+    depth : float or array
+        Indentation depth d [m].
+    radius : float or array
+        Radius a [m].
+    distance : float or array
+        Distance r from the centre [m].
+    """
+    r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
+    value: Array = 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
+    return value
+
+
+def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLike]) -> Array:
+    """Return the stiffness of an ellipse, k = pi E* a/K(e), e^2 = 1 - b^2/a^2 [N/m] (Galin).
+
+    Parameters
+    ----------
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    semi_axes : tuple of (float or array)
+        Semi-axes a and b in any order [m].
+
+    Notes
+    -----
+    Written as pi E*/R_F(0, a^2, b^2) with Carlson's integral, which is accurate for any a and b.
+    """
+    a, b = (positive(axis, "semi_axes [m]") for axis in semi_axes)
+    value: Array = np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
+    return value
+
+
+def ellipse_pressure(
+    force: npt.ArrayLike,
+    semi_axes: tuple[npt.ArrayLike, npt.ArrayLike],
+    x: npt.ArrayLike,
+    y: npt.ArrayLike,
+) -> Array:
+    """Return the pressure under an ellipse, F/(2 pi a b sqrt(1 - x^2/a^2 - y^2/b^2)) [Pa] (Galin).
+
+    Infinite at the edge, 0 outside.
+
+    Parameters
+    ----------
+    force : float or array
+        Normal force F [N].
+    semi_axes : tuple of (float or array)
+        Semi-axes a along x and b along y [m].
+    x, y : float or array
+        Where, from the centre [m].
+    """
+    a, b = (positive(axis, "semi_axes [m]") for axis in semi_axes)
+    f = positive(force, "force [N]", zero=True)
+    inside = 1 - (np.asarray(x, np.float64) / a) ** 2 - (np.asarray(y, np.float64) / b) ** 2
+    return _edged(f / (2 * np.pi * a * b), inside)
+
+
+def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: npt.ArrayLike) -> Array:
+    """Return the stiffness per length of an infinite strip, k' = pi E*/(2 ln(2L/a)) [N/m^2].
+
+    Parameters
+    ----------
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    half_width : float or array
+        Half the width, a [m].
+    reference_length : float or array
+        Distance L from a line load at which its displacement is zero [m]; at least the size of the body.
+
+    Raises
+    ------
+    ValueError
+        If the reference length is at most a quarter of the width: the stiffness would not be positive.
+    """
+    a, length = positive(half_width, "half_width [m]"), positive(reference_length, "reference_length [m]")
+    require(
+        2 * length > a,
+        "reference_length must exceed a quarter of the strip's width: nearer, the displacement by a "
+        "line load is counted as zero inside the strip itself, and the stiffness is not positive",
+    )
+    value: Array = np.pi * positive(modulus, "modulus [Pa]") / (2 * np.log(2 * length / a))
+    return value
+
+
+def strip_pressure(force: npt.ArrayLike, half_width: npt.ArrayLike, position: npt.ArrayLike) -> Array:
+    """Return the pressure under a strip, F'/(pi sqrt(a^2 - x^2)) [Pa]; infinite at the edge, 0 outside.
+
+    Parameters
+    ----------
+    force : float or array
+        Normal force per length F' [N/m].
+    half_width : float or array
+        Half the width, a [m].
+    position : float or array
+        Distance x from the middle, of either sign [m].
+    """
+    x, a = np.asarray(position, dtype=np.float64), positive(half_width, "half_width [m]")
+    f = positive(force, "force [N/m]", zero=True)
+    return _edged(f / (np.pi * a), 1 - (x / a) ** 2)
+
+
+def _edged(scale: Array, inside: Array) -> Array:
+    """Return scale/sqrt(inside); infinite where `inside` is 0, 0 where it is negative."""
+    with np.errstate(divide="ignore"):
+        root = 1 / np.sqrt(np.maximum(inside, 0.0))
+    value: Array = np.where(inside < 0, 0.0, scale * np.where(scale > 0, root, 0.0))[()]
+    return value

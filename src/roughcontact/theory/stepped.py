@@ -1,0 +1,103 @@
+"""The stepped indenter: discs r_n = r0 C^n whose steps h_n = h0 C^(Hn) follow the fractal law (thesis, section 4.4.1).
+
+Between two steps the contact is a disc and its stiffness constant, so force over depth is a chain of straight lines.
+A model of the scaling: the surface is taken to stay level around a disc until the step below it arrives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.theory.domain import Array, positive, require
+
+__all__ = ["SteppedIndenter"]
+
+
+@dataclass(frozen=True, slots=True)
+class SteppedIndenter:
+    """Cylinders of radius r_n and height h_n, the smallest (n = 0) on top (thesis, eqs 4.20 and 4.21).
+
+    Parameters
+    ----------
+    radius : float
+        r0 [m].
+    height : float
+        h0 [m].
+    ratio : float
+        C, above 1.
+    hurst : float
+        H, not negative; the thesis takes it up to 1.
+
+    Raises
+    ------
+    ValueError
+        If C is not above 1 or H is negative.
+
+    Notes
+    -----
+    A disc counts whole as soon as its rim touches. The next cylinder really touches with an annulus around a gap; of
+    the stiffness of the whole disc it has between all and `punch.annulus` of the radii r_(n-1) and r_n: more
+    than 94 % for C = 1.5, 98 % for C = 2.
+    """
+
+    radius: float
+    height: float
+    ratio: float
+    hurst: float
+
+    def __post_init__(self) -> None:
+        positive(self.radius, "radius [m]")
+        positive(self.height, "height [m]")
+        require(
+            self.ratio > 1, f"ratio must exceed 1: each disc is wider than the one above it, not {self.ratio}"
+        )
+        require(
+            self.hurst >= 0,
+            f"hurst must not be negative: the steps of wider discs are higher, not {self.hurst}",
+        )
+
+    def radii(self, count: int) -> Array:
+        """Return r_n of the first `count` discs [m] (thesis, eq. 4.20)."""
+        value: Array = self.radius * self.ratio ** np.arange(count, dtype=np.float64)
+        return value
+
+    def heights(self, count: int) -> Array:
+        """Return h_n of the first `count` discs [m] (thesis, eq. 4.21)."""
+        value: Array = self.height * self.ratio ** (self.hurst * np.arange(count, dtype=np.float64))
+        return value
+
+    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return forces [N] and stiffnesses [N/m] just before disc n + 1 touches, for n below `count`.
+
+        k_n = 2 E* r_n (thesis, eq. 4.22, which lacks the 2), and F_n = k_0 h_0 + ... + k_n h_n, of which eq. 4.23
+        keeps the last term. Far from the tip it is a constant share, and k_n ~ F_n^(1/(1+H)) (eq. 4.24).
+
+        Parameters
+        ----------
+        count : int
+            Number of discs.
+        modulus : float
+            Reduced modulus E* [Pa].
+        """
+        k: Array = 2 * positive(modulus, "modulus [Pa]") * self.radii(count)
+        return np.cumsum(k * self.heights(count)), k
+
+    def stiffness(self, force: npt.ArrayLike, count: int, modulus: npt.ArrayLike) -> Array:
+        """Return the stiffness at a force [N/m]: a staircase (thesis, fig. 17).
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force [N].
+        count : int
+            Number of discs the indenter has; the last one has no end.
+        modulus : float
+            Reduced modulus E* [Pa].
+        """
+        forces, k = self.corners(count, modulus)
+        reached = np.searchsorted(forces, positive(force, "force [N]", zero=True), side="right")
+        value: Array = k[np.minimum(reached, count - 1)]
+        return value

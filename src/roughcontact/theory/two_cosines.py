@@ -1,0 +1,172 @@
+"""A short cosine wave on a long one, on springs: z = h1 cos(q1 x) + h2 cos(q2 x), q2 much larger than q1.
+
+Section 4.4.2 of the thesis, with its equations 4.38 to 4.41, 4.45 and 4.46 corrected: the force on one crest of the
+long wave, up to the depth 2 h2 at which the short wave is flat for the first time; and the hierarchy of waves
+h_n = h0 C^(-nH), q_n = q0 C^n in which each step leads to the next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import hyp2f1
+
+from roughcontact.theory.domain import Array, positive, require
+
+__all__ = ["FLAT_FORCE", "FLAT_STIFFNESS", "Hierarchy", "flat", "force", "stiffness"]
+
+# In units of E* h2^(3/2)/(q1 h1^(1/2)) and of E* (h2/h1)^(1/2)/q1 where the short wave is flat for the first time.
+# The thesis has 16/(3 pi) and 4 (eqs 4.40 and 4.41).
+FLAT_FORCE = 64 / (9 * np.pi)
+FLAT_STIFFNESS = 8 / np.pi
+
+
+def force(
+    depth: npt.ArrayLike,
+    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
+    short_amplitude: npt.ArrayLike,
+    modulus: npt.ArrayLike,
+) -> Array:
+    """Return the force on one crest of the long wave [N] (thesis, eq. 4.38, corrected).
+
+    Parameters
+    ----------
+    depth : float or array
+        Indentation depth d from first touch, at most 2 h2 [m].
+    long_wave : tuple of (float or array)
+        Its amplitude h1 [m] and wavenumber q1 [rad/m].
+    short_amplitude : float or array
+        h2 of the short wave [m]; its wavenumber does not matter, if only much larger than q1.
+    modulus : float or array
+        Reduced modulus E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the depth exceeds 2 h2, where the short wave has been flattened, or h1/2, where the contact reaches
+        beyond q1 |x| = 1 and the crest of the long wave is no parabola.
+
+    Notes
+    -----
+    The integral over the crest is F = 2 E* h2^(3/2)/(q1 h1^(1/2)) s^2 2F1(1/2, 1/2; 3; s), s = d/(2 h2).
+    """
+    s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
+    value: Array = 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
+    return value
+
+
+def stiffness(
+    depth: npt.ArrayLike,
+    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
+    short_amplitude: npt.ArrayLike,
+    modulus: npt.ArrayLike,
+) -> Array:
+    """Return the stiffness of one crest of the long wave [N/m]: the derivative of `force`.
+
+    Parameters
+    ----------
+    depth, long_wave, short_amplitude, modulus
+        See `force`.
+    """
+    s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
+    value: Array = 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
+    return value
+
+
+def flat(
+    long_wave: tuple[npt.ArrayLike, npt.ArrayLike], short_amplitude: npt.ArrayLike, modulus: npt.ArrayLike
+) -> tuple[Array, Array]:
+    """Return force [N] and stiffness [N/m] where the short wave is flat for the first time, at d = 2 h2.
+
+    64/(9 pi) E* h2^(3/2)/(q1 h1^(1/2)) and 8/pi E* (h2/h1)^(1/2)/q1 (thesis, eqs 4.40 and 4.41, corrected).
+
+    Parameters
+    ----------
+    long_wave, short_amplitude, modulus
+        See `force`.
+    """
+    depth = 2 * positive(short_amplitude, "short_amplitude [m]")
+    return (
+        force(depth, long_wave, short_amplitude, modulus),
+        stiffness(depth, long_wave, short_amplitude, modulus),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Hierarchy:
+    """Waves h_n = h0 C^(-nH), q_n = q0 C^n for n = 0, 1, 2, ... (thesis, eqs 4.42 to 4.44).
+
+    Parameters
+    ----------
+    amplitude, wavenumber : float
+        h0 [m] and q0 [rad/m] of the longest wave.
+    ratio : float
+        C, above 1; the results are asymptotic in it.
+    hurst : float
+        H, between 0 and 2.
+
+    Raises
+    ------
+    ValueError
+        If C is not above 1; if H is 0 or less: shorter waves would be as high as longer ones (eq. 4.48); if H is
+        2 or more: they would be too flat to matter on the crest below them (eqs 4.50 and 4.51).
+    """
+
+    amplitude: float
+    wavenumber: float
+    ratio: float
+    hurst: float
+
+    def __post_init__(self) -> None:
+        positive(self.amplitude, "amplitude [m]")
+        positive(self.wavenumber, "wavenumber [rad/m]")
+        require(
+            self.ratio > 1, f"ratio must exceed 1: each wave is shorter than the one before, not {self.ratio}"
+        )
+        require(
+            self.hurst > 0, "hurst must exceed 0: shorter waves would be as high as longer ones (eq. 4.48)"
+        )
+        require(
+            self.hurst < 2,
+            "hurst must be below 2: shorter waves would be too flat to matter (eqs 4.50, 4.51)",
+        )
+
+    def amplitudes(self, count: int) -> Array:
+        """Return h_n of the first `count` waves [m] (thesis, eq. 4.44)."""
+        value: Array = self.amplitude * self.ratio ** (-self.hurst * np.arange(count, dtype=np.float64))
+        return value
+
+    def wavenumbers(self, count: int) -> Array:
+        """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43)."""
+        value: Array = self.wavenumber * self.ratio ** np.arange(count, dtype=np.float64)
+        return value
+
+    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return force [N] and stiffness [N/m] where wave n + 1 is flat on wave n, for n below `count`.
+
+        Thesis, eqs 4.45 and 4.46, corrected. The points lie on a line of slope 1/(H+1) (eq. 4.47).
+        """
+        e, h, q = positive(modulus, "modulus [Pa]"), self.amplitudes(count + 1), self.wavenumbers(count)
+        scale = e / q * np.sqrt(h[1:] / h[:-1])
+        return FLAT_FORCE * scale * h[1:], FLAT_STIFFNESS * scale
+
+
+def _given(
+    depth: npt.ArrayLike,
+    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
+    short_amplitude: npt.ArrayLike,
+    modulus: npt.ArrayLike,
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Return s = d/(2 h2), h1, q1, h2 and E*."""
+    d, h2 = positive(depth, "depth [m]", zero=True), positive(short_amplitude, "short_amplitude [m]")
+    h1, q1 = positive(long_wave[0], "amplitude [m]"), positive(long_wave[1], "wavenumber [rad/m]")
+    require(
+        d <= 2 * h2, "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more"
+    )
+    require(
+        2 * d <= h1,
+        "depth must not exceed h1/2: contact would reach q1 |x| = 1, where the long wave is no parabola",
+    )
+    return d / (2 * h2), h1, q1, h2, positive(modulus, "modulus [Pa]")

@@ -1,0 +1,268 @@
+"""The waves of an isotropic surface, from the longest to the shortest, as Persson's theory adds them up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TypeAlias, cast
+
+import numpy as np
+import scipy.fft
+
+from roughcontact.theory.domain import Array
+from roughcontact.theory.panels import gauss, graded, running
+from roughcontact.theory.spectra import MeasuredSpectrum, RadialSpectrum
+
+__all__ = ["Spectrum", "Waves"]
+
+START = 1e-9  # where the graded panels begin, in parts of the first wave: what lies before weighs as much
+MERGED = 1e-3  # waves of a grid whose wavenumbers differ by less than this part count as one band
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Waves:
+    """Nodes of a quadrature over all waves of a surface: ``2 pi int q C2D f(q, g) dq = sum(power * f)``.
+
+    Here g(q) is the rms slope of all waves longer than q. Make one by `of_spectrum`, `of_measured`,
+    `of_heights` or `of_bands`, or by `of` from whatever describes the surface. It is a `ProfileMoments`.
+
+    Parameters
+    ----------
+    wavenumber : array, shape (n,)
+        q at each node [rad/m], not decreasing.
+    power : array, shape (n,)
+        Mean square height for which the node stands [m^2].
+    slope : array, shape (n,)
+        g at the node, the rms slope of the waves up to it [-], increasing.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together or are not positive and in order.
+
+    Notes
+    -----
+    Integrands of the theory behave like 1/g, which at the longest wave q0 is ``(q - q0)^(-1/2)``; and at small
+    pressures they have features at small g. The nodes are those of Gauss on panels whose widths in g shrink
+    geometrically towards g = 0, for which both are smooth.
+
+    A single wave of the surface that stands for itself is the limit of a narrow band: in it q is one number, and
+    g grows from the slope of all longer waves to that with the wave, over several nodes.
+    """
+
+    wavenumber: Array
+    power: Array
+    slope: Array
+
+    def __post_init__(self) -> None:
+        for name in ("wavenumber", "power", "slope"):
+            value = np.array(getattr(self, name), dtype=np.float64)
+            if value.ndim != 1 or value.shape != np.shape(self.wavenumber) or value.size == 0:
+                raise ValueError(f"{name} must have one value for each node, not shape {value.shape}")
+            if not (np.isfinite(value).all() and (value > 0).all()):
+                raise ValueError(f"{name} must be positive and finite at every node")
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+        if (np.diff(self.wavenumber) < 0).any() or (np.diff(self.slope) < 0).any():
+            raise ValueError("nodes must go from long waves to short ones: sort them by wavenumber")
+
+    @property
+    def m0(self) -> float:
+        """Mean square height [m^2]."""
+        return float(self.power.sum())
+
+    @property
+    def m2(self) -> float:
+        """Mean square slope of a profile [-], half of that of the surface."""
+        return float(self.wavenumber**2 @ self.power) / 2
+
+    @property
+    def m4(self) -> float:
+        """Mean square curvature of a profile [1/m^2]."""
+        return 3 / 8 * float(self.wavenumber**4 @ self.power)
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square of |grad z| over all waves [-]."""
+        return math.sqrt(2 * self.m2)
+
+    @classmethod
+    def of(cls, spectrum: Spectrum) -> Waves:
+        """Return the waves of any description of a surface: waves, a measured spectrum or a continuous one."""
+        if isinstance(spectrum, Waves):
+            return spectrum
+        if hasattr(spectrum, "wavenumber") and hasattr(spectrum, "density"):
+            return cls.of_measured(cast(MeasuredSpectrum, spectrum))
+        if callable(spectrum):
+            return cls.of_spectrum(spectrum)
+        raise ValueError(
+            f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is wanted, not {spectrum!r}; "
+            "for a surface with a lay take Waves.of_heights"
+        )
+
+    @classmethod
+    def of_spectrum(
+        cls,
+        spectrum: RadialSpectrum,
+        q_min: float | None = None,
+        q_max: float | None = None,
+        breaks: Iterable[float] = (),
+    ) -> Waves:
+        """Return the waves of a continuous isotropic spectrum.
+
+        Parameters
+        ----------
+        spectrum : callable
+            C2D(q) [m^4].
+        q_min, q_max : float, optional
+            The band [rad/m], within that of the spectrum. A smaller `q_max` is a smaller magnification.
+        breaks : iterable of float
+            Wavenumbers at which the spectrum has a corner [rad/m]; `q_rolloff` of the spectrum is taken by itself.
+
+        Raises
+        ------
+        ValueError
+            If the band is not finite, or the spectrum is that of a line, negative or zero.
+        """
+        if getattr(spectrum, "dimension", 2) != 2:
+            raise ValueError("Persson's theory wants the spectrum C2D of a surface, not that of a line")
+        low = max(getattr(spectrum, "q_min", 0.0), 0.0 if q_min is None else q_min)
+        high = min(getattr(spectrum, "q_max", math.inf), math.inf if q_max is None else q_max)
+        if not low > 0:
+            raise ValueError(
+                "the spectrum has no longest wave, and without one no surface of finite size: give cutoff_wavelength, "
+                "or q_min, 2 pi over the side of the surface [rad/m]"
+            )
+        if not math.isfinite(high):
+            raise ValueError(
+                "the spectrum has no shortest wave, and the contact area hangs on it: give short_wavelength, or "
+                "q_max [rad/m]"
+            )
+        corner = getattr(spectrum, "q_rolloff", 0.0)
+        return _of_density(spectrum, low, high, np.array([corner, *breaks], dtype=np.float64))
+
+    @classmethod
+    def of_measured(
+        cls, spectrum: MeasuredSpectrum, q_min: float | None = None, q_max: float | None = None
+    ) -> Waves:
+        """Return the waves of a measured spectrum of a surface, a power law between its bins.
+
+        Parameters
+        ----------
+        spectrum : MeasuredSpectrum
+            Such as `roughcontact.power_spectrum` returns.
+        q_min, q_max : float, optional
+            The band [rad/m]; by default the one to be relied upon. The area hangs on `q_max`: state it.
+
+        Raises
+        ------
+        ValueError
+            If the spectrum is that of profiles, or fewer than two bins with power lie in the band.
+        """
+        if spectrum.kind != "C2D":
+            raise ValueError(
+                f"Persson's theory wants the spectrum C2D of a surface, not {spectrum.kind}: convert the "
+                "spectrum of profiles by roughcontact.surface_spectrum"
+            )
+        low = spectrum.q_min if q_min is None else q_min
+        high = spectrum.q_max if q_max is None else q_max
+        q, density = np.asarray(spectrum.wavenumber), np.asarray(spectrum.density)
+        keep = (q >= low * (1 - 1e-9)) & (q <= high * (1 + 1e-9)) & (density > 0)
+        if keep.sum() < 2:
+            raise ValueError(f"two bins with power are wanted between {low:g} and {high:g} rad/m")
+        ln_q, ln_c = np.log(q[keep]), np.log(density[keep])
+        bins = np.asarray(q[keep])
+        return _of_density(lambda x: np.exp(np.interp(np.log(x), ln_q, ln_c)), bins[0], bins[-1], bins)
+
+    @classmethod
+    def of_heights(cls, heights: Array, spacing: tuple[float, float]) -> Waves:
+        """Return the waves of heights, taken for one period of a surface; directions are averaged.
+
+        Parameters
+        ----------
+        heights : array, shape (ny, nx)
+            [m]. Steps between opposite edges count as roughness.
+        spacing : tuple of float
+            Size of a cell ``(dy, dx)`` [m].
+
+        Raises
+        ------
+        ValueError
+            If the heights are no map, hold holes or are flat.
+        """
+        z = np.asarray(heights, dtype=np.float64)
+        if z.ndim != 2:
+            raise ValueError(f"heights must have two axes, not {z.ndim}")
+        if not np.isfinite(z).all():
+            raise ValueError("heights hold points that were not measured: fill them first")
+        (ny, nx), (dy, dx) = z.shape, spacing
+        power = np.abs(scipy.fft.rfft2(z - z.mean()) / z.size) ** 2
+        # Every column stands for q and -q, but the first and, of an even number, the last.
+        power[:, 1 : (nx + 1) // 2] *= 2
+        q = 2 * np.pi * np.hypot(scipy.fft.fftfreq(ny, dy)[:, None], scipy.fft.rfftfreq(nx, dx))
+        waves = (q > 0) & (power > 0)
+        if not waves.any():
+            raise ValueError("the heights are flat: contact is full at any load")
+        q, power = q[waves], power[waves]
+        band = np.rint(np.log(q / q.min()) / MERGED).astype(np.int64)
+        sums, squares = np.bincount(band, power).astype(float), np.bincount(band, power * q**2).astype(float)
+        full = sums > 0
+        return cls.of_bands(np.sqrt(squares[full] / sums[full]), sums[full])
+
+    @classmethod
+    def of_bands(cls, wavenumber: Array, power: Array) -> Waves:
+        """Return the waves of narrow bands: wavenumbers [rad/m], increasing, and the mean square height of each [m^2].
+
+        Raises
+        ------
+        ValueError
+            If wavenumbers do not increase from above zero, or a power is not positive.
+        """
+        q, m = np.asarray(wavenumber, dtype=np.float64), np.asarray(power, dtype=np.float64)
+        if not (q.ndim == 1 and q.shape == m.shape and q.size and q[0] > 0 and (np.diff(q) > 0).all()):
+            raise ValueError("bands need increasing, positive wavenumbers and one power each")
+        if not (np.isfinite(m).all() and (m > 0).all()):
+            raise ValueError("the power of every band must be positive and finite")
+        ends = np.sqrt(np.cumsum(q**2 * m))
+        edges = np.union1d(graded(START * ends[0], ends[-1], 1.2), ends)
+        x, weights = gauss(4)
+        width = np.diff(edges)[:, None]
+        slope = edges[:-1, None] + width * x
+        inside = q[np.searchsorted(ends, edges[1:])][:, None]
+        # q^2 d(power) = d(g^2) = 2 g dg
+        return cls(
+            np.broadcast_to(inside, slope.shape).ravel(),
+            (2 * slope * width * weights / inside**2).ravel(),
+            slope.ravel(),
+        )
+
+
+Spectrum: TypeAlias = Waves | MeasuredSpectrum | RadialSpectrum
+
+
+def _of_density(density: Callable[[Array], Array], low: float, high: float, breaks: Array) -> Waves:
+    """Return the waves of C2D(q) on a finite band, smooth between the breaks."""
+    if not 0 < low < high:
+        raise ValueError(f"no wave lies between {low:g} and {high:g} rad/m")
+    corners = np.sqrt(breaks[(breaks > low) & (breaks < high)] / low - 1)
+    end = math.sqrt(high / low - 1)
+    s_edges = np.union1d(np.append(graded(START * min(end, 1.0), end, 1.5), end), corners)
+    x, weights = gauss(8)
+    width = np.diff(s_edges)[:, None]
+    s = s_edges[:-1, None] + width * x
+    q = low * (1 + s**2)
+    values = np.asarray(density(q.ravel()), dtype=np.float64).reshape(q.shape)
+    if not (np.isfinite(values).all() and (values >= 0).all()):
+        raise ValueError("the spectrum must be finite and not negative between its limits")
+    powers = 2 * math.pi * q * values * (2 * low * s * width)
+    squares = q**2 * powers
+    before = np.concatenate([[0.0], np.cumsum(squares @ weights)[:-1]])[:, None]
+    # Where hardly any power is left, rounding must not turn the order around.
+    slope = np.maximum.accumulate(np.sqrt(np.maximum(before + squares @ running(x).T, 0)).ravel()).reshape(
+        q.shape
+    )
+    keep = (powers > 0) & (slope > 0)
+    if not keep.any():
+        raise ValueError("the spectrum is zero between its limits: contact is full at any load")
+    return Waves(q[keep], (powers * weights)[keep], slope[keep])

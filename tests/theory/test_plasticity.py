@@ -1,0 +1,56 @@
+"""Plasticity indices: closed forms, limits, and how the two forms are related."""
+
+import math
+
+import pytest
+
+import roughcontact as rc
+from roughcontact.theory import plasticity
+
+MODULUS, HARDNESS = 1.1e11, 2e9
+
+
+def moments(alpha, slope):
+    """A surface of rms slope `slope`, with m0 = 1 um^2."""
+    return rc.Moments(1e-12, slope**2 / 2, alpha * (slope**2 / 2) ** 2 / 1e-12)
+
+
+def test_slope_form():
+    index = plasticity.slope_index(moments(5.0, 0.01), MODULUS, HARDNESS)
+    assert index.value == pytest.approx(MODULUS * 0.01 / HARDNESS, rel=1e-14)
+    assert index.elastic_below == pytest.approx(2 / 3)
+
+
+@pytest.mark.parametrize("alpha", [1.5, 10.0, 1e3])
+@pytest.mark.parametrize("slope", [0.003, 0.2])
+def test_both_forms_differ_by_a_function_of_nayaks_parameter(alpha, slope):
+    given = moments(alpha, slope), MODULUS, HARDNESS
+    ratio = plasticity.asperity_index(*given).value / plasticity.slope_index(*given).value
+    # s/R = (8/3) sqrt(m0 m4 (1 - c/alpha)/pi), against 2 m2.
+    c = 1 + 16 / math.pi - 3 * math.sqrt(3)
+    assert ratio == pytest.approx(math.sqrt(4 / (3 * math.sqrt(math.pi)) * math.sqrt(alpha - c)), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("value", "regime"), [(0.59, "elastic"), (0.61, "mixed"), (0.99, "mixed"), (1.01, "plastic")]
+)
+def test_regimes_of_the_asperity_form(value, regime):
+    given = moments(4.0, 0.01)
+    at_one = plasticity.asperity_index(given, 1.0, 1.0).value
+    assert plasticity.asperity_index(given, value / at_one, 1.0).regime == regime
+
+
+@pytest.mark.parametrize(("value", "regime"), [(0.66, "elastic"), (0.67, "mixed"), (50.0, "mixed")])
+def test_the_slope_form_never_says_plastic(value, regime):
+    assert plasticity.slope_index(moments(4.0, 1.0), value, 1.0).regime == regime
+
+
+def test_an_infinite_slope_is_refused():
+    with pytest.raises(ValueError, match="shortest wave"):
+        plasticity.slope_index(rc.Moments(1.0, math.inf, math.inf), MODULUS, HARDNESS)
+
+
+@pytest.mark.parametrize("bad", [(0.0, HARDNESS), (MODULUS, 0.0)])
+def test_moduli_and_hardness_must_be_positive(bad):
+    with pytest.raises(ValueError, match="positive"):
+        plasticity.slope_index(moments(4.0, 0.1), *bad)
