@@ -213,3 +213,14 @@ class TestNothingHalfWritten:
         answer = invoke("press", rough, *FORCE, *MODULUS, "--out", rough)
         assert answer.exit_code == 2
         assert "is a file" in answer.stderr
+
+
+def test_the_distribution_of_the_pressure_is_drawn_beside_a_theory(invoke, rough, tmp_path):
+    words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--theory", "persson")
+    answer = invoke(*words, "--out", tmp_path / "result")
+    assert answer.exit_code == 0
+    assert (tmp_path / "result" / "distribution.png").stat().st_size > 10_000
+    nowhere = invoke(*words)
+    assert nowhere.exit_code == 2
+    assert "say where by --out" in nowhere.stderr
+    assert invoke(*words[:-1], "gw", "--out", tmp_path / "result").exit_code == 2

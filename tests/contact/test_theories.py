@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.theories import persson_pressures
 
 MODULUS = 1e11
 
@@ -98,3 +99,16 @@ def test_a_line_is_refused():
     line = rc.Surface(np.arange(8.0), rc.Grid(8, 1.0))
     with pytest.raises(ValueError, match="two axes"):
         rc.loading_laws(line, MODULUS, "gw")
+
+
+def test_perssons_pressures_stand_beside_the_computed_ones(wide, curve):
+    """Their first moment is the nominal pressure, as the computed one is; the shapes differ by some ten per cent."""
+    solution = rc.press(wide, MODULUS, pressure=1e9)
+    density = persson_pressures(solution)
+    stress = np.linspace(0, 40 * 1e9, 4001)
+    assert np.trapezoid(stress * density(stress), stress) == pytest.approx(1e9, rel=1e-4)
+    fraction = np.trapezoid(density(stress), stress)
+    assert 0.5 < fraction / solution.contact_fraction < 1
+    with pytest.raises(ValueError, match="two axes"):
+        grid = rc.RadialGrid.uniform(8, 1.0)
+        persson_pressures(rc.press(rc.RadialProfile(-grid.radii, grid), MODULUS, force=1.0))

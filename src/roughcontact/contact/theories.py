@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.build import half_space
 from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
@@ -16,11 +18,13 @@ from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.spectrum_moments import spectrum_moments
 from roughcontact.surface.moments import surface_moments
 from roughcontact.surface.surface import Surface
-from roughcontact.theory import interaction, laws
+from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.waves import Waves
 
-__all__ = ["loading_laws"]
+__all__ = ["loading_laws", "persson_pressures"]
+
+Array = npt.NDArray[np.float64]
 
 
 def loading_laws(
@@ -69,6 +73,26 @@ def loading_laws(
     } - known.keys():
         known |= _told_by(whole, need)
     return [_on_its_body(laws.named(name, **known), surface, value) for name in wanted]
+
+
+def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
+    """Return Persson's probability density of the pressure [1/Pa] at the load of a solution, for comparison.
+
+    A function of an array of pressures above zero [Pa]. Its integral is his contact fraction, its first moment the
+    nominal pressure; compare with `Solution.pressure_histogram` times the contact fraction.
+
+    Raises
+    ------
+    ValueError
+        If the solution is not that of a surface on a grid of two axes.
+    """
+    surface = solution.problem.surface
+    if not isinstance(surface, Surface) or surface.grid.ndim != 2:
+        raise ValueError("Persson's theory is about surfaces on a grid of two axes")
+    whole = surface.filled() if surface.missing else surface
+    waves = Waves.of(_told_by(whole, "spectrum")["spectrum"])
+    nominal = solution.force / surface.grid.area
+    return lambda stress: persson.pressure_density(stress, nominal, solution.problem.modulus, waves)
 
 
 def _told_by(surface: Surface, need: str) -> dict[str, Any]:
