@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipe
 
+import hats
 import roughcontact as rc
 
 MODULUS = 2.0
@@ -81,6 +82,20 @@ def test_annulus_by_extrapolation():
         return rc.contact_stiffness(np.ones(n, bool), grid, 1.0) / 2
 
     k = np.array([stiffness(n) for n in (16, 32, 64, 128, 256)])
+    for order in (1, 2, 3):
+        k = k[1:] + (k[1:] - k[:-1]) / (2**order - 1)
+    assert k[-1] == pytest.approx(0.981017896923, abs=1e-8)
+
+
+def test_annulus_by_extrapolation_with_hats():
+    """The thesis' own discretisation, half hats at both edges, gives the same number."""
+
+    def stiffness(n):
+        matrix, w = hats.hat_matrix(n, n // 2)[n // 2 :, n // 2 :], hats.hat_weights(n, n // 2)[n // 2 :]
+        p = np.linalg.solve(matrix / (np.pi * n), np.ones(n // 2 + 1))
+        return w @ p / n**2 / 2
+
+    k = np.array([stiffness(n) for n in (32, 64, 128, 256)])
     for order in (1, 2, 3):
         k = k[1:] + (k[1:] - k[:-1]) / (2**order - 1)
     assert k[-1] == pytest.approx(0.981017896923, abs=1e-8)
