@@ -192,6 +192,10 @@ class TestInverse:
         # Rounding of exponents of size s0^2/2 = 500 or so.
         assert found.pressure(separation) == pytest.approx(p, rel=1e-12)
 
+    def test_many_equal_pressures(self):
+        separation = summits(2.0).separation(np.full(50, 1e6))
+        assert separation == pytest.approx(np.full(50, summits(2.0).separation(1e6)), rel=1e-13)
+
     def test_no_load_and_too_much(self):
         found = summits(2.0)
         assert found.separation(np.array([0.0, 1e6]))[0] == math.inf

@@ -2,16 +2,48 @@
 
 from __future__ import annotations
 
-import pkgutil
 from importlib import import_module
 from types import ModuleType
 
-__all__ = sorted(module.name for module in pkgutil.iter_modules(__path__))
+__all__ = [
+    "asperities",
+    "beat_wave",
+    "bounds",
+    "bush_gibson_thomas",
+    "cattaneo",
+    "conductance",
+    "cosine",
+    "finite_size",
+    "gaussian_heights",
+    "greenwood_williamson",
+    "height_distribution",
+    "hertz",
+    "holm",
+    "interaction",
+    "jaeger",
+    "law",
+    "laws",
+    "mindlin",
+    "nayak",
+    "persson",
+    "persson_separation",
+    "plasticity",
+    "pohrt_popov",
+    "power_law_indenter",
+    "punch",
+    "rough_sphere",
+    "stepped",
+    "thermal",
+    "two_cosines",
+    "waves",
+]
 
 
 def __getattr__(name: str) -> ModuleType:
     if name not in __all__:
-        raise AttributeError(f"module 'roughcontact.theory' has no attribute {name!r}; it has {__all__}")
+        raise AttributeError(
+            f"module 'roughcontact.theory' has no attribute {name!r}; it has {', '.join(__all__)}"
+        )
     return import_module(f"{__name__}.{name}")
 
 

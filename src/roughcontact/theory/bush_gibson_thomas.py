@@ -18,14 +18,14 @@ import numpy.typing as npt
 from scipy.interpolate import make_interp_spline
 from scipy.special import erfc, ndtri_exp
 
-from roughcontact.theory.concave_root import concave_root
-from roughcontact.theory.domain import positive, require
 from roughcontact.theory.hertz.elliptic import elliptic as hertz
 from roughcontact.theory.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.nayak import bandwidth, free_variance
 from roughcontact.theory.summit_integrals import log_integrals
+from roughcontact.theory.tools.concave_root import concave_root
+from roughcontact.theory.tools.domain import positive, require
 
 __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
 
@@ -33,7 +33,7 @@ Array = npt.NDArray[np.float64]
 
 ELLIPTIC = "Bush, Gibson and Thomas, Wear 35, 87 (1975)"
 CIRCULAR = "Greenwood, Wear 261, 191 (2006)"
-FEW = 32
+FEW = 32  # pressures that are inverted one by one
 INFINITY = 100.0  # in sqrt(m0): a load of exp(-5000) is none
 
 
@@ -121,8 +121,9 @@ class Summits:
         plane = np.full(np.shape(load), np.inf)
         target = np.log(load[load > 0] / self._force_scale)
         if target.size > FEW:
-            # The inverse is smooth: a spline through a few of its points leaves Newton next to nothing to do.
-            known = np.linspace(target.min(), target.max(), FEW)
+            # The inverse is smooth: a spline through a few of its points leaves Newton next to nothing to do. A margin
+            # keeps these points apart if all targets are one.
+            known = np.linspace(target.min() - 0.01, target.max() + 0.01, FEW)
             start = make_interp_spline(known, self._invert(known, self._first_guess(known)))(target)
         else:
             start = self._first_guess(target)

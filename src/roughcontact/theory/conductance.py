@@ -17,8 +17,8 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = [
     "electrical",

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import spherical_jn
 
-from roughcontact.theory.domain import Array, positive, require
-from roughcontact.theory.inverse import bisect
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.inverse import bisect
 
 __all__ = ["depth", "force", "law", "small_force", "stiffness"]
 

@@ -23,8 +23,8 @@ import numpy as np
 
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory import pohrt_popov
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = ["Cell", "law"]

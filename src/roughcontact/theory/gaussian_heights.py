@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtr
 
-from roughcontact.theory.domain import Array, positive
-from roughcontact.theory.inverse import bisect
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.inverse import bisect
 
 __all__ = ["exponent", "force", "law", "stiffness"]
 

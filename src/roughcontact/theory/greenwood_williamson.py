@@ -14,13 +14,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import gammaln
 
-from roughcontact.theory.concave_root import concave_root
-from roughcontact.theory.domain import positive, require
 from roughcontact.theory.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
+from roughcontact.theory.tools.concave_root import concave_root
+from roughcontact.theory.tools.domain import positive, require
 
 __all__ = ["Asperity", "Population", "law", "population"]
 
@@ -231,4 +231,5 @@ def law(
         If the moments are not those of an isotropic Gaussian surface.
     """
     asperities = population(moments, modulus, distribution=distribution)
-    return loading_law(asperities, area, name="Greenwood-Williamson", source=SOURCE)
+    name = "Greenwood-Williamson" + (", exponential" if distribution == "exponential" else "")
+    return loading_law(asperities, area, name=name, source=SOURCE)

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
-from roughcontact.theory.domain import Array, positive, require
-from roughcontact.theory.inverse import bisect
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.inverse import bisect
 
 __all__ = [
     "HeightDistribution",

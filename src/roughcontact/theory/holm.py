@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
 

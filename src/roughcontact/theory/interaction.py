@@ -19,20 +19,19 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory import greenwood_williamson
-from roughcontact.theory.concave_root import concave_root
-from roughcontact.theory.domain import positive, require
 from roughcontact.theory.interface import Interface
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.partial_moments import Distribution
+from roughcontact.theory.tools.concave_root import concave_root
+from roughcontact.theory.tools.domain import positive, require
 
 __all__ = ["SQUARE", "finite_body", "law", "mean_gap"]
 
 Array = npt.NDArray[np.float64]
 
-SQUARE = (
-    4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)
-)  # 0.9464: uniform load on a square
+# c of a uniform pressure on a square, 0.9464.
+SQUARE = 4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)
 SOURCE = "Ciavarella, Greenwood and Paggi, Wear 265, 729 (2008)"
 
 

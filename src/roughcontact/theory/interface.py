@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import positive
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import positive
 
 __all__ = ["Interface", "loading_law"]
 

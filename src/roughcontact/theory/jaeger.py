@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import quad
 
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["cycle_loss", "displacement", "stiffness"]
 

@@ -26,8 +26,8 @@ class LoadingLaw:
         Paper, or thesis and equation number.
     quantities : mapping of str to callable
         From the name of a curve's quantity (``"stiffness"`` [N/m], ``"interfacial_stiffness"`` [N/m],
-        ``"contact_area"`` [m^2], ``"mean_gap"`` [m], ``"depth"`` [m], ``"elastic_energy"`` [J]) to a function of
-        an array of forces [N] that returns an array of its shape.
+        ``"contact_area"`` [m^2], ``"mean_gap"`` [m], ``"depth"`` [m], ``"elastic_energy"`` [J], ``"spots"`` [-]) to
+        a function of an array of forces [N] that returns an array of its shape.
     domain : tuple of float
         Lowest and highest force [N] at which the theory claims to hold.
     """
@@ -46,7 +46,9 @@ class LoadingLaw:
             If the theory says nothing about the quantity.
         """
         if quantity not in self.quantities:
-            raise ValueError(f"{self.name} says nothing about {quantity!r}, only about {sorted(self.quantities)}")
+            raise ValueError(
+                f"{self.name} says nothing about {quantity!r}, only about {sorted(self.quantities)}"
+            )
         given = np.atleast_1d(np.asarray(force, dtype=np.float64))
         inside = (given >= self.domain[0]) & (given <= self.domain[1])
         values = np.full(given.shape, np.nan)

@@ -16,8 +16,8 @@ from typing import Literal, Protocol
 import numpy as np
 
 from roughcontact.theory import pohrt_popov
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = [
     "ElasticSolid",

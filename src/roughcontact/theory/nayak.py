@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import log_ndtr
 
-from roughcontact.theory.domain import positive, require
 from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.tools.domain import positive, require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 

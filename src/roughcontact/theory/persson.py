@@ -18,9 +18,9 @@ import numpy as np
 from scipy.special import erf, erfc, erfinv
 
 from roughcontact.theory import persson_separation as separation
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = [

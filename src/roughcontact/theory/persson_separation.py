@@ -21,7 +21,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.special import beta, erf, exp1
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = [

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.theory.domain import positive
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.nayak import summits
+from roughcontact.theory.tools.domain import positive
 
 __all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = [
     "FORCE_LIMIT",

@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory import pohrt_popov
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.power_law_indenter import kappa
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 

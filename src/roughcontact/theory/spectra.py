@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from roughcontact.theory.domain import Array
+from roughcontact.theory.tools.domain import Array
 
 __all__ = ["MeasuredSpectrum", "RadialSpectrum"]
 

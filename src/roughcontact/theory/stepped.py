@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["SteppedIndenter"]
 

@@ -17,9 +17,9 @@ from typing import Literal
 import numpy as np
 
 from roughcontact.theory.conductance import Pair, harmonic_mean
-from roughcontact.theory.domain import Array, positive, require
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = [
     "cell_resistance",

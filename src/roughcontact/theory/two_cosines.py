@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["FLAT_FORCE", "FLAT_STIFFNESS", "Hierarchy", "flat", "force", "stiffness"]
 

@@ -10,9 +10,9 @@ from typing import TypeAlias, cast
 import numpy as np
 import scipy.fft
 
-from roughcontact.theory.domain import Array
-from roughcontact.theory.panels import gauss, graded, running
 from roughcontact.theory.spectra import MeasuredSpectrum, RadialSpectrum
+from roughcontact.theory.tools.domain import Array
+from roughcontact.theory.tools.panels import gauss, graded, running
 
 __all__ = ["Spectrum", "Waves"]
 

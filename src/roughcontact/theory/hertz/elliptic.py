@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
-from roughcontact.theory.domain import Array, positive
-from roughcontact.theory.products import Product, checked, solve
+from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["EllipticContact", "elliptic"]
 

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import lambertw
 
-from roughcontact.theory.domain import Array, positive, require
-from roughcontact.theory.products import Product, checked, solve
+from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["LineContact", "line"]
 

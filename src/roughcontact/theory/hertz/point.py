@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import spherical_jn
 
-from roughcontact.theory.domain import Array, positive
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.products import Product, checked, solve
+from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["PointContact", "law", "point"]
 

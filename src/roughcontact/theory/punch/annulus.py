@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["annulus"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = ["two_discs"]
 

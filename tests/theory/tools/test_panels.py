@@ -2,7 +2,7 @@
 
 import pytest
 
-from roughcontact.theory.panels import gauss, graded, running
+from roughcontact.theory.tools.panels import gauss, graded, running
 
 
 def test_gauss_integrates_polynomials():

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory.inverse import bisect
-from roughcontact.theory.products import Product, solve
+from roughcontact.theory.tools.inverse import bisect
+from roughcontact.theory.tools.products import Product, solve
 
 BOX = {
     "width": Product((1, 0)),

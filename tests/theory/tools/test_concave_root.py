@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory.concave_root import concave_root
+from roughcontact.theory.tools.concave_root import concave_root
 
 
 @pytest.mark.parametrize("start", [-300.0, 0.0, 500.0])

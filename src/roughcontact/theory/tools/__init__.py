@@ -1,0 +1,1 @@
+"""What several theories compute with: checked numbers, roots, quadrature, inverses."""
