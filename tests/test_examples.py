@@ -41,8 +41,31 @@ def check_demo(stdout, folder):
         assert dataset.attrs["input_reduced_modulus_in_Pa"] == pytest.approx(32e9, rel=1e-14)
 
 
+def check_ehl_line(stdout, _):
+    """Martin's film, but for the tail beyond the inlet (it falls with its square: 3e-3 at 30); Moes' at the end."""
+    rigid = float(re.search(r"= (\S+) \(Martin", stdout)[1])
+    assert rigid == pytest.approx(4.8950, rel=3e-3)
+    last = re.findall(r"H = (\S+) \(2.05 M\^\(-1/5\) = (\S+)\)", stdout)[-1]
+    assert float(last[0]) == pytest.approx(float(last[1]), rel=0.03)
+
+
+def check_squeeze_film(stdout, _):
+    """The rigid ball falls as the closed form says, the soft one ends as Hertz.
+
+    Missing: the load beyond the rim, h0 over the thickness there (1e-3), and (dr)^2/(2 h0) of the rings (1.6e-3).
+    """
+    assert float(re.search(r"V\) = (\S+)", stdout)[1]) == pytest.approx(1, abs=3e-3)
+    assert float(re.search(r"Hertz' pressure (\S+)", stdout)[1]) < 0.01
+    middle, thinnest = (float(word) for word in re.search(r"middle (\S+), thinnest (\S+)", stdout).groups())
+    assert middle > 1.5 * thinnest  # a dimple
+
+
 # Script -> its arguments, where FOLDER is an empty folder, and the check of its number.
-CHECKS = {"demo.py": (["--out", "FOLDER"], check_demo)}
+CHECKS = {
+    "demo.py": (["--out", "FOLDER"], check_demo),
+    "ehl_line.py": ([], check_ehl_line),
+    "squeeze_film.py": ([], check_squeeze_film),
+}
 
 
 def test_every_example_is_checked():
