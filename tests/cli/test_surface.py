@@ -110,12 +110,59 @@ def test_a_surface_that_cannot_be_made_leaves_no_file(invoke, tmp_path, changed,
 
 def test_a_file_that_cannot_be_written_is_refused(invoke, tmp_path):
     for path, complaint in (
-        (tmp_path / "new.csv", "ends in .npz"),
+        (tmp_path / "new.csv", "written as one of .npz, .nc, .x3p, .txt, .npy, .vti"),
+        (tmp_path / "new", "written as one of .npz"),
         (tmp_path / "no" / "new.npz", "no folder"),
     ):
         answer = invoke("surface", "make", path, *MAKE, "--points", "16")
         assert (answer.exit_code, list(tmp_path.iterdir())) == (2, [])
         assert complaint in answer.stderr
+
+
+@pytest.mark.parametrize("ending", ["npz", "nc", "x3p", "txt", "npy", "vti", "NPZ"])
+def test_a_surface_is_written_as_its_ending_says(invoke, tmp_path, ending):
+    path = tmp_path / f"new.{ending}"
+    answer = invoke("surface", "make", path, *MAKE, "--points", "16x12", "--periodic", "--json")
+    assert answer.exit_code == 0, answer.stderr
+    assert ("Note: a file" in answer.stderr) is (ending not in ("npz", "nc", "NPZ"))
+    grid = rc.Grid((16, 12), (1e-3 / 12, 1e-3 / 12), periodic=True)
+    made = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(1))
+    if ending == "vti":
+        assert made.heights[::-1].tobytes() in path.read_bytes()
+        return
+    given = {"unit": "m", "size": grid.lengths} if ending == "npy" else {}
+    surface = rc.read(path, **given)
+    np.testing.assert_array_equal(surface.heights, made.heights)
+    np.testing.assert_allclose(surface.grid.spacing, grid.spacing, rtol=4e-16)
+    assert any(surface.grid.periodic) is (ending in ("npz", "nc", "NPZ"))
+
+
+def test_info_looks_at_a_line_scan(invoke, tmp_path):
+    line = rc.Surface(1e-6 * np.sin(np.arange(50.0)), rc.Grid(50, 2e-6))
+    for ending in ("txt", "x3p", "npz", "nc"):
+        path = tmp_path / f"line.{ending}"
+        rc.write(line, path)
+        answer = invoke("surface", "info", path, "--json")
+        assert answer.exit_code == 0, answer.stderr
+        assert f"Note: {path} holds a line scan of 50 heights" in answer.stderr
+        record = json.loads(answer.stdout)
+        assert (record["shape"], record["rms"]) == ([50], pytest.approx(line.rms, rel=1e-12))
+    table = invoke("surface", "info", tmp_path / "line.txt").stdout
+    assert "heights: 50, in m, a line scan" in table
+    assert "about its slope" in table
+    np.save(tmp_path / "bare.npy", line.heights)
+    given = invoke("surface", "info", tmp_path / "bare.npy", "--unit", "m", "--size", "100um", "--json")
+    assert json.loads(given.stdout)["spacing"] == pytest.approx([2e-6], rel=1e-15)
+    wrong = invoke("surface", "info", tmp_path / "bare.npy", "--unit", "m", "--size", "1um x 2um")
+    assert (wrong.exit_code, "one length" in wrong.stderr) == (2, True)
+
+
+def test_a_line_scan_is_not_pressed_like_a_map(invoke, tmp_path):
+    rc.write(rc.Surface(1e-6 * np.arange(9.0), rc.Grid(9, 2e-6)), tmp_path / "line.txt")
+    answer = invoke("press", tmp_path / "line.txt", "--force", "1N", "--modulus", "1GPa")
+    assert answer.exit_code == 2
+    assert "it is a line scan of 9 heights" in answer.stderr
+    assert "taken by 'surface info', 'surface spectrum' and 'surface prepare'" in answer.stderr
 
 
 def test_info_says_what_a_file_holds(invoke, tmp_path, surface):

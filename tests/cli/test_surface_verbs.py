@@ -114,7 +114,7 @@ def test_prepare_takes_its_steps_in_the_order_that_it_states(invoke, holed, tmp_
     assert record["shape"] == [40, 50]
     assert record["rms"] == pytest.approx(expected.rms, rel=1e-12)
     assert record["provenance"] == list(expected.provenance)
-    assert ("no place for the history" in answer.stderr) is (ending in ("x3p", "vti"))
+    assert (f"a file .{ending} " in answer.stderr) is (ending in ("x3p", "vti"))
     if ending != "vti":
         surface = rc.read(out)
         # Sums in another order of memory differ by rounding.
@@ -143,6 +143,91 @@ def test_prepare_thins_out_with_or_without_a_filter(invoke, free, tmp_path):
         np.testing.assert_array_equal(rc.read(out).heights, expected)
 
 
+def test_prepare_scans_averages_and_tapers_in_its_order(invoke, free, tmp_path):
+    path, surface = free
+    out = tmp_path / "out.npz"
+    answer = invoke(
+        *("surface", "prepare", path, out, "--window", "tukey", "--share", "0.5", "--average", "2"),
+        *("--short", "8um", "--tip", "20um", "--tip-shape", "paraboloid"),
+    )
+    assert answer.exit_code == 0, answer.stderr
+    expected = (
+        surface.scanned(20e-6, "paraboloid").filtered(short_cutoff=8e-6).averaged(2).tapered("tukey", 0.5)
+    )
+    found = rc.read(out)
+    np.testing.assert_allclose(found.heights, expected.heights, rtol=0, atol=1e-13 * surface.rms)
+    assert found.grid.shape == (48, 64)
+    history = [line for line in found.provenance if not line.startswith("read from")]
+    assert history == list(expected.provenance)
+    assert history[1:] == [
+        "scanned by a paraboloid of radius 2e-05 m",
+        "Gaussian filter: waves below 8e-06 m removed",
+        "averaged over pixels of 2 x 2 cells",
+        f"tukey window, mean square times {(1 - 5 / 16) ** 2:.6g}",
+    ]
+    for line in history:
+        assert line in answer.stdout
+
+
+def test_prepare_scans_by_a_sphere_unless_told_otherwise(invoke, free, tmp_path):
+    path, surface = free
+    assert invoke("surface", "prepare", path, tmp_path / "a.npz", "--tip", "20um").exit_code == 0
+    expected = surface.scanned(20e-6).heights
+    # "20um" is 20e-6 m but for its last digit.
+    np.testing.assert_allclose(
+        rc.read(tmp_path / "a.npz").heights, expected, rtol=0, atol=1e-13 * surface.rms
+    )
+
+
+@pytest.fixture
+def line(tmp_path):
+    """Return the file of a line scan, and the line."""
+    made = rc.self_affine(rc.Grid(512, 1e-6), 0.7, 1e-7, np.random.default_rng(1), amplitudes="gaussian")
+    rc.write(made, tmp_path / "line.npz")
+    return tmp_path / "line.npz", made
+
+
+def test_prepare_takes_a_line_scan(invoke, line, tmp_path):
+    path, made = line
+    out = tmp_path / "out.txt"
+    answer = invoke("surface", "prepare", path, out, "--crop", "12:", "--level", "plane", "--average", "5")
+    assert answer.exit_code == 0, answer.stderr
+    expected = made.cropped(slice(12, None)).levelled("plane").averaged(5)
+    np.testing.assert_array_equal(rc.read_line(out).heights, expected.heights)
+    wrong = invoke("surface", "prepare", path, out, "--crop", "1:5,2:7")
+    assert (wrong.exit_code, "write one range such as 0:512" in wrong.stderr) == (2, True)
+
+
+def test_spectrum_of_a_line_scan_is_c1d_and_the_c2d_that_follows(invoke, line, tmp_path):
+    path, made = line
+    out = tmp_path / "out"
+    answer = invoke("surface", "spectrum", path, "--limit", "none", "--out", out, "--json")
+    assert answer.exit_code == 0, answer.stderr
+    assert "levelled by their slope" in answer.stderr
+    record = json.loads(answer.stdout)
+    profile = rc.power_spectrum(made, per_decade=200)
+    fit = rc.fit_spectrum(profile, limit="none")
+    assert record["kind"] == "C1D"
+    assert record["hurst"] == pytest.approx(fit.hurst, rel=1e-12)
+    moments = rc.spectrum_moments(profile.rebinned(20), profile.q_min, profile.q_max)
+    assert record["rms_slope"] == pytest.approx(moments.rms_slope, rel=1e-12)
+    assert record["isotropic_rms_slope"] == pytest.approx(np.sqrt(2) * moments.rms_slope, rel=1e-12)
+    table = np.genfromtxt(out / "spectrum.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(table["density"], profile.rebinned(20).density)
+    areal = rc.surface_spectrum(profile.rebinned(20), hurst=fit.hurst)
+    np.testing.assert_array_equal(table["isotropic_density"], areal.density)
+    text = (out / "spectrum.csv").read_text(encoding="utf-8")
+    assert "isotropic_density [m4]" in text
+    assert f"# hurst_standard_error = {fit.standard_error!r}\n" in text
+    assert "isotropic surface" in invoke("surface", "spectrum", path).stdout
+
+
+def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
+    answer = invoke("surface", "spectrum", line[0], "--direction", "ring")
+    assert answer.exit_code == 2
+    assert "a line has profiles along 'x' only" in answer.stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -156,6 +241,16 @@ def test_prepare_thins_out_with_or_without_a_filter(invoke, free, tmp_path):
         (("--downsample", "0"), "from 1 up"),
         (("--downsample", "90"), "leaves less than two"),
         (("--alias",), "belongs to --downsample"),
+        (("--average", "-3"), "--average: K must be a whole number from 1 up"),
+        (("--average", "65"), "leaves less than two"),
+        (("--tip", "2"), "a radius of 2 m is no tip; write it with its unit, such as 2um"),
+        (("--tip", "0um"), "is no tip"),
+        (("--tip", "1N"), "--tip: '1N' is not a length"),
+        (("--tip-shape", "sphere"), "--tip-shape belongs to --tip"),
+        (("--share", "0.1"), "--share belongs to --window tukey"),
+        (("--window", "hann", "--share", "0.1"), "--share belongs to --window tukey"),
+        (("--window", "tukey", "--share", "1.5"), "lies between 0 and 1, not at 1.5"),
+        (("--crop", "1:5"), "has 1 range(s); write rows,columns"),
     ],
 )
 def test_prepare_refuses_steps_that_make_no_sense(invoke, free, tmp_path, arguments, words):
@@ -172,9 +267,9 @@ def test_prepare_neither_overwrites_what_was_measured_nor_writes_what_it_cannot(
     assert answer.exit_code == 2
     assert "the measured file itself" in answer.stderr
     assert free[0].read_bytes() == before
-    answer = invoke("surface", "prepare", free[0], tmp_path / "out.txt")
+    answer = invoke("surface", "prepare", free[0], tmp_path / "out.csv")
     assert answer.exit_code == 2
-    assert ".npz, .x3p, .nc, .vti" in answer.stderr
+    assert "written as one of .npz, .nc, .x3p, .txt, .npy, .vti" in answer.stderr
 
 
 def test_thesis_lists_its_figures(invoke):

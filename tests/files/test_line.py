@@ -6,7 +6,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.files.errors import SurfaceWarning
 from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import read_either, read_line
 
 HEIGHTS = np.random.default_rng(3).standard_normal(40).cumsum()
 
@@ -113,6 +113,47 @@ def test_a_map_is_no_line_and_a_line_no_map(put, npy):
         read_line(put("a.opd", b"any"))
     (channel,) = channels(put("b.csv", "x [um], z [um]\n" + rows()))
     assert (channel.shape, channel.unit, channel.is_height) == ((40,), "um", False)
+
+
+def test_either_is_what_the_file_holds(put, npy, npz, make_x3p):
+    for name, content, keywords in (
+        ("a.csv", "x [um], z [um]\n" + rows(), {}),
+        ("b.txt", "\n".join(map(repr, HEIGHTS.tolist())), {"unit": "um", "size": 0.02}),
+        ("a.npy", npy(HEIGHTS), {"unit": "um", "size": ("2 mm",)}),
+        ("a.npz", npz(heights=HEIGHTS, unit="nm", spacing=1e-6), {}),
+        ("a.x3p", make_x3p(HEIGHTS[None] * 1e-6, feature="PRF"), {}),
+    ):
+        path = put(name, content)
+        line, same = read_either(path, **keywords), read_line(path, **keywords)
+        assert np.array_equal(line.heights, same.heights)
+        assert (line.grid, line.provenance) == (same.grid, same.provenance)
+    path = put("c.npy", npy(HEIGHTS.reshape(5, 8)))
+    for size in (1e-3, (1e-3, 2e-3)):
+        found, same = (reader(path, unit="um", size=size) for reader in (read_either, rc.read))
+        assert np.array_equal(found.heights, same.heights)
+        assert found.grid == same.grid
+
+
+def test_either_refuses_what_is_neither(put, npy):
+    for name, content, message in (
+        ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a line scan at most"),
+        ("a.txt", "1 2 3\n4 5\n", "row 2"),
+        ("a.csv", "x [um], z [um]\n1, 2\n", "not a number"),
+    ):
+        with pytest.raises(rc.ReadError, match=message):
+            read_either(put(name, content), unit="um", size=1e-3)
+    with pytest.raises(ValueError, match="size needs one length, not 2"):
+        read_either(put("b.npy", npy(HEIGHTS)), unit="um", size=(1e-3, 2e-3))
+    with pytest.raises(ValueError, match="is not a unit of length"):
+        read_either("nowhere.npy", unit="N")
+
+
+def test_a_text_has_one_channel(put):
+    path = put("a.csv", "x [um], z [um]\n" + rows())
+    for reader in (read_line, read_either):
+        with pytest.raises(rc.ReadError, match="no channel 'Phase', only 'heights'"):
+            reader(path, channel="Phase")
+        assert reader(path, channel="heights").grid.shape == (40,)
 
 
 def test_a_line_is_not_pressed_like_a_map(put):

@@ -129,6 +129,17 @@ def test_uneven_coordinates_are_refused(tmp_path):
         rc.read(tmp_path / "a.nc")
 
 
+def test_infinite_coordinates_are_refused_without_noise(tmp_path):
+    places = np.array([0.5, np.inf, np.inf])
+    data = xarray.Dataset(
+        {"height": (("y", "x"), HEIGHTS, {"units": "um"})},
+        {"y": ("y", places, {"units": "um"}), "x": ("x", np.arange(4.0), {"units": "um"})},
+    )
+    data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    with pytest.raises(rc.ReadError, match="states cells of inf m"):
+        rc.read(tmp_path / "a.nc")
+
+
 def test_what_is_no_map_is_refused(tmp_path, put):
     xarray.Dataset({"force": ("load", [1.0, 2.0])}).to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     with pytest.raises(rc.ReadError, match=r"a\.nc: no channel is a map of heights"):

@@ -3,6 +3,7 @@
 import hashlib
 import struct
 import tempfile
+import warnings
 import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
@@ -15,8 +16,9 @@ from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
+from roughcontact.files.errors import SurfaceWarning
 from roughcontact.files.read import read_line
-from roughcontact.files.save import write
+from roughcontact.files.save import require_surface_file, write
 
 RNG = np.random.default_rng(8)
 
@@ -68,11 +70,62 @@ MAPS = hnp.arrays(
 @given(heights=MAPS, step=st.floats(1e-3, 1e-2), suffix=st.sampled_from([".npz", ".nc", ".x3p"]))
 def test_whatever_is_written_is_read(heights, step, suffix):
     surface = rc.Surface(heights, rc.Grid(heights.shape, (step, step / 3)))
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore", SurfaceWarning)  # of heights that no instrument sees
         write(surface, Path(folder) / f"a{suffix}")
         back = rc.read(Path(folder) / f"a{suffix}")
     assert np.array_equal(back.heights, heights, equal_nan=True)
     assert back.grid == surface.grid
+
+
+def test_a_text_holds_every_digit_and_its_header(tmp_path, surface):
+    write(surface, tmp_path / "a.txt")
+    back = rc.read(tmp_path / "a.txt")
+    assert np.array_equal(back.heights, surface.heights, equal_nan=True)
+    # Lengths are written, cells are read: two roundings.
+    np.testing.assert_allclose(back.grid.spacing, surface.grid.spacing, rtol=4e-16)
+    lines = (tmp_path / "a.txt").read_text(encoding="utf-8").splitlines()
+    assert lines[3:6] == ["# Value units: m", "# History: made", "# History: say <b> & c"]
+    np.testing.assert_array_equal(np.loadtxt(tmp_path / "a.txt"), surface.heights)
+
+
+def test_the_other_library_reads_our_text(tmp_path, surface):
+    topography = pytest.importorskip("SurfaceTopography")
+    write(surface.filled(), tmp_path / "a.txt")
+    theirs = topography.read_topography(str(tmp_path / "a.txt"))
+    assert theirs.unit == "m"
+    np.testing.assert_array_equal(theirs.heights().T, surface.filled().heights)
+    np.testing.assert_allclose(theirs.physical_sizes, surface.grid.lengths[::-1], rtol=1e-12)
+
+
+def test_a_line_as_text_is_places_and_heights(tmp_path):
+    line = rc.Surface(RNG.standard_normal(30) * 1e-6, rc.Grid(30, 1e-6 / 3), ("made",))
+    write(line, tmp_path / "a.txt")
+    back = read_line(tmp_path / "a.txt")
+    assert np.array_equal(back.heights, line.heights)
+    # The step is the difference of the ends over their number: an error of an ulp of the last place.
+    np.testing.assert_allclose(back.grid.spacing, line.grid.spacing, rtol=1e-15)
+
+
+def test_npy_holds_heights_and_nothing_else(tmp_path, surface):
+    write(surface, tmp_path / "a.npy")
+    np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), surface.heights)
+    with pytest.raises(rc.ReadError, match="no unit of its heights and no size"):
+        rc.read(tmp_path / "a.npy")
+
+
+def test_what_can_be_written_is_known_before_the_work(tmp_path):
+    require_surface_file(tmp_path / "a.NC")
+    for name, message in (
+        ("a.gwy", "written as one of"),
+        ("no/a.npz", "no folder"),
+        (".", "written as one of"),
+    ):
+        with pytest.raises(WriteError, match=message):
+            require_surface_file(tmp_path / name)
+    (tmp_path / "b.npz").mkdir()
+    with pytest.raises(WriteError, match="it is a folder"):
+        require_surface_file(tmp_path / "b.npz")
 
 
 def test_x3p_carries_its_checksums(tmp_path, surface):
@@ -148,7 +201,7 @@ def test_the_surface_of_a_solution_is_read_from_its_netcdf(tmp_path, solution):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("a.txt", "written as one of .npz, .nc, .x3p, .vti"),
+        ("a.csv", "written as one of .npz, .nc, .x3p, .txt, .npy, .vti"),
         ("a", "written as one of"),
         ("no/a.npz", "no folder"),
     ],

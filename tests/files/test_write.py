@@ -136,6 +136,30 @@ def test_infinity_and_nan_survive_the_table(curve, tmp_path):
     np.testing.assert_array_equal(table["stiffness"], [np.inf, np.nan, 1.0, 2.0])
 
 
+def test_points_may_lie_along_any_dimension(tmp_path):
+    dataset = xarray.Dataset(
+        {
+            "density": ("bin", [1e-20, 2e-20 / 3], {"units": "m4"}),
+            "reliable": ("bin", [True, False]),
+            "other": ("load", [1.0, 2.0, 3.0]),
+            "hurst": ((), 0.8, {"units": "1"}),
+        },
+        attrs={"kind": "C2D"},
+    )
+    write_csv(dataset, tmp_path / "a.csv", {"source": "here"}, dimension="bin")
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines() == [
+        "density,reliable",
+        "# units: density [m4]",
+        "# hurst = 0.8",
+        "# kind = C2D",
+        "# source = here",
+        "1e-20,1",
+        f"{2e-20 / 3!r},0",
+    ]
+    with pytest.raises(ValueError, match="nothing lies along 'x': choose one of bin, load"):
+        write_csv(dataset, tmp_path / "b.csv", dimension="x")
+
+
 # JSON
 
 

@@ -71,6 +71,19 @@ def test_the_upper_axis_of_a_spectrum_is_the_wavelength():
         assert above[0] == pytest.approx(below[0], abs=1e-6)  # pixels
 
 
+def test_a_narrow_spectrum_has_plain_numbers_on_its_axes():
+    q = np.geomspace(2e4, 2e5, 12)
+    spectrum = rc.PowerSpectrum(q, q**-4.0, "C2D", np.full(12, 10.0), np.full(12, 5.0), 2e4, 2e5)
+    figure, axes = single()
+    spectrum_curve(axes, spectrum, label="from a profile")
+    drawn(figure)
+    low, high = axes.get_xlim()
+    ticks = dict(zip(axes.get_xticks(), axes.get_xticklabels(), strict=True))
+    shown = [text.get_text() for place, text in ticks.items() if low <= place <= high]
+    assert shown == ["0.02", "0.05", "0.1", "0.2"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["from a profile"]
+
+
 def test_bins_outside_the_reliable_band_are_drawn_apart():
     figure, axes = single()
     spectrum_curve(axes, spectrum_of(lambda q: q**-4.0))

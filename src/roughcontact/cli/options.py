@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from roughcontact.cli.errors import UsageError, as_typed, note
+from roughcontact.cli.errors import UsageError, as_typed, note, plain
 from roughcontact.cli.memory import require_memory, require_memory_to_read
 from roughcontact.cli.quantity import PRESSURE, parse, parse_number, parse_size
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
+    "AnyFileArgument",
     "Bodies",
     "ChannelOption",
     "FileArgument",
@@ -41,6 +43,9 @@ __all__ = [
 ]
 
 _READING, _BODIES, _ANSWER = "Reading the file", "The two bodies", "Answer"
+_MAPS_ONLY = (
+    "give a map of heights; a line scan is taken by 'surface info', 'surface spectrum' and 'surface prepare'"
+)
 
 
 class Level(StrEnum):
@@ -52,6 +57,9 @@ class Level(StrEnum):
 
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Measured surface: X3P, NumPy, text, ...")]
+AnyFileArgument = Annotated[
+    Path, typer.Argument(metavar="FILE", help="Measured surface or line scan: X3P, NumPy, text, ...")
+]
 ChannelOption = Annotated[
     str | None, typer.Option(metavar="NAME", help="Channel of a file with several.", rich_help_panel=_READING)
 ]
@@ -67,7 +75,8 @@ SizeOption = Annotated[
     str | None,
     typer.Option(
         metavar="1mm x 2mm",
-        help="Side lengths: height x width of the picture, or its width alone; they override what the file states.",
+        help="Side lengths: height x width of the picture, or its width alone (of a line scan its length); "
+        "they override what the file states.",
         rich_help_panel=_READING,
     ),
 ]
@@ -130,16 +139,37 @@ class Reading:
     periodic: bool | None
 
     def as_it_is(self) -> Surface:
-        """Return the surface as the file holds it."""
+        """Return the map of heights as the file holds it."""
         import roughcontact as rc
 
+        with self._named():
+            try:
+                return rc.read(self.file, **self._keywords())
+            except rc.ReadError as error:
+                if "read_line" not in error.remedy:
+                    raise
+                raise rc.ReadError(error.file, error.problem, _MAPS_ONLY) from error
+
+    def map_or_line(self) -> Surface:
+        """Return the map of heights as the file holds it, or its line scan; say so of a line."""
+        from roughcontact.files.read import read_either
+
+        with self._named():
+            surface = read_either(self.file, **self._keywords())
+        if surface.grid.ndim == 1:
+            note(f"{plain(str(self.file))} holds a line scan of {surface.grid.size} heights")
+        return surface
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Name the file as it was typed, and keep standard output for the answer whatever a foreign reader prints."""
+        with redirect_stdout(sys.stderr), as_typed(self.file):
+            yield
+
+    def _keywords(self) -> dict[str, Any]:
         size = None if self.size is None else parse_size(self.size, "--size")
         width = size[0] if size is not None and len(size) == 1 else size
-        # A foreign reader that prints must not spoil what standard output is for.
-        with redirect_stdout(sys.stderr), as_typed(self.file):
-            return rc.read(
-                self.file, channel=self.channel, unit=self._unit(), size=width, periodic=self.periodic
-            )
+        return {"channel": self.channel, "unit": self._unit(), "size": width, "periodic": self.periodic}
 
     def _unit(self) -> str | float | None:
         """Return the unit by its name, or as the metres that it is."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping
 from enum import StrEnum
@@ -14,9 +13,10 @@ import typer
 from roughcontact.cli import options
 from roughcontact.cli.errors import UsageError, note, plain, reported
 from roughcontact.cli.memory import require_memory, require_memory_to_read
-from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.output import output
 from roughcontact.cli.quantity import LENGTH, parse
-from roughcontact.cli.report import emit, print_facts, quantity, size_of
+from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.spectrum_files import write_spectrum
 from roughcontact.plot.units import written
 
 if TYPE_CHECKING:
@@ -31,6 +31,8 @@ EXAMPLES = """Examples:
 roughcontact surface spectrum part.x3p --out result
 
 roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
+
+roughcontact surface spectrum scan.csv --out result
 """
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
@@ -38,7 +40,9 @@ _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squ
 _UNITS = {
     **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", "rolloff", "cutoff", "short_end"), "m"),
     **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
-    **dict.fromkeys(("hurst", "standard_error", "misfit", "m2", "rms_slope", "nayak"), "1"),
+    **dict.fromkeys(
+        ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
+    ),
 }
 
 
@@ -54,6 +58,7 @@ class Limit(StrEnum):
 class Direction(StrEnum):
     """Which spectrum: of the surface, or of its profiles."""
 
+    AUTO = "auto"
     RING = "ring"
     X = "x"
     Y = "y"
@@ -63,7 +68,8 @@ _SPECTRUM = "Spectrum"
 DirectionOption = Annotated[
     Direction,
     typer.Option(
-        help="Average over all directions (C2D), or spectrum of the profiles along one (C1D).",
+        help="Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+        "auto: ring of a map, x of a line scan.",
         rich_help_panel=_SPECTRUM,
     ),
 ]
@@ -88,9 +94,9 @@ FillOption = Annotated[
 
 
 def spectrum(
-    file: options.FileArgument,
+    file: options.AnyFileArgument,
     *,
-    direction: DirectionOption = Direction.RING,
+    direction: DirectionOption = Direction.AUTO,
     limit: LimitOption = Limit.AUTO,
     longest: LongestOption = None,
     shortest: ShortestOption = None,
@@ -103,7 +109,10 @@ def spectrum(
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
-    """Power spectrum of a surface: Hurst exponent with its error, roll-off or cut-off, rms, moments."""
+    """Power spectrum of a surface or line scan: Hurst exponent with its error, roll-off or cut-off, rms, moments.
+
+    Of a line scan it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    """
     with reported(file, out):
         waves = _waves(longest, shortest)
         with output(out) as folder:
@@ -111,13 +120,13 @@ def spectrum(
             found, law = _analysed(surface, direction, limit, waves, level)
             record = _record(surface, found, law, file)
             if folder is not None:
-                _write(found, law, record, folder)
+                isotropic = _isotropic(surface, found, law)
+                write_spectrum((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
         if json:
             emit(record)
         else:
             print_facts(_facts(surface, record))
-        if folder is not None:
-            note(f"spectrum.csv and spectrum.png are in {folder}")
+        note_files(folder, ("spectrum.csv", "spectrum.png"))
 
 
 def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
@@ -137,7 +146,7 @@ def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
 def _surface(reading: options.Reading, fill: bool) -> Surface:
     """Return the surface without missing points; its tilt goes when the spectrum is taken."""
     require_memory_to_read(reading.file)
-    surface = reading.as_it_is()
+    surface = reading.map_or_line()
     require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
     if surface.missing and not fill:
         raise UsageError(
@@ -160,13 +169,16 @@ def _analysed(
 
     taken: Any = "auto" if level is None else level.value
     if level is None and not all(surface.grid.periodic):
-        note("the heights are levelled by their plane (--level mean or none for another choice)")
+        trend = "plane" if surface.grid.ndim == 2 else "slope"
+        note(f"the heights are levelled by their {trend} (--level mean or none for another choice)")
     whole = rc.power_spectrum(surface, direction.value, level=taken, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
     return whole, rc.fit_spectrum(whole, limit=limit.value)
 
 
 def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
+    from dataclasses import replace
+
     import roughcontact as rc
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), spectrum.q_min, spectrum.q_max)
@@ -188,6 +200,8 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         "m4": moments.m4,
         "nayak": moments.nayak,
     }
+    if surface.grid.ndim == 1:
+        values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
     return {
         "verb": "surface spectrum",
         "file": plain(str(file)),
@@ -195,7 +209,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         # JSON has no word for what is infinite or unknown.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
         "provenance": list(surface.provenance),
-        "units": _UNITS,
+        "units": {name: unit for name, unit in _UNITS.items() if name in values},
     }
 
 
@@ -209,7 +223,7 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
     nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
     return [
         ("file", record["file"]),
-        ("surface", size_of(surface.grid)),
+        ("surface" if surface.grid.ndim == 2 else "line scan", size_of(surface.grid)),
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
         ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
         ("waves", band),
@@ -225,44 +239,22 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
             f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
         ),
         ("Nayak's parameter", nayak),
+        *(
+            [("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band")]
+            if surface.grid.ndim == 1
+            else []
+        ),
     ]
 
 
-def _write(spectrum: PowerSpectrum, law: HurstFit, record: Mapping[str, Any], folder: Path) -> None:
-    from matplotlib.figure import Figure
+def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
+    """Return C2D of the isotropic surface that has the profile of a line scan, where there is one."""
+    import roughcontact as rc
 
-    from roughcontact.files.aside import written_aside
-    from roughcontact.plot.figures import save
-    from roughcontact.plot.spectrum import spectrum_curve
-
-    figure = Figure(figsize=(6.0, 4.6), layout="constrained")
-    spectrum_curve(figure.subplots(), spectrum, law)
-    with all_or_none(folder) as aside:
-        with (
-            written_aside(aside / "spectrum.csv") as path,
-            open(path, "w", encoding="utf-8", newline="") as stream,
-        ):
-            _table(stream, spectrum.rebinned(_COARSE), law, record)
-        save(figure, aside / "spectrum.png")
-
-
-def _table(stream: Any, spectrum: PowerSpectrum, law: HurstFit, record: Mapping[str, Any]) -> None:
-    """Write a line of names, remarks after ``#``, and a line a bin, every number with all its digits."""
-    unit = "m4" if spectrum.kind == "C2D" else "m3"
-    table = csv.writer(stream, lineterminator="\n")
-    table.writerow(("wavenumber", "wavelength", "density", "standard_error", "law", "reliable"))
-    remarks = [
-        f"units: wavenumber [rad m-1], wavelength [m], density, standard_error and law [{unit}]",
-        f"kind = {spectrum.kind}",
-        *(f"{name} = {record[name]!r} {_UNITS[name]}" for name in _UNITS if record[name] is not None),
-        *(f"history = {line}" for line in record["provenance"]),
-        f"command = {command_line()}",
-    ]
-    stream.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
-    low, high = spectrum.q_min * (1 - 1e-9), spectrum.q_max * (1 + 1e-9)
-    columns = (
-        spectrum.wavenumber, spectrum.wavelength, spectrum.density, spectrum.standard_error,
-        law(spectrum.wavenumber),
-    )  # fmt: skip
-    for row in zip(*(column.tolist() for column in columns), strict=True):
-        table.writerow((*map(repr, row), int(low <= row[0] <= high)))
+    if surface.grid.ndim == 2:
+        return None
+    try:
+        return rc.surface_spectrum(spectrum.rebinned(_COARSE), hurst=law.hurst)
+    except ValueError as error:
+        note(f"no C2D: {error}")
+        return None

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.errors import UsageError, as_typed, note, plain, reported
+from roughcontact.cli.errors import as_typed, plain, reported
 from roughcontact.cli.memory import require_memory, require_memory_to_read
 from roughcontact.cli.quantity import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
+from roughcontact.cli.saving import ENDINGS, require_output, save_surface
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
@@ -27,18 +28,20 @@ INFO_EXAMPLES = """Examples:
 roughcontact surface info part.x3p
 
 roughcontact surface info heights.csv --unit nm --size 1mm --json
+
+roughcontact surface info scan.csv
 """
 MAKE_EXAMPLES = """Examples:
 
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 
-roughcontact surface make r.npz --hurst 2 --rms 1um --size 1mm --points 65x257
+roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
 _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
 _BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
 
-OutputArgument = Annotated[Path, typer.Argument(metavar="OUT.npz", help="File to write.")]
+OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help=f"File to write: {ENDINGS}.")]
 HurstOption = Annotated[str, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
 RmsOption = Annotated[str, typer.Option(metavar="1um", help="Root mean square height.")]
 NewSizeOption = Annotated[
@@ -57,21 +60,21 @@ NodalOption = Annotated[
 
 
 def info(
-    file: options.FileArgument,
+    file: options.AnyFileArgument,
     *,
     channel: options.ChannelOption = None,
     unit: options.UnitOption = None,
     size: options.SizeOption = None,
     json: options.JsonOption = False,
 ) -> None:
-    """Say what a file holds: channels, size, unit, missing points, roughness."""
+    """Say what a file holds, a map or a line scan: channels, size, unit, missing points, roughness."""
     with reported(file):
         from roughcontact.files.errors import ReadError
 
         channels = _channels(file)
         reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=None)
         try:
-            surface = reading.as_it_is()
+            surface = reading.map_or_line()
         except ReadError as error:
             # What the file leaves open, such as its size, does not hide what it holds.
             _tell(
@@ -105,10 +108,8 @@ def make(
         import numpy as np
 
         import roughcontact as rc
-        from roughcontact.files.aside import written_aside
 
-        if out.suffix != ".npz":
-            raise UsageError(f"cannot write {out}: name a file that ends in .npz")
+        require_output(out)
         grid = _grid(size, points, periodic)
         require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
         height, exponent = parse(rms, LENGTH, "--rms"), parse_number(hurst, "--hurst", "0.8")
@@ -118,34 +119,20 @@ def make(
             for name, text in (("rolloff", rolloff), ("cutoff", cutoff), ("short", short))
             if text is not None
         }
-        with written_aside(out) as aside:
-            rng = np.random.default_rng(chosen)
-            surface = rc.self_affine(
-                grid,
-                exponent,
-                height,
-                rng,
-                rolloff_wavelength=waves.get("rolloff"),
-                cutoff_wavelength=waves.get("cutoff"),
-                short_wavelength=waves.get("short"),
-                nodal=nodal,
-            )
-            recipe = ", ".join(
-                [f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())]
-            )
-            made = f"made by roughcontact {rc.__version__}: {recipe}"
-            surface = replace(surface, provenance=(*surface.provenance, made))
-            if out.exists():
-                note(f"{out} was there before and is replaced")
-            with open(aside, "wb") as stream:
-                np.savez(
-                    stream,
-                    heights=surface.heights,
-                    spacing=np.array(grid.spacing),
-                    unit=np.array("m"),
-                    periodic=np.array(periodic),
-                    history=np.array(surface.provenance),
-                )
+        surface = rc.self_affine(
+            grid,
+            exponent,
+            height,
+            np.random.default_rng(chosen),
+            rolloff_wavelength=waves.get("rolloff"),
+            cutoff_wavelength=waves.get("cutoff"),
+            short_wavelength=waves.get("short"),
+            nodal=nodal,
+        )
+        recipe = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
+        made = f"made by roughcontact {rc.__version__}: {recipe}"
+        surface = replace(surface, provenance=(*surface.provenance, made))
+        save_surface(surface, out)
         record = {"file": plain(str(out)), "seed": chosen} | _record(surface)
         _tell(record, _facts(surface, record), json)
 
@@ -193,7 +180,8 @@ def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
     """Return what is worth telling of a surface, line by line."""
     cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
     missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
-    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its plane"
+    trend = "plane" if surface.grid.ndim == 2 else "slope"
+    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its {trend}"
     return [
         ("size", size_of(surface.grid)),
         ("cell", cell),
@@ -210,6 +198,8 @@ def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
         shape = " x ".join(str(n) for n in channel["shape"])
         unit = "without a unit" if channel["unit"] is None else f"in {channel['unit']}"
         kind = "" if channel["is_height"] else ", not heights"
+        if len(channel["shape"]) == 1:
+            kind = ", a line scan"
         facts.append(("channel", f"{channel['name']}: {shape}, {unit}{kind}"))
     return facts
 

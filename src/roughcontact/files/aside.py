@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-__all__ = ["WriteError", "output_folder", "written_aside"]
+__all__ = ["WriteError", "output_folder", "require_target", "written_aside"]
 
 
 class WriteError(ValueError):
@@ -27,9 +27,7 @@ def written_aside(path: str | os.PathLike[str]) -> Iterator[Path]:
     WriteError
         If `path` cannot be written: no such folder, no permission, a folder of that name, a full disk.
     """
-    # A link is followed, so that the file it names is replaced and the link stays.
-    target = Path(os.path.realpath(path))
-    _check_target(target)
+    target = require_target(path)
     aside = target.with_name(f".{secrets.token_hex(6)}.part")
     try:
         yield aside
@@ -85,7 +83,16 @@ def _make_writable(folder: Path) -> None:
         raise WriteError(f"cannot write in the folder {folder}: {_reason(error)}; {_REMEDY}") from error
 
 
-def _check_target(target: Path) -> None:
+def require_target(path: str | os.PathLike[str]) -> Path:
+    """Return the file that writing to `path` will replace or make; meant to be asked before a long computation.
+
+    Raises
+    ------
+    WriteError
+        If it cannot be written: no such folder, no permission, a folder of that name.
+    """
+    # A link is followed, so that the file it names is replaced and the link stays.
+    target = Path(os.path.realpath(path))
     if target.is_dir():
         raise WriteError(f"cannot write {target}: it is a folder; add a file name")
     if target.exists() and not target.is_file():
@@ -95,6 +102,7 @@ def _check_target(target: Path) -> None:
     if target.exists() and not os.access(target, os.W_OK):
         # A rename would replace a protected file without asking.
         raise WriteError(f"cannot write {target}: the file is write-protected; {_REMEDY}")
+    return target
 
 
 def _reason(error: OSError) -> str:

@@ -17,7 +17,7 @@ from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
-__all__ = ["channels_of", "content", "height_map", "line_scan"]
+__all__ = ["channels_of", "content", "either", "height_map", "line_scan"]
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
 # Readers of ours whose files hold a single map or line scan, and those whose files hold channels.
@@ -68,11 +68,25 @@ def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     return found
 
 
+def either(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return the map of heights of a file, or the line of heights where it holds one instead."""
+    try:
+        found = _found(data, file, channel)
+    except ReadError:
+        if _suffix(file) not in _TEXTS or not _points_on_a_line(data, file):
+            raise
+        return line_scan(data, file, channel)
+    if found.heights.ndim == 1 or (found.heights.shape[1] == 1 and _suffix(file) in _TEXTS):
+        return line_scan(data, file, channel)
+    require_map(found, file)
+    return found
+
+
 def line_scan(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     kind = _suffix(file)
     if kind in _TEXTS:
-        found = read_profile(data, file)
+        found = _only(read_profile(data, file), channel, file)
     elif kind in _SINGLE or kind in _SEVERAL:
         found = _found(data, file, channel)
     else:
@@ -108,7 +122,11 @@ def _found(data: bytes, file: str, channel: str | int | None) -> HeightMap:
         return _SEVERAL[kind](data, file, channel)
     if kind not in _SINGLE:
         return read_foreign(data, file, channel)
-    found = _SINGLE[kind](data, file)
+    return _only(_SINGLE[kind](data, file), channel, file)
+
+
+def _only(found: HeightMap, channel: str | int | None, file: str) -> HeightMap:
+    """Return what a file holds alone, unless another channel is asked for."""
     if channel is not None:
         pick((_only_channel(found),), channel, file)
     return found

@@ -10,14 +10,15 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
-from io import BytesIO, StringIO
+from io import StringIO
 from typing import Any, TypeVar
 
 import numpy as np
 
+from roughcontact.files.bounded import BoundedStream
 from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
 from roughcontact.files.errors import ReadError
-from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.units import is_length, length_factor
 
 __all__ = ["list_foreign", "read_foreign"]
@@ -35,6 +36,10 @@ _UNMARKED = {"hgt": ".hgt", "nms": ".nms"}
 _SIZE_UNRELIABLE = {"nms"}
 # Containers of bare matrices, whose rows are the rows of the picture; all other formats are indexed [x, y].
 _MATRICES = {"mat", "h5"}
+# Formats without a checksum whose last channel ends where the file ends: so a damaged number of points shows.
+_FILLED = {"di", "metropro", "mi", "tmd", "wsxm"}
+# Formats whose factor from counts to heights is a product of positive numbers: a wavelength, an obliquity, a share.
+_UPRIGHT = {"metropro"}
 _REMEDY = "check that the file is whole, or export it as X3P, Gwyddion text or .npz"
 
 
@@ -45,20 +50,21 @@ def read_foreign(data: bytes, file: str, channel: str | int | None) -> HeightMap
     is never taken.
     """
 
-    def work(reader: Any) -> HeightMap:
+    def work(reader: Any, stream: BoundedStream) -> HeightMap:
         channels = _channels(reader, file)
         index, doubts = _choose(channels, channel, file)
-        return _map(reader, index, channels[index], file, doubts)
+        found = _map(reader, index, channels[index], file)
+        return replace(found, doubts=(*doubts, *_left_over(reader, stream, found.heights.shape[1])))
 
     return _with_reader(data, file, work)
 
 
 def list_foreign(data: bytes, file: str) -> tuple[Channel, ...]:
     """Return the channels of a file in any format that SurfaceTopography knows."""
-    return _with_reader(data, file, lambda reader: _channels(reader, file))
+    return _with_reader(data, file, lambda reader, _: _channels(reader, file))
 
 
-def _with_reader(data: bytes, file: str, work: Callable[[Any], Result]) -> Result:
+def _with_reader(data: bytes, file: str, work: Callable[[Any, BoundedStream], Result]) -> Result:
     """Open the bytes, let `work` look at them, close; whatever goes wrong becomes a ReadError."""
     with _quiet():
         try:
@@ -71,10 +77,11 @@ def _with_reader(data: bytes, file: str, work: Callable[[Any], Result]) -> Resul
             ) from error
         try:
             # Bytes in memory leave no open file behind when a reader gives up half-way.
-            reader = open_topography(BytesIO(data))
+            stream = BoundedStream(data)
+            reader = open_topography(stream)
             try:
                 _accept(str(reader.format()), file)
-                return work(reader)
+                return work(reader, stream)
             finally:
                 reader.close()
         except ReadError:
@@ -201,16 +208,40 @@ def _doubts(channel: Channel) -> tuple[str, ...]:
     return (f"channel {channel.name!r}{unit} is not marked as heights, and read as heights all the same",)
 
 
-def _map(reader: Any, index: int, channel: Channel, file: str, doubts: tuple[str, ...]) -> HeightMap:
+def _left_over(reader: Any, stream: BoundedStream, row: int) -> tuple[str, ...]:
+    """Return a doubt where the channels that the header announces do not end where the file ends, but for a row."""
+    if reader.format() not in _FILLED:
+        return ()
+    stream.forget()
+    try:
+        _heights(reader, len(reader.channels) - 1)
+    except Exception:  # as above, in any way
+        return ("its last channel is not all there: it is cut short, or its header is damaged",)
+    if stream.unread < row:
+        return ()
+    return (f"{stream.unread} bytes at its end belong to no channel: its header may be damaged",)
+
+
+def _heights(reader: Any, index: int) -> Array:
+    """Return the values of a channel as the library indexes them, NaN where nothing was measured."""
     info = reader.channels[index]
     # A size must be passed where the file has none; it is not used.
     missing = {"physical_sizes": tuple(info.nb_grid_pts)} if info.physical_sizes is None else {}
+    topography = reader.topography(channel_index=index, **missing)
+    return np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), math.nan)
+
+
+def _map(reader: Any, index: int, channel: Channel, file: str) -> HeightMap:
     if len(channel.shape) != 2:
         raise ReadError(
             file, f"channel {channel.name!r} is a line scan", "give a two-dimensional map of heights"
         )
-    topography = reader.topography(channel_index=index, **missing)
-    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), math.nan)
+    info = reader.channels[index]
+    if reader.format() in _UPRIGHT and not info.height_scale_factor > 0:
+        raise ReadError(
+            file, f"its header states a factor of {info.height_scale_factor:g} for heights", _REMEDY
+        )
+    heights = _heights(reader, index)
     if reader.format() not in _MATRICES:
         heights = heights.T
     if heights.shape != channel.shape:
@@ -228,5 +259,4 @@ def _map(reader: Any, index: int, channel: Channel, file: str, doubts: tuple[str
         spacing=spacing,
         periodic=bool(info.is_periodic),
         notes=("a bare matrix: its rows are rows of the picture",) if reader.format() in _MATRICES else (),
-        doubts=doubts,
     )

@@ -199,11 +199,13 @@ def _step(coordinate: _Variable, axis: str, count: int, unit: str | None, file: 
     if not is_length(unit) or coordinate.shape != (count,) or count < 2:
         return None
     places = coordinate.numbers()
-    steps = np.diff(places)
-    step = (places[-1] - places[0]) / (count - 1)
+    with np.errstate(all="ignore"):  # of places that are infinite
+        steps = np.diff(places)
+        step = (places[-1] - places[0]) / (count - 1)
+        uneven = np.abs(steps - step)
     slack = _EVEN * np.abs(places).max()
     # A zero or NaN step passes here and is refused with the size of a cell.
-    if (np.abs(steps - step) > slack).any():
+    if (uneven > slack).any():
         raise ReadError(
             file, f"its coordinates along {axis} are not even", "interpolate to a regular grid first"
         )

@@ -8,13 +8,13 @@ import warnings
 from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
-from roughcontact.files.dispatch import content, height_map, line_scan
+from roughcontact.files.dispatch import content, either, height_map, line_scan
 from roughcontact.files.errors import SurfaceWarning
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.units import length_factor
 from roughcontact.surface.surface import Surface
 
-__all__ = ["read", "read_line"]
+__all__ = ["read", "read_either", "read_line"]
 
 
 def read(
@@ -109,10 +109,26 @@ def read_line(
     return _read(path, line_scan, 1, channel, unit, size, periodic)
 
 
+def read_either(
+    path: str | os.PathLike[str],
+    *,
+    channel: str | int | None = None,
+    unit: Length | None = None,
+    size: Size | None = None,
+    periodic: bool | None = None,
+) -> Surface:
+    """Return the map of heights in a file, or the line scan where it holds one instead.
+
+    For what serves both alike. The arguments, errors and warnings are those of `read` and `read_line`; a file that
+    may be either, such as a text of two columns under a header of a map, counts as a map.
+    """
+    return _read(path, either, None, channel, unit, size, periodic)
+
+
 def _read(
     path: str | os.PathLike[str],
     reader: Callable[[bytes, str, str | int | None], HeightMap],
-    ndim: int,
+    ndim: int | None,
     channel: str | int | None,
     unit: Length | None,
     size: Size | None,
@@ -120,9 +136,12 @@ def _read(
 ) -> Surface:
     if unit is not None:
         length_factor(unit)  # a wrong keyword is refused before the file is touched
+    if isinstance(size, Iterable) and not isinstance(size, str):
+        size = tuple(size)
     if size is not None:
-        size = tuple(size) if isinstance(size, Iterable) and not isinstance(size, str) else size
-        cell_of(size, (1,) * ndim)
+        # Where the file decides between a map and a line, one length or two may be right.
+        axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)
+        cell_of(size, (1,) * axes)
     file, data = content(path)
     found = reader(data, file, channel)
     digest = hashlib.sha256(data).hexdigest()[:16]

@@ -11,11 +11,12 @@ __all__ = ["IMPOSSIBLE", "doubts_about", "highest"]
 _SMALLEST, _LARGEST = 1e-9, 1.0  # side lengths [m]
 _STEEPEST = 10.0  # rms height over side length, and the slope that half of all neighbours exceed
 _HIGHEST = 1.0  # [m]
+_FLATTEST = 1e-14  # rms height that is no height at all [m]: an atom is ten thousand times as large
 # Beyond any body to be pressed: random bytes read as numbers, not a wrong unit.
 IMPOSSIBLE = 1e9  # [m]
 # A lone point: it differs from each of its neighbours so many times more than 99 of 100 points do. Tidy scans
 # reach 12; scans with spikes, as optical instruments and hopping tips leave them, 60 to 2000.
-_LONE = 20.0
+_LONE = 15.0
 _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
 _CHOSEN = 100_000  # points that a quantile is taken of
@@ -39,19 +40,24 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
         found.append(f"a surface of {sides} m is unusual; check size=")
     if (peak := highest(heights)) > _HIGHEST:
         found.append(f"heights up to {peak:.3g} m are unusual; check unit=")
+    flat = float(np.nanmin(heights)) == float(np.nanmax(heights))
     rms = float(np.nanstd(heights))
+    if rms < _FLATTEST and not flat:
+        found.append(f"an rms height of {rms:.3g} m is less than any instrument sees; check unit=")
     if rms > _STEEPEST * min(lengths):
         found.append(
             f"an rms height of {rms:.3g} m on {min(lengths):.3g} m is unusual; check unit= and size="
         )
-    if np.count_nonzero(~np.isnan(heights)) >= _ENOUGH:
-        found += _statistics(heights, spacing)
-    return tuple(found)
+    if np.count_nonzero(~np.isnan(heights)) < _ENOUGH:
+        return tuple(found)
+    if flat:
+        return (*found, "all its heights are equal, as nothing measured is")
+    return (*found, *_statistics(heights, spacing))
 
 
 def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
-    """Return doubts that need many points: spikes, slopes, noise."""
-    found = []
+    """Return doubts that need many points: rows without heights, spikes, slopes, noise."""
+    found = _broken_off(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (count := _lone_points(steps, heights)) > 0:
         found.append(
@@ -64,6 +70,21 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
         found.append(
             f"in {share:.0%} of the rows neighbouring heights are unrelated, as random numbers are; check the file"
         )
+    return found
+
+
+def _broken_off(heights: Array) -> list[str]:
+    """Return a doubt for each edge of a map along which rows hold one number and no heights."""
+    if heights.ndim != 2:
+        return []
+    found = []
+    for edge, rows in (("first", heights), ("last", heights[::-1])):
+        other = (rows != rows[0, 0]).any(axis=1)  # a point that was not measured is another, too
+        count = int(np.argmax(other))
+        if count > 1:
+            found.append(
+                f"its {edge} {count} of {len(rows)} rows all hold {rows[0, 0]:g} m, as of a scan that was broken off"
+            )
     return found
 
 

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
 from roughcontact.contact.solution import Solution
-from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.vti import vti_bytes
+from roughcontact.files.write_text import text_of
 from roughcontact.files.write_x3p import x3p_bytes
 from roughcontact.surface.surface import Surface
 
-__all__ = ["write"]
+__all__ = ["require_surface_file", "write"]
 
 
 def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
@@ -25,6 +27,9 @@ def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
     ``.nc``   a surface or a solution, NetCDF-4; the surface in it is read back to the last bit
     ``.x3p``  a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
               history, for which the format has no place
+    ``.txt``  a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
+              read back but for ``periodic`` and the history, the spacing to rounding
+    ``.npy``  the heights of a surface [m] and nothing else: unit and size are to be stated when it is read
     ``.vti``  a surface or the fields of a solution for ParaView; y points up, as its pictures do
     ========  ==================================================================================================
 
@@ -39,38 +44,61 @@ def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
     WriteError
         If the extension is none of these or not one for this value, or if the file cannot be written.
     """
-    kind = Path(path).suffix.casefold()
-    writers: dict[str, Callable[[Path], None]]
     if isinstance(what, Surface):
-        writers = {
-            ".npz": lambda aside: _npz(what, aside),
-            ".nc": lambda aside: _netcdf(what, aside),
-            ".x3p": lambda aside: _bytes(x3p_bytes(what), aside),
-            ".vti": lambda aside: _bytes(vti_bytes({"heights": what.heights}, what.grid), aside),
-        }
+        require_surface_file(path)
+        with written_aside(path) as aside:
+            _OF_A_SURFACE[_kind(path)](what, aside)
     elif isinstance(what, Solution):
-        writers = {
-            ".nc": lambda aside: _solution(what, aside),
-            ".vti": lambda aside: _bytes(vti_bytes(_fields(what), what.problem.grid), aside),
-        }
+        _require_kind(
+            path, "Solution", _OF_A_SOLUTION, "; write solution.problem.surface for its heights alone"
+        )
+        with written_aside(path) as aside:
+            _OF_A_SOLUTION[_kind(path)](what, aside)
     else:
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface or a Solution")
-    if kind not in writers:
-        hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
-        raise WriteError(
-            f"cannot write {path}: a {type(what).__name__} is written as one of {', '.join(writers)}{hint}"
-        )
-    with written_aside(path) as aside:
-        writers[kind](aside)
 
 
-def _bytes(content: bytes, aside: Path) -> None:
-    aside.write_bytes(content)
+def require_surface_file(path: str | os.PathLike[str]) -> None:
+    """Refuse, before any work is done, a file that `write` could not write a surface to.
+
+    Raises
+    ------
+    WriteError
+        If its extension is not known, or there is no such folder, no permission, a folder of that name.
+    """
+    _require_kind(path, "Surface", _OF_A_SURFACE)
+    require_target(path)
+
+
+def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> None:
+    if _kind(path) not in known:
+        raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
+
+
+def _kind(path: str | os.PathLike[str]) -> str:
+    return Path(path).suffix.casefold()
+
+
+def _x3p(surface: Surface, aside: Path) -> None:
+    aside.write_bytes(x3p_bytes(surface))
+
+
+def _vti(surface: Surface, aside: Path) -> None:
+    aside.write_bytes(vti_bytes({"heights": surface.heights}, surface.grid))
+
+
+def _text(surface: Surface, aside: Path) -> None:
+    aside.write_text(text_of(surface), encoding="utf-8", newline="\n")
+
+
+def _npy(surface: Surface, aside: Path) -> None:
+    with open(aside, "wb") as stream:  # a stream, since a path would be given an extension
+        np.save(stream, surface.heights)
 
 
 def _npz(surface: Surface, aside: Path) -> None:
     grid = surface.grid
-    with open(aside, "wb") as stream:  # a stream, since a path would be given an extension
+    with open(aside, "wb") as stream:
         np.savez_compressed(
             stream,
             heights=surface.heights,
@@ -119,6 +147,10 @@ def _solution(solution: Solution, aside: Path) -> None:
     write_netcdf(solution.to_dataset(), aside, provenance(problem.surface, modulus=problem.modulus))
 
 
+def _solution_vti(solution: Solution, aside: Path) -> None:
+    aside.write_bytes(vti_bytes(_fields(solution), solution.problem.grid))
+
+
 def _fields(solution: Solution) -> dict[str, np.typing.NDArray[np.generic]]:
     surface = solution.problem.surface
     heights = {} if surface is None else {"heights": surface.heights}
@@ -128,3 +160,11 @@ def _fields(solution: Solution) -> dict[str, np.typing.NDArray[np.generic]]:
         "gap": solution.gap,
         "contact": solution.contact,
     }
+
+
+_OF_A_SURFACE: Mapping[str, Callable[[Surface, Path], None]] = MappingProxyType(
+    {".npz": _npz, ".nc": _netcdf, ".x3p": _x3p, ".txt": _text, ".npy": _npy, ".vti": _vti}
+)
+_OF_A_SOLUTION: Mapping[str, Callable[[Solution, Path], None]] = MappingProxyType(
+    {".nc": _solution, ".vti": _solution_vti}
+)

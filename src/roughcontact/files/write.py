@@ -47,21 +47,42 @@ def write_netcdf(
 
 
 def write_csv(
-    dataset: xarray.Dataset, path: str | os.PathLike[str], provenance: Attributes | None = None
+    dataset: xarray.Dataset,
+    path: str | os.PathLike[str],
+    provenance: Attributes | None = None,
+    *,
+    dimension: str | None = None,
 ) -> None:
-    """Write the points of a curve, or the scalars of one state, as a table of comma-separated values.
+    """Write the points of a curve or spectrum, or the scalars of one state, as a table of comma-separated values.
 
     The first line names the columns. Lines that start with ``#`` follow it: units, scales,
     provenance. Then one line a point, every number with all its digits; truth values are 1 and 0.
     It stands in this order because `numpy.genfromtxt` (``delimiter=",", names=True``) takes names from
     the first line of a file; `pandas.read_csv` (``comment="#"``) reads it as well.
 
+    Parameters
+    ----------
+    dataset : Dataset
+    path : str or path
+    provenance : mapping, optional
+        Further remarks, see `roughcontact.files.provenance`.
+    dimension : str, optional
+        The dimension that the points lie along; by default ``load``, and a single row where there is none.
+
     Raises
     ------
+    ValueError
+        If the dataset has no such dimension.
     WriteError
         If the file cannot be written.
     """
-    along = ("load",) if "load" in dataset.sizes else ()
+    if dimension is None and "load" in dataset.sizes:
+        dimension = "load"
+    if dimension is not None and dimension not in dataset.sizes:
+        raise ValueError(
+            f"nothing lies along {dimension!r}: choose one of {', '.join(map(str, dataset.sizes))}"
+        )
+    along = () if dimension is None else (dimension,)
     columns = {str(name): values for name, values in dataset.data_vars.items() if values.dims == along}
     # Words go last, so that readers of pure numbers can ask for the columns before them.
     names = sorted(columns, key=lambda name: columns[name].dtype.kind in "OUT")
@@ -111,7 +132,8 @@ def _scale(name: str, values: xarray.DataArray) -> str:
     """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
     numbers = ", ".join(_cell(value) for value in values.to_numpy().reshape(-1).tolist())
     axes = f" ({', '.join(values['axis'].to_numpy().tolist())})" if values.dims else ""
-    return f"{name} = {numbers} {values.attrs.get('units', '')}".rstrip() + axes
+    unit = values.attrs.get("units", "1")
+    return f"{name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
 
 
 def _write_text(path: str | os.PathLike[str], text: str) -> None:

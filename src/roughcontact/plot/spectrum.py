@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import readable_ticks
 from roughcontact.plot.units import Scale, scale
 
 if TYPE_CHECKING:
@@ -46,11 +47,14 @@ class SpectrumScales:
     length: Scale
 
 
-def spectrum_curve(axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = None) -> None:
+def spectrum_curve(
+    axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = None, *, label: str = "measured"
+) -> None:
     """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
 
     Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
     averaged to forty a decade. `law` is laid over the band that it was fitted in; vertical lines mark where it ends.
+    `label` says in the legend where the spectrum comes from.
     """
     shown = spectrum.rebinned(_DRAWN)
     with_power = shown.density > 0  # a logarithmic axis has no place for zero
@@ -74,7 +78,7 @@ def spectrum_curve(axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = N
         markersize=4,
         linewidth=0.8,
         zorder=3,
-        label="measured",
+        label=label,
     )
     if law is not None:
         _draw_law(axes, law, scales)
@@ -106,6 +110,8 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
     low, high = (2 * math.pi / (w * length.factor) for w in (wavelengths.max(), wavelengths.min()))
     axes.set_xlim(low / 1.3, high * 1.3)
     top = axes.secondary_xaxis("top", functions=(_other, _other))
+    for axis in (axes.xaxis, top.xaxis):
+        readable_ticks(axis, high / low)
     top.set_xlabel(f"wavelength [{length.unit}]", fontsize=LABEL)
     top.tick_params(labelsize=TICK, which="both")
     return SpectrumScales(1 / length.factor, density, length)

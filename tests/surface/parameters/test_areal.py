@@ -98,8 +98,8 @@ def test_decay_of_a_wave():
     """acf = cos(qx): it meets 0.2 at acos(0.2)/q across, and never along."""
     found = areal_parameters(wave(256))
     q, spacing = 2 * math.pi * 4 / 10, 10 / 256
-    # Straight between lags errs by (q D)^2/8 of the cosine at most, over its slope.
-    assert found.Sal == pytest.approx(math.acos(0.2) / q, abs=(q * spacing) ** 2 / 8 / q)
+    # A cubic spline errs by (q D)^4/384 of the cosine at most, over its slope, which is that of acos(0.2).
+    assert found.Sal == pytest.approx(math.acos(0.2) / q, abs=(q * spacing) ** 4 / 384 / math.sqrt(0.96) / q)
     assert math.isnan(found.Str)
 
 

@@ -41,12 +41,41 @@ def test_sections_are_looked_at_one_by_one():
     heights[[2, 7, 12]] = [4.0, 2.0, 3.0]
     heights[[3, 8, 22]] = [-1.0, -5.0, 99.0]  # the last one is beyond the fourth section
     found = profile_parameters(line(heights), section_length=0.5)
-    mean = heights[:20].mean()
+    mean = heights[:20].mean()  # above zero: the flat parts are dales
     assert found.sections == 4
-    assert found.Rp == pytest.approx((4 + 2 + 3 + 0) / 4 - mean)
-    assert found.Rv == pytest.approx((1 + 5 + 0 + 0) / 4 + mean)
-    assert found.Rz == pytest.approx((5 + 7 + 3 + 0) / 4)
+    assert found.Rp == pytest.approx((4 + 2 + 3 + 0 - 3 * mean) / 4)
+    # The last dale has its (first) lowest point in the third section, so the fourth has none.
+    assert found.Rv == pytest.approx((1 + 5 + 0 + 3 * mean) / 4)
+    assert found.Rz == pytest.approx(found.Rp + found.Rv)
     assert found.Rt == pytest.approx(9)
+
+
+def test_a_flank_is_no_peak():
+    """A hill across the border of two sections has one peak; ISO 4287 saw its flank in the other section, too."""
+    heights = np.array([-2.0, -1, 3, 4, 6, 5, -1, -3, -9, -2])
+    found = profile_parameters(line(heights), section_length=0.5)
+    assert (found.sections, found.Rt) == (2, 15)
+    assert found.Rp == pytest.approx((6 + 0) / 2)
+    assert found.Rv == pytest.approx((2 + 9) / 2)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_peaks_and_pits_hill_by_hill(seed):
+    """Slowly, by walking from crossing to crossing."""
+    rng = np.random.default_rng(seed)
+    z = rng.standard_normal(600).cumsum()
+    h = z - z.mean()
+    peaks, pits = np.zeros(5), np.zeros(5)
+    start = 0
+    for stop in range(1, 601):
+        if stop == 600 or (h[stop] > 0) != (h[start] > 0):
+            place = max(range(start, stop), key=lambda i: abs(h[i]))
+            kind = peaks if h[start] > 0 else pits
+            kind[place // 120] = max(kind[place // 120], abs(h[place]))
+            start = stop
+    found = profile_parameters(line(z))
+    assert (found.Rp, found.Rv) == pytest.approx((peaks.mean(), pits.mean()), rel=1e-12)
+    assert found.Rz == pytest.approx((peaks + pits).mean(), rel=1e-12)
 
 
 def test_any_profile_against_sums():

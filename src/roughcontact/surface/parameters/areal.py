@@ -78,7 +78,7 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
 
     Notes
     -----
-    Sdq and Sdr are those of the triangles between neighbouring points (see `gradient_and_area`): an edge along
+    Sdq and Sdr are those of the triangles between neighbouring points, cut along both diagonals: an edge along
     x sees of a wave q the share ``sin(q D/2)/(q D/2)``. Sdq of a rough surface hangs on the spacing.
     """
     if surface.grid.ndim != 2 or min(surface.grid.shape) < 2:

@@ -15,8 +15,9 @@ Array = npt.NDArray[np.float64]
 def gradient_and_area(surface: Surface) -> tuple[float, float]:
     """Return the root mean square gradient and the relative excess of area of the surface through its points.
 
-    Between four points the surface is cut into triangles along both diagonals, and the two ways averaged.
-    Triangles with a missing corner are left out. Along a periodic axis the last points are joined to the first.
+    Sdq and Sdr (ISO 25178-2:2021, 4.4.2 and 4.4.3). Between four points the surface is cut into triangles along both
+    diagonals, and the two ways averaged. Triangles with a missing corner are left out. Along a periodic axis the last
+    points are joined to the first.
 
     Raises
     ------

@@ -20,8 +20,8 @@ CENTRAL = 0.4
 class MaterialRatio:
     """The material ratio (Abbott-Firestone) curve: which share of the points lies above a height.
 
-    ISO 25178-2:2021, 4.5.1. Straight between the sorted points, the i-th highest of n at the ratio (i - 1/2)/n,
-    and level beyond the first and the last.
+    ISO 25178-2:2021, 4.5.1; of profiles ISO 21920-2:2021, 4.5.1. Straight between the sorted points, the i-th highest
+    of n at the ratio (i - 1/2)/n, and level beyond the first and the last.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class MaterialRatio:
     height: Array
 
     def height_at(self, ratio: npt.ArrayLike) -> Array:
-        """Return the height [m] above which the share `ratio` of the points lies (inverse material ratio)."""
+        """Return the height [m] above which the share `ratio` of the points lies (ISO 25178-2:2021, 4.5.2)."""
         at = np.asarray(ratio, dtype=np.float64)
         return np.asarray(np.interp(at, self.ratio, self.height))
 
@@ -55,20 +55,23 @@ class MaterialRatio:
 
 @dataclass(frozen=True, slots=True)
 class StratifiedParameters:
-    """The parameters of stratified surfaces (ISO 25178-2:2021, 4.5.4) and volumes (4.5.6, 4.5.7).
+    """The parameters of stratified surfaces and volumes (clauses of ISO 25178-2:2021).
+
+    Of profiles they are those of ISO 21920-2:2021, 4.5.3 (Rk, Rpk, Rvk, ...) and 4.5.5.
 
     Parameters
     ----------
     Sk : float
-        Core height [m]: the height that the equivalent straight line spans. Of a profile: Rk.
+        Core height [m], 4.5.4: the height that the equivalent straight line spans.
     Spk, Svk : float
-        Reduced peak height and reduced dale depth [m]: heights of the triangles with the areas of the curve
+        Reduced peak height and reduced dale depth [m], 4.5.4: heights of the triangles with the areas of the curve
         above and below the core.
     Smr1, Smr2 : float
-        Material ratios between which the core lies [-], shares, not percent.
-    Vmp, Vmc, Vvc, Vvv : float
-        Volumes per area [m]: material of peaks and core, voids of core and dales, with the default limits of 10 %
-        and 80 %.
+        Material ratios between which the core lies [-], 4.5.4, shares, not percent.
+    Vmp, Vmc : float
+        Material volumes of peaks and core per area [m], 4.5.6, with the default limits of 10 % and 80 %.
+    Vvc, Vvv : float
+        Void volumes of core and dales per area [m], 4.5.7, with the same limits.
     """
 
     Sk: float
@@ -83,7 +86,7 @@ class StratifiedParameters:
 
 
 def material_ratio(surface: Surface) -> MaterialRatio:
-    """Return the material ratio curve of the measured heights of a surface or line."""
+    """Return the material ratio curve of the measured heights of a surface or line (ISO 25178-2:2021, 4.5.1)."""
     heights = np.sort(surface.heights[surface.measured])[::-1]
     heights -= heights.mean()
     ratio = (np.arange(heights.size) + 0.5) / heights.size
@@ -95,10 +98,11 @@ def stratified_parameters(
 ) -> StratifiedParameters:
     """Return the Sk family of a surface, or the Rk family of a line.
 
-    ISO 25178-2:2021, 4.5.4 to 4.5.7 (ISO 21920-2:2021 for profiles; the construction is that of ISO 13565-2). The
-    central region is the 40 % of the curve over which it falls least, the first of several. The equivalent
-    straight line is its least-squares line there. Heights are taken as they are: a surface with outliers
-    wants them removed first. Missing points are ignored.
+    ISO 25178-2:2021, 4.5.4, 4.5.6 and 4.5.7; of profiles ISO 21920-2:2021, 4.5.3 and 4.5.5. The construction is that
+    of ISO 13565-2: the central region is the 40 % of the curve over which it falls least, the first of several, and
+    the equivalent straight line its least-squares line there. The region begins at one of the points, so that
+    of some hundred points Sk is known to a percent. Heights are taken as they are: a surface with outliers wants them
+    removed first. Missing points are ignored.
 
     Parameters
     ----------

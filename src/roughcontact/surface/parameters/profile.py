@@ -19,28 +19,28 @@ GRADIENT = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class ProfileParameters:
-    """Height and gradient parameters of a profile (ISO 21920-2:2021; in brackets the clause of ISO 4287:1997).
+    """Height and gradient parameters of a profile (clauses of ISO 21920-2:2021).
 
     Parameters
     ----------
     Ra : float
-        Arithmetic mean height [m] (4.2.1), over the evaluation length.
+        Arithmetic mean height [m], 4.2.2, over the evaluation length.
     Rq : float
-        Root mean square height [m] (4.2.2), over the evaluation length.
+        Root mean square height [m], 4.2.3, over the evaluation length.
     Rsk : float
-        Skewness [-] (4.2.3), over the evaluation length.
+        Skewness [-], 4.2.4, over the evaluation length.
     Rku : float
-        Kurtosis [-] (4.2.4), over the evaluation length.
+        Kurtosis [-], 4.2.5, over the evaluation length; 3 for normally distributed heights.
     Rt : float
-        Total height [m] (4.1.5), over the evaluation length.
+        Total height [m], 4.2.6: highest less lowest point of the evaluation length.
     Rp : float
-        Mean peak height [m] (4.1.1): the mean of the highest point of each section length.
+        Mean peak height [m], 5.1.3: the mean over the sections of the largest height of a peak.
     Rv : float
-        Mean pit depth [m] (4.1.2), positive: likewise of the lowest point.
+        Mean pit depth [m], 5.1.5, positive: likewise of the pits.
     Rz : float
-        Mean height [m] (4.1.3): the mean over the section lengths of highest less lowest.
+        Maximum height [m], 5.1.6: Rp + Rv.
     Rdq : float
-        Root mean square gradient [-] (4.4.1), of the seven-point formula.
+        Root mean square gradient [-], 4.4.2, of the seven-point formula.
     sections : int
         Number of whole section lengths.
     section_length : float
@@ -68,6 +68,10 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
 
     Heights count above their mean over the evaluation length. The letter R of the names assumes that the
     profile went through the roughness filters of the standard; with another profile read P or W.
+
+    A peak is the highest point of a hill, between two crossings of the mean line, and belongs to the section that it
+    lies in; a pit likewise the lowest of a dale. A section without a peak or pit counts with zero. ISO 4287 looked at
+    the highest and lowest point of each section instead, be it on the flank of a hill that culminates beyond.
 
     Parameters
     ----------
@@ -105,22 +109,40 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
         raise ValueError("all heights are equal: there is no texture to measure")
     heights = heights - heights.mean()
     moments = amplitudes(heights)
-    parts = heights.reshape(sections, cells)
-    peaks, pits = parts.max(axis=1), -parts.min(axis=1)
+    peaks, pits = _largest(heights, sections)
+    peak, pit = float(peaks.mean()), float(pits.mean())
     return ProfileParameters(
         Ra=moments.arithmetic,
         Rq=moments.rms,
         Rsk=moments.skewness,
         Rku=moments.kurtosis,
         Rt=float(heights.max() - heights.min()),
-        Rp=float(peaks.mean()),
-        Rv=float(pits.mean()),
-        Rz=float((peaks + pits).mean()),
+        Rp=peak,
+        Rv=pit,
+        Rz=peak + pit,
         Rdq=float(np.sqrt(np.mean(_gradient(heights, spacing) ** 2))),
         sections=sections,
         section_length=cells * spacing,
         evaluation_length=sections * cells * spacing,
     )
+
+
+def _largest(heights: Array, sections: int) -> tuple[Array, Array]:
+    """Return the largest height of a peak and the largest depth of a pit in each section, shape (sections,)."""
+    above = heights > 0
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(above)) + 1])
+    size = np.abs(heights)
+    extremes = np.maximum.reduceat(size, starts)
+    # Where each hill or dale has its extreme; of several equal ones the first.
+    run = np.repeat(np.arange(starts.size), np.diff(starts, append=heights.size))
+    places = np.flatnonzero(size == extremes[run])
+    places = places[np.unique(run[places], return_index=True)[1]]
+    section = places // (heights.size // sections)
+    peaks, pits = np.zeros(sections), np.zeros(sections)
+    hills = above[starts]
+    np.maximum.at(peaks, section[hills], extremes[hills])
+    np.maximum.at(pits, section[~hills], extremes[~hills])
+    return peaks, pits
 
 
 def _gradient(heights: Array, spacing: float) -> Array:

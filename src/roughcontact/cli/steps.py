@@ -1,0 +1,210 @@
+"""The steps of ``surface prepare``: from what the user wrote to what is done with a surface, in order."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli.errors import UsageError
+from roughcontact.cli.quantity import LENGTH, parse
+from roughcontact.cli.report import quantity
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["Step", "TipShape", "Trend", "WindowShape", "Wishes", "steps"]
+
+_BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
+
+
+class Trend(StrEnum):
+    """What is taken out of the heights."""
+
+    NONE = "none"
+    MEAN = "mean"
+    PLANE = "plane"
+    QUADRATIC = "quadratic"
+
+
+class TipShape(StrEnum):
+    """What the end of a tip looks like."""
+
+    SPHERE = "sphere"
+    PARABOLOID = "paraboloid"
+
+
+class WindowShape(StrEnum):
+    """How heights go to zero toward the edges."""
+
+    HANN = "hann"
+    WELCH = "welch"
+    TUKEY = "tukey"
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What the user wrote, option by option; None where an option was left out."""
+
+    crop: str | None
+    level: Trend
+    form: str | None
+    fill: bool
+    tip: str | None
+    tip_shape: TipShape | None
+    short: str | None
+    long: str | None
+    average: int | None
+    downsample: int | None
+    alias: bool
+    window: WindowShape | None
+    share: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step: what is being done, in a word for the screen, and how."""
+
+    doing: str
+    apply: Callable[[Surface], Surface]
+
+
+def steps(wishes: Wishes) -> list[Step]:
+    """Return what was asked for, in the order of application.
+
+    Raises
+    ------
+    UsageError
+        If an option makes no sense, alone or without another.
+    """
+    found = [
+        _crop(wishes.crop),
+        _level(wishes.level),
+        _form(wishes.form),
+        Step("Filling", lambda surface: surface.filled() if surface.missing else surface)
+        if wishes.fill
+        else None,
+        _tip(wishes.tip, wishes.tip_shape),
+        _filter(wishes.short, wishes.long),
+        _average(wishes.average),
+        _downsample(wishes.downsample, wishes.alias),
+        _window(wishes.window, wishes.share),
+    ]
+    return [step for step in found if step is not None]
+
+
+def _crop(text: str | None) -> Step | None:
+    """Return the cut of ``0:512,100:612``, of a line ``0:512``; an end left open is that of the map."""
+    if text is None:
+        return None
+    matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
+    if len(matches) > 2 or not all(matches):
+        raise UsageError(
+            f"--crop: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a line scan"
+        )
+    parts = [
+        slice(*(int(end) if end else None for end in match.groups()))
+        for match in matches
+        if match is not None
+    ]
+
+    def apply(surface: Surface) -> Surface:
+        if len(parts) != surface.grid.ndim:
+            wanted = (
+                "rows,columns such as 0:512,100:612" if surface.grid.ndim == 2 else "one range such as 0:512"
+            )
+            raise UsageError(f"--crop: {text!r} has {len(parts)} range(s); write {wanted}")
+        return surface.cropped(*parts)
+
+    return Step("Cropping", apply)
+
+
+def _level(trend: Trend) -> Step | None:
+    if trend is Trend.NONE:
+        return None
+    chosen: Any = trend.value
+    return Step("Levelling", lambda surface: surface.levelled(chosen))
+
+
+def _form(text: str | None) -> Step | None:
+    """Return the removal of the form that the library knows by `text`: a degree or a word."""
+    if text is None:
+        return None
+    shape: Any = text
+    if text not in ("sphere", "cylinder"):
+        if re.fullmatch(r"\d{1,2}", text, re.ASCII) is None or int(text) > 12:
+            raise UsageError(f"--form: {text!r} is no form; write a degree from 0 to 12, sphere or cylinder")
+        shape = int(text)
+    return Step("Taking out the form", lambda surface: surface.without_form(shape))
+
+
+def _tip(text: str | None, shape: TipShape | None) -> Step | None:
+    if text is None:
+        if shape is not None:
+            raise UsageError("--tip-shape belongs to --tip: give its radius as well")
+        return None
+    radius = parse(text, LENGTH, "--tip")
+    if not 0 < radius < _BLUNTEST:
+        raise UsageError(
+            f"--tip: a radius of {quantity('lengths', radius)} is no tip; write it with its unit, such as 2um"
+        )
+    chosen: Any = (shape or TipShape.SPHERE).value
+    return Step("Scanning by the tip", lambda surface: surface.scanned(radius, chosen))
+
+
+def _filter(short: str | None, long: str | None) -> Step | None:
+    cutoffs = {
+        name: parse(text, LENGTH, option)
+        for name, text, option in (("short_cutoff", short, "--short"), ("long_cutoff", long, "--long"))
+        if text is not None
+    }
+    return Step("Filtering", lambda surface: _filtered(surface, cutoffs)) if cutoffs else None
+
+
+def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
+    short, longest = cutoffs.get("short_cutoff"), max(surface.grid.lengths)
+    if short is not None and short >= longest:
+        # Most likely a unit was forgotten: nothing but the mean would be left.
+        raise UsageError(
+            f"--short: a cut-off of {quantity('lengths', short)} leaves nothing of a map of "
+            f"{quantity('lengths', longest)}; give its unit, such as 10um"
+        )
+    return surface.filtered(**cutoffs)
+
+
+def _average(factor: int | None) -> Step | None:
+    if factor is None:
+        return None
+    _require_factor(factor, "--average")
+    return Step("Averaging", lambda surface: surface.averaged(factor))
+
+
+def _downsample(factor: int | None, alias: bool) -> Step | None:
+    if factor is None:
+        if alias:
+            raise UsageError("--alias belongs to --downsample: give its K as well")
+        return None
+    _require_factor(factor, "--downsample")
+    return Step("Thinning out", lambda surface: surface.downsampled(factor, anti_alias=not alias))
+
+
+def _require_factor(factor: int, option: str) -> None:
+    if factor < 1:
+        raise UsageError(f"{option}: K must be a whole number from 1 up, not {factor}")
+
+
+def _window(window: WindowShape | None, share: float | None) -> Step | None:
+    if share is not None and window is not WindowShape.TUKEY:
+        raise UsageError("--share belongs to --window tukey")
+    if window is None:
+        return None
+    if share is not None and not (math.isfinite(share) and 0 <= share <= 1):
+        raise UsageError(
+            f"--share: the part of the length that is bent lies between 0 and 1, not at {share:g}"
+        )
+    chosen: Any = window.value
+    bent = 0.25 if share is None else share
+    return Step("Tapering", lambda surface: surface.tapered(chosen, bent))

@@ -1,0 +1,59 @@
+"""What asks for a second look, and what does not."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.files.sanity import doubts_about
+
+CELL = (1e-6, 1e-6)
+GRID = rc.Grid((64, 80), CELL)
+
+
+@pytest.fixture
+def heights():
+    return rc.self_affine(GRID, 0.8, 1e-7, np.random.default_rng(4)).heights.copy()
+
+
+def test_a_rough_surface_raises_no_doubt(heights):
+    assert doubts_about(heights, CELL) == ()
+    heights[:10] = np.nan  # nor does one that was not measured everywhere
+    assert doubts_about(heights, CELL) == ()
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        (slice(50, None), "its last 14 of 64 rows all hold 0 m, as of a scan that was broken off"),
+        (slice(None, 5), "its first 5 of 64 rows all hold 0 m"),
+    ],
+)
+def test_a_scan_that_was_broken_off(heights, rows, words):
+    heights[rows] = 0.0
+    assert any(doubt.startswith(words) for doubt in doubts_about(heights, CELL))
+
+
+def test_a_map_without_heights():
+    assert doubts_about(np.full((64, 80), 3e-6), CELL) == (
+        "all its heights are equal, as nothing measured is",
+    )
+    assert doubts_about(np.zeros((3, 4)), CELL) == ()  # too few to tell
+
+
+def test_a_single_level_row_is_no_broken_scan(heights):
+    heights[-1] = heights[0] = 0.0
+    assert doubts_about(heights, CELL) == ()
+
+
+def test_a_lone_point(heights):
+    """One that differs from its neighbours fifteen times more than 99 of 100 do."""
+    steps = np.abs(np.diff(heights)).ravel()
+    common = np.quantile(steps, 0.99)  # above that of the least of four
+    heights[30, 30] += 40 * common
+    (doubt,) = doubts_about(heights, CELL)
+    assert doubt.startswith("1 lone points stand out")
+
+
+def test_heights_that_no_instrument_sees(heights):
+    (doubt,) = doubts_about(heights * 1e-9, CELL)
+    assert doubt.startswith("an rms height of 1e-16 m is less than any instrument sees")
