@@ -1,18 +1,87 @@
-"""Fast Fourier transforms of real fields: the only file that knows which library does them."""
+"""Arrays of any library, and fast Fourier transforms of real fields: the one file that knows the libraries."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-__all__ = ["convolve", "even_multiplier", "fast_even_length"]
+__all__ = [
+    "Placed",
+    "convolve",
+    "even_multiplier",
+    "fast_even_length",
+    "is_array",
+    "is_numpy",
+    "namespace",
+    "on_host",
+]
 
 Array = npt.NDArray[np.float64]
 
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
 # to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
 SLAB = 32
+
+
+def namespace(array: Any) -> Any:
+    """Return the functions for an array by the names of the array API standard: NumPy, CuPy, PyTorch, ..."""
+    if isinstance(array, np.ndarray):
+        return np
+    import array_api_compat
+
+    return array_api_compat.array_namespace(array)
+
+
+def is_array(value: Any) -> bool:
+    """Whether a value is an array of a library that follows the array API standard, NumPy or another."""
+    if isinstance(value, np.ndarray):
+        return True
+    import array_api_compat
+
+    return bool(array_api_compat.is_array_api_obj(value))
+
+
+def is_numpy(array: Any) -> bool:
+    """Whether an array lives on the host, where SciPy can work on it."""
+    return isinstance(array, np.ndarray)
+
+
+def on_host(array: Any) -> Array:
+    """Return a copy of an array in NumPy's memory: for files and pictures, at the rim, and nowhere else."""
+    if isinstance(array, np.ndarray):
+        return array
+    import array_api_compat
+
+    if array_api_compat.is_cupy_array(array):
+        return np.asarray(array.get(), dtype=np.float64)
+    torch = array_api_compat.is_torch_array(array)
+    host = "cpu" if torch else namespace(array).__array_namespace_info__().default_device()
+    return np.asarray(array_api_compat.to_device(array, host), dtype=np.float64)
+
+
+class Placed:
+    """A table that was made on the host, and its copies beside the arrays that it is multiplied with."""
+
+    __slots__ = ("_copies", "host")
+
+    def __init__(self, host: Array) -> None:
+        self.host = host
+        self._copies: dict[Any, Any] = {}
+
+    def beside(self, array: Any) -> Any:
+        """Return the table in the library, on the device and in the precision of `array`."""
+        if isinstance(array, np.ndarray) and array.dtype == self.host.dtype:
+            return self.host
+        import array_api_compat
+
+        device = array_api_compat.device(array)
+        key = (type(array), str(device), str(array.dtype))
+        if key not in self._copies:
+            self._copies[key] = namespace(array).asarray(self.host, dtype=array.dtype, device=device)
+        return self._copies[key]
 
 
 def fast_even_length(least: int) -> int:
@@ -41,21 +110,36 @@ def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
     return np.asarray(scipy.fft.dctn(even, type=1, overwrite_x=True))
 
 
-def convolve(field: Array, multiplier: Array, padded: tuple[int, int]) -> Array:
+def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) -> Array:
     """Return the convolution of `field`, padded by zeros to `padded`, cut back to its own shape.
 
     Parameters
     ----------
     field : array, shape (ny, nx)
-    multiplier : array, shape (My//2 + 1, Mx//2 + 1)
+        Of any library, on any device, in double or single precision: so is the answer.
+    multiplier : array or Placed array, shape (My//2 + 1, Mx//2 + 1)
         Real transform of an even kernel, as `even_multiplier` returns it.
     padded : tuple of int
         Lengths ``(My, Mx)`` of the transforms, at least those of the field.
 
     Notes
     -----
-    Only the rows that hold data are transformed along x, and the padded columns exist for one slab at a time.
+    Only the rows that hold data are transformed along x, and on the host the padded columns exist for one slab at a
+    time.
     """
+    factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
+    if is_numpy(field):
+        return _by_slabs(field, factors, padded)
+    xp = namespace(field)
+    (ny, nx), (my, mx) = field.shape, padded
+    upper = my // 2 + 1
+    spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=1), n=my, axis=0)
+    lower = xp.flip(factors[1 : my - upper + 1, :], axis=0)
+    spectrum = spectrum * xp.concat([factors, lower], axis=0)
+    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=0)[:ny, :], n=mx, axis=1)[:, :nx]  # type: ignore[no-any-return]
+
+
+def _by_slabs(field: Array, multiplier: Array, padded: tuple[int, int]) -> Array:
     ny, nx = field.shape
     my, mx = padded
     spectrum = scipy.fft.rfft(field, n=mx, axis=1)

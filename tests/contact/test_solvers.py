@@ -101,7 +101,7 @@ def test_a_bad_start_does_not_matter(solver):
     """Negative, misplaced, enormous: a start is a guess, and never comes back as an answer."""
     rough = surface()
     truth = rc.press(rough, 1.0, force=1e-3, tolerance=1e-10)
-    problem = make_problem(rough, 1.0, rc.Force(1e-3), None, 1e-10)
+    problem = make_problem(rough, 1.0, rc.Force(1e-3), None, tolerance=1e-10)
     rng = np.random.default_rng(0)
     for start in (np.zeros((64, 64)), rng.standard_normal((64, 64)) * 1e6, np.eye(64)):
         agree(truth, solve(problem, solver=SOLVERS[solver], initial=(start, 0.0)))
@@ -201,5 +201,5 @@ def test_an_indefinite_matrix_is_not_a_crash():
     """Cholesky's method refuses it; the iteration still answers, or says that it has not."""
     operator, profile = weighted()
     bent = Weighted(operator.grid, operator.weights, operator.kernel - 0.05 * np.eye(60))
-    solution = solve(make_problem(profile, 1.0, rc.Force(0.02), bent, 1e-8))
+    solution = solve(make_problem(profile, 1.0, rc.Force(0.02), bent, tolerance=1e-8))
     assert solution.status.converged == (solution.residual <= 1e-8)

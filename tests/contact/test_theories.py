@@ -109,6 +109,7 @@ def test_perssons_pressures_stand_beside_the_computed_ones(wide, curve):
     assert np.trapezoid(stress * density(stress), stress) == pytest.approx(1e9, rel=1e-4)
     fraction = np.trapezoid(density(stress), stress)
     assert 0.5 < fraction / solution.contact_fraction < 1
+    grid = rc.RadialGrid.uniform(8, 1.0)
+    cone = rc.press(rc.RadialProfile(-grid.radii, grid), MODULUS, force=1.0)
     with pytest.raises(ValueError, match="two axes"):
-        grid = rc.RadialGrid.uniform(8, 1.0)
-        persson_pressures(rc.press(rc.RadialProfile(-grid.radii, grid), MODULUS, force=1.0))
+        persson_pressures(cone)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.problem import Control, Depth, Terms
 from roughcontact.contact.state import Solver
 from roughcontact.contact.window import Windows, embed
@@ -30,18 +31,19 @@ def coarse_guess(
     """
     coarser = coarse_operator(operator, separation.shape)
     if coarser is None:
-        return np.zeros_like(separation), 0.0
+        return namespace(separation).zeros_like(separation), 0.0
     part, factors = coarser
     heights = pooled(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, heights)
     guess = coarse_guess(part, heights, control, solver)
     state, place = Windows(part).solve(solver, heights, Terms(control, COARSE_TOLERANCE), guess)
+    xp = namespace(separation)
     pressure = embed(state.pressure, place, heights.shape)
     for axis, factor in enumerate(factors):
-        pressure = np.repeat(pressure, factor, axis=axis)
+        pressure = xp.repeat(pressure, factor, axis=axis)
     fine = pressure[tuple(slice(0, n) for n in separation.shape)]
-    return np.where(np.isfinite(separation), fine, 0.0), state.depth
+    return xp.where(xp.isfinite(separation), fine, 0.0), state.depth
 
 
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
@@ -57,10 +59,16 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
 
 def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
     """Return the lowest value of each block; infinite for a block of missing cells."""
-    pad = [(0, -n % f) for n, f in zip(separation.shape, factors, strict=True)]
-    padded = np.pad(separation, pad, constant_values=np.inf)
-    blocks = padded.reshape([m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f)])
-    return np.asarray(blocks.min(axis=tuple(range(1, 2 * separation.ndim, 2))))
+    xp, padded = namespace(separation), separation
+    for axis, factor in enumerate(factors):
+        lacking = [n if a != axis else -n % factor for a, n in enumerate(padded.shape)]
+        if lacking[axis]:
+            edge = xp.full(tuple(lacking), np.inf, dtype=padded.dtype, device=padded.device)
+            padded = xp.concat([padded, edge], axis=axis)
+    blocks = xp.reshape(
+        padded, tuple(m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f))
+    )
+    return xp.min(blocks, axis=tuple(range(1, 2 * separation.ndim, 2)))  # type: ignore[no-any-return]
 
 
 def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:
@@ -68,9 +76,10 @@ def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:
 
     Otherwise the coarse problem might have no solution: its highest cells stand higher above its mean.
     """
-    if np.isinf(fine).any() or not fine.any():
+    xp = namespace(fine)
+    if bool(xp.any(xp.isinf(fine))) or not bool(xp.any(fine != 0)):
         return depth
-    return Depth(depth.value * min(1.0, float(coarse.mean() / fine.mean())))
+    return Depth(depth.value * min(1.0, float(xp.mean(coarse) / xp.mean(fine))))
 
 
 def _coarse_grid(grid: Grid, shape: tuple[int, ...], factors: tuple[int, ...]) -> Grid:

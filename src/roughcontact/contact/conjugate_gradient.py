@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.halfspace.operator import Invertible, Operator
 
@@ -62,26 +63,27 @@ def relax(
     At given force the iteration runs in the space of pressures without resultant, where the operator is
     positive definite whatever the boundary condition.
     """
-    measure = Measure(operator.weights)
-    target = np.where(region, separation, 0.0)
-    p, u = pressure.copy(), displacement.copy()
+    measure, xp = Measure(operator.weights), namespace(pressure)
+    target = xp.where(region, separation, 0.0)
+    p, u = xp.asarray(pressure, copy=True), xp.asarray(displacement, copy=True)
 
     def errors() -> tuple[Array, float]:
-        gap = np.where(region, u + target, 0.0)
+        gap = xp.where(region, u + target, 0.0)
         d = measure.mean(gap, region) if depth is None else depth
-        return np.where(region, d - gap, 0.0), d
+        return xp.where(region, d - gap, 0.0), d
 
-    precondition = _preconditioner(operator, region, measure, free=depth is None)
+    ones = xp.where(region, xp.ones_like(p), 0.0) if depth is None else None
+    precondition = _preconditioner(operator, region, measure, ones)
     r, d = errors()
     z = precondition(r)
-    t = z.copy()
+    t = xp.asarray(z, copy=True)
     rho = measure.dot(r, z)
     steps = 0
-    while (error := float(np.abs(r).max())) > limit and steps < max_steps and rho > 0:
+    while (error := float(xp.max(xp.abs(r)))) > limit and steps < max_steps and rho > 0:
         v = operator.apply(t)
-        q = np.where(region, v, 0.0)
+        q = xp.where(region, v, 0.0)
         if depth is None:
-            q[region] -= measure.mean(q, region)
+            q = xp.where(region, q - measure.mean(q, region), 0.0)
         curvature = measure.dot(t, q)
         if not curvature > 0:  # rounding has eaten the direction
             break
@@ -99,18 +101,22 @@ def relax(
 
 
 def _preconditioner(
-    operator: Operator, region: Mask, measure: Measure, *, free: bool
+    operator: Operator, region: Mask, measure: Measure, ones: Array | None
 ) -> Callable[[Array], Array]:
-    """Return a map from errors [m] to directions of pressure [Pa] on the region, without resultant if `free`."""
+    """Return a map from errors [m] to directions of pressure [Pa] on the region.
+
+    Given `ones` on the region, the directions have no resultant: at given force.
+    """
+    xp = namespace(region)
     if not isinstance(operator, Invertible):
-        return np.copy
-    if not free:
-        return lambda r: np.where(region, operator.approximate_inverse(r), 0.0)
-    uniform = np.where(region, operator.approximate_inverse(np.where(region, 1.0, 0.0)), 0.0)
+        return lambda r: xp.asarray(r, copy=True)
+    if ones is None:
+        return lambda r: xp.where(region, operator.approximate_inverse(r), 0.0)
+    uniform = xp.where(region, operator.approximate_inverse(ones), 0.0)
     share = 1 / measure.total(uniform)
 
     def without_resultant(r: Array) -> Array:
-        z = np.where(region, operator.approximate_inverse(r), 0.0)
+        z: Array = xp.where(region, operator.approximate_inverse(r), 0.0)
         z -= measure.total(z) * share * uniform
         return z
 

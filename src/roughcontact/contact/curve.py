@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law, compared
 from roughcontact.contact.power_law import PowerLaw, fit_power_law
 from roughcontact.contact.problem import ContactProblem
@@ -211,7 +212,6 @@ def collect(path: Iterable[Solution]) -> Curve:
     if problem is None:
         raise ValueError("a curve needs at least one load")
     columns = np.array(points).T
-    measured = np.isfinite(problem.separation)
     surface = problem.surface
     return Curve(
         force=columns[0],
@@ -228,7 +228,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         modulus=problem.modulus,
         lengths=problem.grid.lengths,
         spacing=problem.grid.spacing,
-        rms=float(np.std(problem.separation[measured])) if surface is None else surface.rms,
+        rms=float(np.std(on_host(problem.separation[problem.measured]))) if surface is None else surface.rms,
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
@@ -253,7 +253,7 @@ def _point(s: Solution) -> tuple[float, ...]:
         s.contact_area,
         s.mean_gap,
         s.elastic_energy,
-        s.spots.count,
+        s.spot_count,
         s.residual,
         s.frozen.residual,
     )

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.polonsky_keer import PolonskyKeer
 from roughcontact.contact.problem import Depth, Terms
@@ -29,7 +30,8 @@ def press_hard(operator: Operator, separation: Array, terms: Terms, elastic: Arr
     projected method may run in circles. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
-    excess = np.maximum(elastic - terms.hardness, 0.0)
+    xp, beyond = namespace(elastic), elastic - terms.hardness
+    excess = xp.where(beyond > 0, beyond, 0.0)
     mostly_elastic = Measure(operator.weights).total(excess) < FLOWING * terms.control.value
     if terms.depth is not None or mostly_elastic:
         state = solver.run(operator, separation, terms, elastic)
@@ -43,7 +45,7 @@ def press_hard(operator: Operator, separation: Array, terms: Terms, elastic: Arr
 def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: PolonskyKeer) -> tuple[Array, int]:
     """Return a pressure whose force is nearly the one prescribed, and the products that it took."""
     measure, force = Measure(operator.weights), terms.control.value
-    pressure, steps = np.zeros_like(separation), 0
+    pressure, steps = namespace(separation).zeros_like(separation), 0
 
     def excess(depth: float) -> float:
         nonlocal pressure, steps
@@ -74,6 +76,12 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
 
 def _bearing_depth(measure: Measure, separation: Array, area: float) -> float:
     """Return the depth at which the undeformed surface would bear on an area [m]."""
-    order = np.argsort(separation, axis=None, kind="stable")
-    count = int(np.searchsorted(np.cumsum(measure.on(order)), area))
-    return float(separation.ravel()[order[min(count, len(order) - 1)]])
+    xp = namespace(separation)
+    low, high = 0.0, float(xp.max(xp.where(xp.isfinite(separation), separation, 0.0)))
+    for _ in range(60):  # by halving: cells are many, halvings are few
+        middle = (low + high) / 2
+        if measure.total(separation <= middle) < area:
+            low = middle
+        else:
+            high = middle
+    return high

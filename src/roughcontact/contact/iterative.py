@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.conjugate_gradient import Relaxed, relax
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Control, Force
+from roughcontact.contact.refinement import relax_in_single
 from roughcontact.halfspace.operator import Operator
 
 __all__ = ["press_region"]
@@ -28,6 +30,7 @@ def press_region(
     *,
     limit: float,
     max_steps: int,
+    single: bool = False,
 ) -> Relaxed:
     """Press on a region alone and let go of cells that would pull, until none does.
 
@@ -47,26 +50,29 @@ def press_region(
         Largest error of the displacement on the cells that are kept [m].
     max_steps : int
         Largest number of products.
+    single : bool
+        Whether to work in single precision inside.
     """
     measure = Measure(operator.weights)
     depth = None if isinstance(control, Force) else control.value
-    p, u, steps = pressure, displacement, 0
+    p, u, steps, xp = pressure, displacement, 0, namespace(pressure)
     while True:
-        kept = np.where(region, np.maximum(p, 0.0), 0.0)
+        kept = xp.where(region & (p > 0), p, 0.0)
         if isinstance(control, Force):
-            if not kept.any():  # nothing of the guess is left
-                kept = np.where(region, 1.0, 0.0)
+            if not bool(xp.any(kept > 0)):  # nothing of the guess is left
+                kept = xp.where(region, xp.ones_like(p), 0.0)
             kept *= control.value / measure.total(kept)
-        if (kept != p).any():
+        if bool(xp.any(kept != p)):
             u, steps = operator.apply(kept), steps + 1
-        found = relax(
+        solve = relax_in_single if single else relax
+        found = solve(
             operator, region, separation, kept, u, depth=depth, limit=limit, max_steps=max_steps - steps
         )
         p, u, steps = found.pressure, found.displacement, steps + found.steps
         pulls = p < 0
-        if not pulls.any():
+        if not bool(xp.any(pulls)):
             return replace(found, steps=steps)
         region = region & ~pulls
-        if steps >= max_steps or not region.any():
-            p = np.maximum(p, 0.0)
+        if steps >= max_steps or not bool(xp.any(region)):
+            p = xp.where(p > 0, p, 0.0)
             return replace(found, pressure=p, displacement=operator.apply(p), steps=steps + 1)

@@ -12,7 +12,7 @@ from roughcontact.contact.curve import SUGGESTED, Curve, collect, length_scale
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body, ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.solve import solve_state
+from roughcontact.contact.solve import lock, solve_state
 from roughcontact.contact.state import Solver
 from roughcontact.contact.stiffness import FrozenContact, frozen_contact, yields_not
 from roughcontact.contact.window import Windows, embed
@@ -133,7 +133,7 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
         )
         shape = problem.grid.shape
         pressure = embed(state.pressure, place, shape)
-        pressure.flags.writeable = False
+        lock(pressure)
         solution = Solution(
             here,
             pressure,

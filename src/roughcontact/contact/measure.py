@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from roughcontact.arrays import Placed, is_numpy, namespace
 
 __all__ = ["Measure"]
 
@@ -21,16 +24,20 @@ class Measure:
 
     def total(self, field: Array | Mask) -> float:
         """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
-        return float((self.weights * field).sum()) if self.varies else float(self.weights * field.sum())
+        weights = self._beside(field)
+        return float(_sum(weights * _number(field))) if self.varies else float(weights * float(_sum(field)))
 
     def dot(self, a: Array, b: Array) -> float:
         """Return the weighted inner product of two fields."""
-        first = self.weights * a if self.varies else a
-        product = float(np.vdot(first, b))
+        first = self._beside(a) * a if self.varies else a
+        product = float(np.vdot(first, b)) if is_numpy(a) else float(_sum(first * b))
         return product if self.varies else float(self.weights * product)
 
     def mean(self, field: Array, mask: Mask) -> float:
         """Return the weighted mean of a field over the cells of `mask`."""
+        if not is_numpy(field):
+            weights = self._beside(field) * _number(mask)
+            return float(_sum(weights * namespace(field).where(mask, field, 0.0))) / float(_sum(weights))
         if isinstance(self.weights, np.ndarray):
             return float(np.average(field[mask], weights=self.weights[mask]))
         return float(field[mask].mean())
@@ -45,3 +52,21 @@ class Measure:
         if isinstance(self.weights, np.ndarray):
             return self.weights.ravel()[cells]
         return np.full(len(cells), self.weights)
+
+    def _beside(self, field: Any) -> Any:
+        """Return the weights where the field lives."""
+        if isinstance(self.weights, np.ndarray) and not is_numpy(field):
+            return Placed(self.weights).beside(_number(field))
+        return self.weights
+
+
+def _number(field: Any) -> Any:
+    """Return truth values as numbers."""
+    if is_numpy(field):
+        return field
+    xp = namespace(field)
+    return xp.astype(field, xp.float64) if xp.isdtype(field.dtype, "bool") else field
+
+
+def _sum(field: Any) -> Any:
+    return field.sum() if is_numpy(field) else namespace(field).sum(_number(field))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.problem import Force, Terms
 from roughcontact.halfspace.operator import Operator
 
@@ -51,7 +52,8 @@ class Judge:
 
     def scale(self, displacement: Array) -> float:
         """Return what residuals are relative to [m]: the largest displacement."""
-        return float(np.abs(displacement).max(initial=0.0))
+        xp = namespace(displacement)
+        return float(xp.max(xp.abs(displacement))) if math.prod(displacement.shape) else 0.0
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
         """Return the largest violation of the conditions of contact, relative to the largest displacement.
@@ -60,17 +62,19 @@ class Judge:
         hardness, where the body gives way, of ``gap``. It is infinite for a negative pressure or one beyond the
         hardness, or for numbers that are none. It speaks of the algebra, not of the grid.
         """
-        if not np.isfinite(pressure).all() or (pressure < 0).any() or (pressure > self.hardness).any():
+        xp = namespace(pressure)
+        # Negative or beyond the hardness, infinite or no number: one of these comparisons is false.
+        if not bool(xp.all((pressure >= 0) & (pressure <= self.hardness) & (pressure < math.inf))):
             return math.inf
-        violations = np.where(pressure > 0, np.abs(gap), -gap)
+        violations = xp.where(pressure > 0, xp.abs(gap), -gap)
         if self.hardness < math.inf:
-            violations = np.where(pressure == self.hardness, gap, violations)
-        violation = float(violations.max())
+            violations = xp.where(pressure == self.hardness, gap, violations)
+        violation = float(xp.max(violations))
         if math.isnan(violation):
             return math.inf
         if violation <= 0:
             return 0.0
         scale = self.scale(displacement)
         relative = violation / scale if scale > 0 else math.inf
-        rounding = self.allowance * self.self_influence * float(pressure.max(initial=0.0))
+        rounding = self.allowance * self.self_influence * float(xp.max(pressure))
         return min(relative, UNITS) if violation <= rounding else relative

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.problem import Force, Terms
@@ -44,12 +45,13 @@ class PolonskyKeer:
         measure = Measure(operator.weights)
         judge = Judge.of(operator, terms)
         own, hardness, given = judge.self_influence, terms.hardness, terms.depth
+        xp = namespace(separation)
         if hardness == np.inf:
             p = start_pressure(measure, separation, terms.control, initial, own)
         else:  # not scaled to the force: what is under the hardness is to stay there
-            p = np.where(np.isfinite(separation), np.maximum(initial, 0.0), 0.0)
+            p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
             p = _within(measure, p, separation, terms)
-        t = np.zeros_like(p)
+        t = xp.zeros_like(p)
         delta, norm_old = 0.0, 1.0
         best, idle, steps = np.inf, 0, 0
         while True:
@@ -66,13 +68,13 @@ class PolonskyKeer:
                 return State(p, d, r, steps, Status.CONVERGED)
             if steps >= self.max_steps:
                 return State(p, d, r, steps, Status.MAX_STEPS)
-            if idle > PATIENCE or not np.isfinite(p).all():
+            if idle > PATIENCE or not bool(xp.all(xp.isfinite(p))):
                 return State(p, d, r, steps, Status.STAGNATED)
-            errors = np.where(inside, g, 0.0)
+            errors = xp.where(inside, g, 0.0)
             norm = measure.dot(errors, errors)
             tau = 1 / own  # what a single cell needs, which at given force has no error to shrink
             if norm > 0 and norm_old > 0:
-                t = np.where(inside, g + delta * (norm / norm_old) * t, 0.0)
+                t = xp.where(inside, g + delta * (norm / norm_old) * t, 0.0)
                 v = operator.apply(t)
                 steps += 1
                 if given is None:
@@ -81,12 +83,12 @@ class PolonskyKeer:
                 if curvature > 0:
                     tau = measure.dot(errors, t) / curvature
             else:
-                t[:] = 0.0
+                t = xp.zeros_like(p)
             norm_old = norm if norm > 0 else 1.0
             wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
-            p = np.where(inside, np.clip(p - tau * t, 0.0, hardness), p)
-            p[wrong] = np.clip(p - tau * g, 0.0, hardness)[wrong]
-            delta = 0.0 if wrong.any() else 1.0
+            p = xp.where(inside, xp.clip(p - tau * t, 0.0, hardness), p)
+            p = xp.where(wrong, xp.clip(p - tau * g, 0.0, hardness), p)
+            delta = 0.0 if bool(xp.any(wrong)) else 1.0
             if given is None and 0 < measure.total(p) < np.inf:
                 p = _within(measure, p, g, terms)
 
@@ -96,20 +98,21 @@ def _depth(measure: Measure, level: Array, pressure: Array, inside: Mask) -> flo
 
     Without any it is the least at which no cell under the hardness would be pulled.
     """
-    if inside.any():
+    xp = namespace(level)
+    if bool(xp.any(inside)):
         return measure.mean(level, inside)
-    return float(level[pressure > 0].max())
+    return float(xp.max(xp.where(pressure > 0, level, -np.inf)))
 
 
 def _within(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:
     """Return the pressure between zero and the hardness, under the force that is prescribed, if one is."""
-    hardness = terms.hardness
+    hardness, xp = terms.hardness, namespace(pressure)
     if not isinstance(terms.control, Force):
-        return np.minimum(pressure, hardness)
+        return xp.clip(pressure, 0.0, hardness)  # type: ignore[no-any-return]
     force = terms.control.value
     if hardness == np.inf:
         return _under_force(measure, pressure, force)
-    pressure = np.minimum(pressure, hardness)
+    pressure = xp.clip(pressure, 0.0, hardness)
     # What exceeds the hardness, or lacks, is shared by the cells that can take it. Each pass takes at least one cell
     # to a bound, or is the last but for rounding.
     for _ in range(PASSES):
@@ -117,20 +120,25 @@ def _within(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
         if abs(lacking) <= ROUNDING * force:
             break
         free = (pressure > 0) & (pressure < hardness)
-        if not free.any():  # all at the bounds: the next cells to touch help, or all give
+        if not bool(xp.any(free)):  # all at the bounds: the next cells to touch help, or all give
             free = _nearest(measure, gap, pressure, lacking / hardness) if lacking > 0 else pressure > 0
-        pressure = np.where(free, np.clip(pressure + lacking / measure.total(free), 0.0, hardness), pressure)
+        pressure = xp.where(free, xp.clip(pressure + lacking / measure.total(free), 0.0, hardness), pressure)
     return pressure
 
 
 def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask:
     """Return the cells without pressure that stand nearest, as many as have twice the `area`."""
-    free = np.flatnonzero((pressure == 0) & np.isfinite(gap))
-    free = free[np.argsort(gap.ravel()[free], kind="stable")]
-    enough = int(np.searchsorted(np.cumsum(measure.on(free)), 2 * area)) + 1
-    nearest = np.zeros(pressure.size, dtype=bool)
-    nearest[free[:enough]] = True
-    return nearest.reshape(pressure.shape)
+    xp = namespace(gap)
+    free = (pressure == 0) & xp.isfinite(gap)
+    # The gap up to which the cells are enough, by halving: cells are many, halvings are few.
+    low, high = float(xp.min(xp.where(free, gap, np.inf))), float(xp.max(xp.where(free, gap, -np.inf)))
+    for _ in range(60):
+        middle = (low + high) / 2
+        if measure.total(free & (gap <= middle)) < 2 * area:
+            low = middle
+        else:
+            high = middle
+    return free & (gap <= high)  # type: ignore[no-any-return]
 
 
 def _under_force(measure: Measure, pressure: Array, force: float) -> Array:
@@ -139,12 +147,13 @@ def _under_force(measure: Measure, pressure: Array, force: float) -> Array:
     The nearest is ``max(pressure - shift, 0)``; each pass finds the shift for the cells that are left.
     """
     if measure.total(pressure) > force:
+        xp = namespace(pressure)
         left = pressure > 0
         while True:
-            shift = (measure.total(np.where(left, pressure, 0.0)) - force) / measure.total(left)
+            shift = (measure.total(xp.where(left, pressure, 0.0)) - force) / measure.total(left)
             fewer = left & (pressure > shift)
-            if (fewer == left).all():
+            if bool(xp.all(fewer == left)):
                 break
             left = fewer
-        pressure = np.where(left, pressure - shift, 0.0)
+        pressure = xp.where(left, pressure - shift, 0.0)
     return pressure * (force / measure.total(pressure))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
@@ -88,25 +90,30 @@ def prescribe(
     initial: Array | None = None,
 ) -> Prescribed:
     """Return what `prescribed_displacement` does, with whatever residual was reached."""
-    region = np.asarray(region, dtype=bool)
-    if region.shape != operator.grid.shape:
+    xp = namespace(region)
+    if not xp.isdtype(region.dtype, "bool"):
+        region = xp.astype(region, xp.bool)
+    if tuple(region.shape) != operator.grid.shape:
         raise ValueError(
             f"a region of shape {region.shape} does not fit the grid of shape {operator.grid.shape}"
         )
-    box = bounding_box(region)
-    if box is None:
+    if not bool(xp.any(region)):
         raise ValueError("the region holds no cell: nothing can be displaced")
-    if is_semidefinite(operator) and region.all():
+    if is_semidefinite(operator) and bool(xp.all(region)):
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
-    target = np.broadcast_to(np.asarray(displacement, dtype=np.float64), region.shape)
-    largest = float(np.abs(target[region]).max())
-    if not (np.isfinite(largest) and largest > 0):
+    field = xp.zeros(region.shape, dtype=xp.float64, device=region.device) if initial is None else initial
+    target = xp.where(region, xp.zeros_like(field) + displacement, 0.0)
+    largest = float(xp.max(xp.abs(target)))
+    if not 0 < largest < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
-    part = operator.restrict(box)
-    inside, wanted = region[box], np.where(region, target, 0.0)[box]
-    if initial is not None and not np.isfinite(initial).all():
+    if initial is not None and not bool(xp.all(xp.isfinite(initial))):
         raise ValueError("the initial pressure must be finite [Pa]")
-    start = None if initial is None else np.where(region, initial, 0.0)[box]
+    # On the host, where it costs nothing to find, the bounding box is enough.
+    box = bounding_box(region) if is_numpy(region) else tuple(slice(0, n) for n in region.shape)
+    assert box is not None  # some cell is in the region
+    part = operator.restrict(box)
+    inside, wanted = region[box], target[box]
+    start = None if initial is None else xp.where(region, initial, 0.0)[box]
     with one_blas_thread():
         pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
     measure = Measure(operator.weights)
@@ -118,7 +125,7 @@ def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, float, int]:
     """Return pressure, largest error [m] on a fresh product, and the number of products."""
-    steps = 0
+    steps, xp = 0, namespace(wanted)
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
     displacement = operator.apply(start)
@@ -139,7 +146,7 @@ def _solve(
         if found.steps:
             displacement = operator.apply(start)
             steps += 1
-        error = float(np.abs(displacement - wanted)[region].max())
+        error = float(xp.max(xp.where(region, xp.abs(displacement - wanted), 0.0)))
         if error <= limit or steps >= max_steps:
             break
     return start, error, steps
@@ -149,9 +156,10 @@ def _first(
     operator: Operator, region: Mask, wanted: Array, limit: float, max_steps: int
 ) -> tuple[Array, int]:
     """Return a first pressure: the answer itself for few cells, else that of cells of twice the size."""
-    cells = np.flatnonzero(region)
-    pressure = np.zeros(region.shape)
-    if len(cells) <= DENSE_LIMIT:
+    xp = namespace(wanted)
+    pressure = xp.zeros_like(wanted)
+    if is_numpy(region) and np.count_nonzero(region) <= DENSE_LIMIT:
+        cells = np.flatnonzero(region)
         with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
             pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
             return pressure, 0
@@ -159,12 +167,12 @@ def _first(
     if coarser is None:
         return pressure, 0
     part, factors = coarser
-    heights = pooled(np.where(region, wanted, np.inf), factors)
-    covered = np.isfinite(heights)
-    if covered.all() and is_semidefinite(part):
+    heights = pooled(xp.where(region, wanted, math.inf), factors)
+    covered = xp.isfinite(heights)
+    if bool(xp.all(covered)) and is_semidefinite(part):
         return pressure, 0
-    coarse, _, steps = _solve(part, covered, np.where(covered, heights, 0.0), None, 10 * limit, max_steps)
+    coarse, _, steps = _solve(part, covered, xp.where(covered, heights, 0.0), None, 10 * limit, max_steps)
     for axis, factor in enumerate(factors):
-        coarse = np.repeat(coarse, factor, axis=axis)
-    pressure = np.where(region, coarse[tuple(slice(0, n) for n in region.shape)], 0.0)
+        coarse = xp.repeat(coarse, factor, axis=axis)
+    pressure = xp.where(region, coarse[tuple(slice(0, n) for n in region.shape)], 0.0)
     return pressure, steps

@@ -87,7 +87,7 @@ def make_problem(
     operator: Operator | None,
     *,
     tolerance: float,
-    hardness: float | None,
+    hardness: float | None = None,
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)

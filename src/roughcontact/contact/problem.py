@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
@@ -20,6 +21,7 @@ from roughcontact.surface.surface import Surface
 __all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms"]
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 T = TypeVar("T")
 
 Body = Surface | RadialProfile
@@ -113,7 +115,7 @@ class ContactProblem:
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
-        if self.separation.shape != self.grid.shape:
+        if tuple(self.separation.shape) != self.grid.shape:
             raise ValueError(
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
@@ -122,13 +124,13 @@ class ContactProblem:
         if not self.hardness > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
-            strongest = self.hardness * self._measure.total(np.isfinite(self.separation))
+            strongest = self.hardness * self._measure.total(self.measured)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
                     f"gives {strongest:.6g}; press by less, or give a greater hardness"
                 )
-        if not isinstance(self.control, Depth) or not self.semidefinite or np.isinf(self.separation).any():
+        if not (isinstance(self.control, Depth) and self.semidefinite) or self.missing:
             return  # missing cells never touch and may bulge: contact is never full
         if self.hardness < math.inf:
             return  # a body that gives way can be pressed to any depth
@@ -143,6 +145,17 @@ class ContactProblem:
     def grid(self) -> AnyGrid:
         """The grid of the operator."""
         return self.operator.grid
+
+    @property
+    def measured(self) -> Mask:
+        """Cells that hold a height."""
+        return namespace(self.separation).isfinite(self.separation)  # type: ignore[no-any-return]
+
+    @property
+    def missing(self) -> int:
+        """Number of cells without a height."""
+        xp = namespace(self.separation)
+        return int(xp.count_nonzero(~self.measured))
 
     @property
     def terms(self) -> Terms:
@@ -177,7 +190,8 @@ class ContactProblem:
         """
 
         def respond() -> Array:
-            measured = np.isfinite(self.separation).astype(np.float64)
+            xp = namespace(self.separation)
+            measured = xp.astype(self.measured, self.separation.dtype)
             # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
             return self.operator.apply(measured) / self._measure.total(measured)
 
@@ -186,9 +200,7 @@ class ContactProblem:
     @property
     def mean_separation(self) -> float:
         """Mean undeformed gap of the measured cells [m]."""
-        return self.once(
-            "mean_separation", lambda: self._measure.mean(self.separation, np.isfinite(self.separation))
-        )
+        return self.once("mean_separation", lambda: self._measure.mean(self.separation, self.measured))
 
     def once(self, name: str, compute: Callable[[], T]) -> T:
         """Return what depends on the bodies alone, computed once for all loads on them."""
@@ -200,7 +212,10 @@ class ContactProblem:
 
 def separation_of(surface: Body) -> Array:
     """Return the undeformed gap at first touch [m]; infinite where nothing was measured."""
-    separation = np.nanmax(surface.heights) - surface.heights
-    separation[np.isnan(separation)] = np.inf
-    separation.flags.writeable = False
+    heights, xp = surface.heights, namespace(surface.heights)
+    missing = xp.isnan(heights)
+    separation: Array = xp.max(xp.where(missing, -math.inf, heights)) - heights
+    separation = xp.where(missing, math.inf, separation)
+    if is_numpy(separation):
+        separation.flags.writeable = False
     return separation

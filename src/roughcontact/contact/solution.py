@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy, namespace, on_host
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.spots import Spots, find_spots
+from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import (
     CELLS,
@@ -23,6 +24,7 @@ from roughcontact.contact.stiffness import (
     yields_not,
 )
 from roughcontact.halfspace.geometry import Geometry
+from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
     import xarray
@@ -72,8 +74,7 @@ class Solution:
     def gap(self) -> Array:
         """Deformed gap [m]; NaN where nothing was measured."""
         gap = self.displacement + self.problem.separation - self.depth
-        gap[~np.isfinite(self.problem.separation)] = np.nan
-        return gap
+        return namespace(gap).where(self.problem.measured, gap, np.nan)  # type: ignore[no-any-return]
 
     @cached_property
     def contact(self) -> npt.NDArray[np.bool_]:
@@ -83,18 +84,22 @@ class Solution:
     @cached_property
     def force(self) -> float:
         """Normal force [N]; on a line [N/m]."""
+        if not is_numpy(self.pressure):
+            return self._measure.total(self.pressure)
         cells = self._cells
         return float(self._measure.on(cells) @ self.pressure.ravel()[cells])
 
     @cached_property
     def contact_area(self) -> float:
         """Real contact area [m^2]; on a line [m]."""
+        if not is_numpy(self.pressure):
+            return self._measure.total(self.contact)
         return float(self._measure.on(self._cells).sum())
 
     @property
     def contact_fraction(self) -> float:
         """Real contact area over the nominal area of all cells, missing ones included."""
-        return self.contact_area / self._measure.total(np.ones(self.pressure.shape))
+        return self.contact_area / self.problem.grid.area
 
     @cached_property
     def mean_gap(self) -> float:
@@ -104,9 +109,11 @@ class Solution:
     @cached_property
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
-        cells = self._cells
-        if self.problem.hardness < np.inf:  # there part of the depth is flow
+        if self.problem.hardness < np.inf or not is_numpy(
+            self.pressure
+        ):  # under a hardness part of the depth is flow
             return 0.5 * self._measure.dot(self.pressure, self.displacement)
+        cells = self._cells
         work = self.pressure.ravel()[cells] * (self.depth - self.problem.separation.ravel()[cells])
         return 0.5 * float(self._measure.on(cells) @ work)
 
@@ -138,20 +145,44 @@ class Solution:
     @cached_property
     def spots(self) -> Spots:
         """The connected parts of the contact (cells that share an edge)."""
+        if not is_numpy(self.pressure):
+            raise ValueError("spots are labelled on the host: take them of solution.on_host()")
         return find_spots(self.contact, self.pressure, self.problem.grid, self._measure)
+
+    @property
+    def spot_count(self) -> int:
+        """Number of contact spots, wherever the arrays live."""
+        if is_numpy(self.pressure):
+            return self.spots.count
+        return count_spots(self.contact, self.problem.grid)
+
+    def on_host(self) -> Solution:
+        """Return the same solution in NumPy's memory, for spots, files and pictures."""
+        if is_numpy(self.pressure):
+            return self
+        problem = self.problem
+        surface = problem.surface
+        if isinstance(surface, Surface):
+            surface = replace(surface, heights=on_host(surface.heights))
+        frozen = self._frozen and replace(self._frozen, tangent=on_host(self._frozen.tangent))
+        bodies = replace(problem, separation=on_host(problem.separation), surface=surface)
+        return replace(self, problem=bodies, pressure=on_host(self.pressure), _frozen=frozen)
 
     @property
     def missing(self) -> int:
         """Number of cells without a height; they never touch."""
-        return int(np.isinf(self.problem.separation).sum())
+        return self.problem.missing
 
     @cached_property
     def touches_edge(self) -> bool:
         """Whether contact reaches the edge of a free grid, beyond which nothing is known."""
-        return any(
-            bool(np.take(self.contact, ends, axis=axis).any())
-            for axis, ends in enumerate(self.problem.grid.ends)
-        )
+
+        def rim(axis: int, end: int) -> Any:
+            return self.contact[(slice(None),) * axis + (end, ...)]
+
+        xp = namespace(self.contact)
+        ends = self.problem.grid.ends
+        return any(bool(xp.any(rim(axis, end))) for axis in range(len(ends)) for end in ends[axis])
 
     @cached_property
     def resolved(self) -> bool:
@@ -167,10 +198,13 @@ class Solution:
         notes = []
         if not self.status.converged:
             notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
-        yielding = int((self.pressure >= self.problem.hardness).sum())
+        xp = namespace(self.pressure)
+        yielding, touching = (
+            int(xp.count_nonzero(mask)) for mask in (self.pressure >= self.problem.hardness, self.contact)
+        )
         if yielding:
             notes.append(
-                f"{yielding} of {len(self._cells)} cells in contact are under the hardness: they give way, and the "
+                f"{yielding} of {touching} cells in contact are under the hardness: they give way, and the "
                 "stiffness is that of the others."
             )
         if self.missing:
@@ -178,11 +212,11 @@ class Solution:
             notes.append(f"{hold} no height: kept out of contact.")
         if self.touches_edge and self.problem.surface is not None:
             notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
-        if len(self._cells) == 1:
+        if touching == 1:
             notes.append(
                 "A single cell is in contact: stiffness and area are those of the grid, not of the body."
             )
-        elif len(self._cells) and not self._above_cells:
+        elif touching and not self._above_cells:
             notes.append(
                 f"Not resolved: the stiffness is below that of {CELLS} cells, so that the grid speaks, not the surface."
             )
@@ -192,7 +226,7 @@ class Solution:
         """Return what an engineer would doubt in these numbers."""
         doubts = []
         modulus, surface = self.problem.modulus, self.problem.surface
-        largest = float(self.pressure.max())
+        largest = float(namespace(self.pressure).max(self.pressure))
         if largest > STRAINED * modulus:
             doubts.append(
                 f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
@@ -224,31 +258,31 @@ class Solution:
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""
+        xp = namespace(self.contact)
         return (
             f"Solution({self.status.value}, force {self.force:.4g} N, depth {self.depth:.4g} m, "
-            f"{len(self._cells)} cells in contact, residual {self.residual:.1e})"
+            f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa]."""
-        return _density(self.pressure[self.contact], bins)
+        return _density(on_host(self.pressure[self.contact]), bins)
 
     def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/m] of the gap over the cells not in contact, and the edges [m]."""
-        apart = ~self.contact & np.isfinite(self.problem.separation)
-        return _density(self.gap[apart], bins)
+        return _density(on_host(self.gap[~self.contact & self.problem.measured]), bins)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return fields and numbers as an `xarray.Dataset` with units and long names."""
         from roughcontact.contact.dataset import solution_dataset
 
-        return solution_dataset(self)
+        return solution_dataset(self.on_host())
 
     def to_record(self) -> dict[str, Any]:
         """Return the numbers as plain values, for JSON."""
         from roughcontact.contact.dataset import solution_record
 
-        return solution_record(self)
+        return solution_record(self.on_host())
 
     @cached_property
     def _cells(self) -> npt.NDArray[np.intp]:
@@ -263,6 +297,8 @@ class Solution:
         """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
         if self.problem.semidefinite and not self.missing:
             return 0.0
+        if not is_numpy(pressure):
+            return self._measure.dot(pressure, self.problem.mean_response)
         cells = self._cells
         force = self._measure.on(cells) * pressure.ravel()[cells]
         return float(force @ self.problem.mean_response.ravel()[cells])

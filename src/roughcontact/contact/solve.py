@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.active_set import ActiveSet
 from roughcontact.contact.cascade import coarse_guess
 from roughcontact.contact.problem import ContactProblem, Depth
@@ -14,7 +15,7 @@ from roughcontact.contact.status import Status
 from roughcontact.contact.window import Place, Windows, embed
 from roughcontact.threads import one_blas_thread
 
-__all__ = ["solve"]
+__all__ = ["lock", "solve", "solve_state"]
 
 Array = npt.NDArray[np.float64]
 
@@ -40,7 +41,7 @@ def solve(
     """
     state, place = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
     pressure = embed(state.pressure, place, problem.grid.shape)
-    pressure.flags.writeable = False
+    lock(pressure)
     return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
 
 
@@ -55,9 +56,15 @@ def solve_state(
         return windows.solve(solver, problem.separation, problem.terms, guess)
 
 
+def lock(pressure: Array) -> None:
+    """Make an answer read-only, where its library can."""
+    if is_numpy(pressure):
+        pressure.flags.writeable = False
+
+
 def _untouched(problem: ContactProblem) -> tuple[State, Place]:
     """At depth 0 the bodies touch and carry nothing."""
     shape = problem.grid.shape
-    zero = np.zeros(shape)
+    zero = namespace(problem.separation).zeros_like(problem.separation)
     whole = tuple(slice(0, n) for n in shape)
     return State(zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole

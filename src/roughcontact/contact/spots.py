@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,11 +10,12 @@ import numpy.typing as npt
 import scipy.ndimage
 import scipy.sparse
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box
 from roughcontact.grid import AnyGrid
 
-__all__ = ["Spots", "find_spots"]
+__all__ = ["Spots", "count_spots", "find_spots"]
 
 Array = npt.NDArray[np.float64]
 
@@ -37,6 +39,31 @@ class Spots:
     areas: Array
     loads: Array
     labels: npt.NDArray[np.intp]
+
+
+def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
+    """Return the number of spots of a contact, without leaving the device that it lives on.
+
+    Every cell takes the largest number among its own and its neighbours' in contact, until nothing changes: a spot is
+    then known by the one cell that kept its own. It takes as many passes as the longest way through a spot has cells.
+    """
+    xp, shape = namespace(contact), tuple(contact.shape)
+    own = xp.reshape(xp.arange(1, math.prod(shape) + 1, device=contact.device), shape)
+    labels = xp.where(contact, own, 0)
+    while True:
+        spread = labels
+        for axis, periodic in enumerate(grid.periodic):
+            for step in (1, -1):
+                moved = xp.roll(spread, step, axis=axis)
+                if not periodic:  # what came round the edge is no neighbour
+                    places = xp.arange(shape[axis], device=contact.device)
+                    edge = places == (0 if step == 1 else shape[axis] - 1)
+                    along = tuple(-1 if a == axis else 1 for a in range(len(shape)))
+                    moved = xp.where(xp.reshape(edge, along), 0, moved)
+                spread = xp.where(contact & (moved > spread), moved, spread)
+        if bool(xp.all(spread == labels)):
+            return int(xp.count_nonzero(contact & (labels == own)))
+        labels = spread
 
 
 def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: AnyGrid, measure: Measure) -> Spots:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Control, Force
 
@@ -18,13 +19,14 @@ def start_pressure(
 ) -> Array:
     """Return `initial` without tension and without pressure on missing cells, under the right force.
 
-    Where nothing is left, the cell of the lowest separation carries all: the force, or what moves it by the
+    Where nothing is left, the cells of the lowest separation carry all: the force, or what moves it by the
     depth.
     """
-    p = np.where(np.isfinite(separation), np.maximum(initial, 0.0), 0.0)
-    if not p.any():
-        lowest = np.unravel_index(np.argmin(separation), separation.shape)
-        p[lowest] = 1.0 if isinstance(control, Force) else control.value / self_influence
+    xp = namespace(separation)
+    p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
+    if not bool(xp.any(p > 0)):
+        lowest = separation == xp.min(separation)
+        p = xp.where(lowest, 1.0 if isinstance(control, Force) else control.value / self_influence, p)
     if isinstance(control, Force):
         p *= control.value / measure.total(p)
-    return np.asarray(p)
+    return p  # type: ignore[no-any-return]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.prescribed import prescribe
 from roughcontact.contact.problem import ContactProblem
@@ -58,17 +59,20 @@ class FrozenContact:
 
 def yields_not(pressure: Array, hardness: float) -> Mask:
     """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
-    return np.asarray((pressure > 0) & (pressure < hardness))
+    return (pressure > 0) & (pressure < hardness)
 
 
 def frozen_contact(
     operator: Operator, region: Mask, *, tangent: Tangent | None = None, tolerance: float = TOLERANCE
 ) -> FrozenContact:
     """Return the response of `region` to a unit displacement; a `tangent` at hand is used or improved."""
-    if not region.any():
-        return FrozenContact(0.0, 0.0, np.zeros(region.shape))
-    if is_semidefinite(operator) and region.all():
-        return FrozenContact(math.inf, 0.0, np.full(region.shape, math.inf))
+    xp = namespace(region)
+    if not bool(xp.any(region)):
+        return FrozenContact(0.0, 0.0, xp.zeros(region.shape, dtype=xp.float64, device=region.device))
+    if is_semidefinite(operator) and bool(xp.all(region)):
+        return FrozenContact(
+            math.inf, 0.0, xp.full(region.shape, math.inf, dtype=xp.float64, device=region.device)
+        )
     if tangent is not None and tangent.error <= tolerance:
         return FrozenContact(
             Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure
@@ -141,7 +145,7 @@ def saturation(problem: ContactProblem) -> float:
 
     To a thousandth in the displacement: enough for a limit.
     """
-    measured = np.isfinite(problem.separation)
+    measured = namespace(problem.separation).isfinite(problem.separation)
     return problem.once(
         "saturation", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
     )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import AnyGrid
 
 __all__ = ["DenseOperator"]
@@ -32,6 +33,10 @@ class DenseOperator:
     grid: AnyGrid
     matrix: Array
     positive: bool = True
+    _placed: Placed = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_placed", Placed(self.matrix))
 
     @property
     def weights(self) -> float | Array:
@@ -40,7 +45,9 @@ class DenseOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        return np.asarray((self.matrix @ pressure.ravel()).reshape(self.grid.shape))
+        xp = namespace(pressure)
+        product = self._placed.beside(pressure) @ xp.reshape(pressure, (-1,))
+        return xp.reshape(product, self.grid.shape)  # type: ignore[no-any-return]
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""

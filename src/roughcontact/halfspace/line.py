@@ -12,7 +12,9 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.influence import Periodic, Strip, Tables
+from roughcontact.halfspace.multilevel import MultilevelOperator
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
+from roughcontact.halfspace.sums import Sum, Summed, summed
 from roughcontact.material import Solid, as_modulus
 
 __all__ = ["LineOperator", "line"]
@@ -27,11 +29,11 @@ class LineOperator:
 
     Parameters
     ----------
-    plane : FreeOperator or PeriodicOperator
+    plane : FreeOperator or PeriodicOperator, or another sum of the former
         On a grid of shape ``(1, n)`` and spacing ``(1, dx)``.
     """
 
-    plane: FreeOperator | PeriodicOperator
+    plane: Summed
 
     @property
     def geometry(self) -> Geometry:
@@ -50,13 +52,18 @@ class LineOperator:
         return self.plane.positive
 
     @property
+    def exact(self) -> LineOperator | None:
+        """The same body without the error of its sum; None if there is none to speak of."""
+        return LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None
+
+    @property
     def weights(self) -> float:
         """Width of a cell [m]: force per unit length of a unit pressure."""
         return self.plane.weights
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
-        return np.asarray(self.plane.apply(pressure[None])[0])
+        return self.plane.apply(pressure[None, ...])[0, ...]
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (all cells without)."""
@@ -77,11 +84,15 @@ class LineOperator:
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
-        return np.asarray(self.plane.approximate_inverse(displacement[None])[0])
+        return self.plane.approximate_inverse(displacement[None, ...])[0, ...]
 
 
 def line(
-    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
+    grid: Grid,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    reference_length: float | None = None,
+    method: Sum = "fft",
 ) -> LineOperator:
     """Return the half-space under loads that do not change along y: cylinders and rough lines.
 
@@ -97,11 +108,14 @@ def line(
         Of a free line: distance from a load at which its displacement is zero [m]; the grid's length without.
         Depths hang on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
         Pressures at given force do not.
+    method : {"fft", "moving-grid", "multilevel"}
+        How the sum over the cells is done, see `half_space`; the latter two on a free line.
 
     Raises
     ------
     ValueError
-        If the grid has two axes, or the reference length is shorter than the grid or given for a periodic one.
+        If the grid has two axes, the reference length is shorter than the grid or given for a periodic one, or the
+        method is not for it.
 
     Notes
     -----
@@ -115,7 +129,7 @@ def line(
     if all(grid.periodic):
         if reference_length is not None:
             raise ValueError("a periodic line has no reference length: its mean displacement is zero")
-        return LineOperator(PeriodicOperator(plane, Periodic(plane, value)))
+        return LineOperator(summed(PeriodicOperator(plane, Periodic(plane, value)), method))
     length = grid.lengths[0]
     reference = length if reference_length is None else float(reference_length)
     if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
@@ -123,7 +137,8 @@ def line(
             f"the reference length must be finite and at least that of the grid, {length:g} m, not {reference:g}: "
             "with a shorter one a load would lift the far end"
         )
-    return LineOperator(FreeOperator(plane, Tables(Strip(plane.spacing, value, reference), plane.shape)))
+    free = FreeOperator(plane, Tables(Strip(plane.spacing, value, reference), plane.shape))
+    return LineOperator(summed(free, method))
 
 
 def _plane(grid: Grid) -> Grid:

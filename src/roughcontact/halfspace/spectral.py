@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import convolve, even_multiplier, fast_even_length
+from roughcontact.arrays import Placed, convolve, even_multiplier, fast_even_length, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Periodic, Tables
@@ -49,17 +49,17 @@ class FreeOperator:
         return fast_even_length(2 * ny - 2), fast_even_length(2 * nx - 2)
 
     @cached_property
-    def _multiplier(self) -> Array:
-        return even_multiplier(self.influence.table(self.grid.shape), self._padded)
+    def _multiplier(self) -> Placed:
+        return Placed(even_multiplier(self.influence.table(self.grid.shape), self._padded))
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         return convolve(pressure, self._multiplier, self._padded)
 
     @cached_property
-    def _inverse(self) -> tuple[Array, tuple[int, int]]:
+    def _inverse(self) -> tuple[Placed, tuple[int, int]]:
         box = (fast_even_length(self.grid.shape[0]), fast_even_length(self.grid.shape[1]))
-        return self.influence.inverse(box), box
+        return Placed(self.influence.inverse(box)), box
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
@@ -109,21 +109,22 @@ class PeriodicOperator:
         return self.grid.cell_area
 
     @cached_property
-    def _multiplier(self) -> Array:
-        return self.influence.multiplier()
+    def _multiplier(self) -> Placed:
+        return Placed(self.influence.multiplier())
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         ny, nx = self.grid.shape
         # The mean moves nothing; taken out first, its rounding moves nothing either.
-        displacement = convolve(pressure - pressure.mean(), self._multiplier, (ny, nx))
-        displacement -= displacement.mean()
+        xp = namespace(pressure)
+        displacement = convolve(pressure - xp.mean(pressure), self._multiplier, (ny, nx))
+        displacement -= xp.mean(displacement)
         return displacement
 
     @cached_property
-    def _inverse(self) -> Array:
+    def _inverse(self) -> Placed:
         ny, nx = self.grid.shape
-        return self.influence.inverse((ny, nx))
+        return Placed(self.influence.inverse((ny, nx)))
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return the pressure [Pa] that causes this `displacement` [m], but for its mean."""

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_array, is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.levelling import levelled, without_form
@@ -30,7 +31,8 @@ class Surface:
     Parameters
     ----------
     heights : array, shape ``grid.shape``
-        Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured.
+        Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured. Arrays of other
+        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there; to prepare and analyse them, use NumPy.
     grid : Grid
         Where the cells are and whether the surface repeats itself.
     provenance : tuple of str
@@ -50,6 +52,9 @@ class Surface:
     __array_ufunc__: ClassVar[None] = None
 
     def __post_init__(self) -> None:
+        if is_array(self.heights) and not is_numpy(self.heights):
+            self._keep()
+            return
         given = (
             np.ma.filled(self.heights, np.nan)
             if np.ma.isMaskedArray(self.heights)
@@ -70,6 +75,19 @@ class Surface:
             raise ValueError("all heights are NaN: the surface holds no measured point")
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "provenance", tuple(self.provenance))
+
+    def _keep(self) -> None:
+        """Check heights of another library than NumPy, and leave them where they are."""
+        heights, xp = self.heights, namespace(self.heights)
+        if not xp.isdtype(heights.dtype, "real floating"):
+            raise ValueError(f"heights must be real numbers [m], not of type {heights.dtype}")
+        if tuple(heights.shape) != self.grid.shape:
+            raise ValueError(
+                f"heights of shape {tuple(heights.shape)} do not fit the grid of shape {self.grid.shape}"
+            )
+        if bool(xp.any(xp.isinf(heights))) or bool(xp.all(xp.isnan(heights))):
+            raise ValueError("heights must be finite [m], NaN where nothing was measured, and not all NaN")
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     def __add__(self, other: Surface) -> Surface:
@@ -109,17 +127,24 @@ class Surface:
     @property
     def measured(self) -> npt.NDArray[np.bool_]:
         """Mask of the points that hold a height, shape ``grid.shape``."""
-        return ~np.isnan(self.heights)
+        return ~namespace(self.heights).isnan(self.heights)  # type: ignore[no-any-return]
 
     @property
     def missing(self) -> int:
         """Number of points without a height."""
-        return int(np.isnan(self.heights).sum())
+        xp = namespace(self.heights)
+        return int(xp.count_nonzero(xp.isnan(self.heights)))
 
     @property
     def rms(self) -> float:
         """Root mean square height about the mean, over the measured points [m] (thesis, eq. 4.12)."""
-        return float(np.nanstd(self.heights))
+        if is_numpy(self.heights):
+            return float(np.nanstd(self.heights))
+        heights, xp = self.heights, namespace(self.heights)
+        there = self.measured
+        count = int(xp.count_nonzero(there))
+        deviation = xp.where(there, heights - xp.sum(xp.where(there, heights, 0.0)) / count, 0.0)
+        return math.sqrt(float(xp.sum(deviation**2)) / count)
 
     # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
     levelled = levelled

@@ -1,0 +1,166 @@
+"""Arrays of other libraries: what goes in comes out, and nothing goes through NumPy on the way.
+
+`array_api_strict` knows nothing but the array API standard, and its second device refuses every way to NumPy.
+PyTorch's tests run where it is installed.
+"""
+
+import importlib.util
+
+import array_api_strict
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+DEVICE = array_api_strict.Device("device1")
+
+
+class Strict:
+    """The standard and nothing else, on a device that is not the host."""
+
+    @staticmethod
+    def put(values, dtype="float64"):
+        return array_api_strict.asarray(values, dtype=getattr(array_api_strict, dtype), device=DEVICE)
+
+    @staticmethod
+    def is_there(array):
+        return isinstance(array, type(Strict.put(0.0))) and array.device == DEVICE
+
+    @staticmethod
+    def get(array):
+        return np.asarray(array_api_strict.asarray(array, device=array_api_strict.Device("CPU_DEVICE")))
+
+
+class Torch:
+    """PyTorch on the host."""
+
+    @staticmethod
+    def put(values, dtype="float64"):
+        import torch
+
+        return torch.asarray(values, dtype=getattr(torch, dtype))
+
+    @staticmethod
+    def is_there(array):
+        import torch
+
+        return isinstance(array, torch.Tensor)
+
+    @staticmethod
+    def get(array):
+        return array.numpy()
+
+
+without_torch = pytest.mark.skipif(
+    importlib.util.find_spec("torch") is None, reason="PyTorch is not installed"
+)
+
+
+@pytest.fixture(params=[Strict, pytest.param(Torch, marks=without_torch)], ids=lambda kind: kind.__name__)
+def library(request):
+    return request.param
+
+
+@pytest.fixture(params=[False, True], ids=["free", "periodic"])
+def rough(request):
+    grid = rc.Grid((40, 30), (0.02, 0.03), request.param)
+    return rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(3))
+
+
+def elsewhere(surface, library):
+    return rc.Surface(library.put(surface.heights.copy()), surface.grid)
+
+
+OPERATORS = {
+    "free": lambda: rc.half_space(rc.Grid((13, 20), (0.3, 0.5)), 2.0),
+    "periodic": lambda: rc.half_space(rc.Grid((12, 21), (0.3, 0.5), True), 2.0),
+    "dense": lambda: rc.half_space(rc.Grid((6, 7), (0.3, 0.5)), 2.0, "dense"),
+    "ring": lambda: rc.ring(rc.RadialGrid.uniform(20, 1.0), 2.0),
+    "line": lambda: rc.line(rc.Grid(50, 0.5), 2.0),
+    "periodic line": lambda: rc.line(rc.Grid(50, 0.5, True), 2.0),
+    "foundation": lambda: rc.foundation(rc.Grid(50, 0.5), 2.0),
+}
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+@pytest.mark.parametrize(("dtype", "digits"), [("float64", 1e-14), ("float32", 1e-5)])
+def test_operators(library, name, dtype, digits):
+    """Single precision: 6e-8, times what a transform of some hundred values adds up."""
+    operator = OPERATORS[name]()
+    p = np.random.default_rng(0).standard_normal(operator.grid.shape)
+    exact = operator.apply(p)
+    found = operator.apply(library.put(p, dtype))
+    assert library.is_there(found)
+    assert str(found.dtype).endswith(dtype)
+    np.testing.assert_allclose(library.get(found), exact, rtol=0, atol=digits * np.abs(exact).max())
+
+
+def test_single_precision_in_numpy_too():
+    operator = OPERATORS["free"]()
+    assert operator.apply(np.ones(operator.grid.shape, np.float32)).dtype == np.float32
+
+
+@pytest.mark.parametrize("load", [{"force": 2e-3}, {"depth": 0.008}], ids=str)
+@pytest.mark.parametrize("solver", [rc.ActiveSet(), rc.ActiveSet(single=True), rc.PolonskyKeer()], ids=repr)
+def test_press(library, rough, load, solver):
+    """The same answer as on the host, within the tolerances of both; the arrays where they were."""
+    here = rc.press(rough, 1.0, **load, tolerance=1e-10)
+    there = rc.press(elsewhere(rough, library), 1.0, **load, solver=solver, tolerance=1e-10)
+    assert there.status.converged
+    for name in ("pressure", "displacement", "gap", "contact"):
+        assert library.is_there(getattr(there, name)), name
+    largest = here.pressure.max()
+    np.testing.assert_allclose(library.get(there.pressure), here.pressure, rtol=0, atol=1e-7 * largest)
+    for name in ("force", "depth", "contact_area", "contact_fraction", "mean_gap", "elastic_energy"):
+        assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-7), name
+    for name in ("stiffness", "interfacial_stiffness"):  # as good as the square of their tolerance, 1e-7
+        assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-7), name
+    for name in ("spot_count", "touches_edge", "resolved", "missing", "notes"):
+        assert getattr(there, name) == getattr(here, name), name
+
+
+def test_the_certificate_is_one_of_double_precision(library, rough):
+    """Single precision inside: the residual is recomputed on the host in NumPy."""
+    there = rc.press(elsewhere(rough, library), 1.0, force=2e-3, solver=rc.ActiveSet(single=True))
+    back = there.on_host()
+    gap = rc.half_space(rough.grid, 1.0).apply(back.pressure) + back.problem.separation - back.depth
+    u = gap - back.problem.separation + back.depth
+    wrong = np.where(back.pressure > 0, np.abs(gap), -gap).max() / np.abs(u).max()
+    assert wrong <= 1.1e-8
+
+
+def test_curves_hardness_and_missing_points(library, rough):
+    heights = rough.heights.copy()
+    heights[3:6, 4:9] = np.nan
+    here = rc.Surface(heights, rough.grid)
+    there = elsewhere(here, library)
+    forces = [5e-4, 1e-3, 2e-3]
+    a, b = (rc.loading_curve(s, 1.0, forces=forces, tolerance=1e-10, hardness=0.2) for s in (here, there))
+    np.testing.assert_allclose(b.depth, a.depth, rtol=1e-7)
+    np.testing.assert_allclose(b.stiffness, a.stiffness, rtol=1e-5)
+    np.testing.assert_array_equal(b.spots, a.spots)
+    assert b.rms == pytest.approx(a.rms, rel=1e-12)
+
+
+def test_back_on_the_host_it_is_a_solution_like_any(library, rough):
+    there = rc.press(elsewhere(rough, library), 1.0, force=2e-3)
+    with pytest.raises(ValueError, match="on_host"):
+        _ = there.spots
+    back = there.on_host()
+    assert back.spots.count == there.spot_count
+    assert there.to_record() == back.to_record()
+    assert isinstance(there.to_dataset()["pressure"].to_numpy(), np.ndarray)
+    assert back.on_host() is back
+
+
+@pytest.mark.parametrize(
+    ("heights", "message"),
+    [
+        (np.zeros((3, 3)), "do not fit"),
+        (np.full((2, 2), np.inf), "finite"),
+        (np.full((2, 2), np.nan), "not all NaN"),
+    ],
+)
+def test_bad_heights_are_refused_there_too(library, heights, message):
+    with pytest.raises(ValueError, match=message):
+        rc.Surface(library.put(heights), rc.Grid((2, 2), 1.0))
