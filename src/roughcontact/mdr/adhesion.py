@@ -1,0 +1,203 @@
+r"""Adhesive contact of a body of revolution in the limit of Johnson, Kendall and Roberts (1971), by Hess' rule.
+
+The outermost springs of the foundation let go at the elongation l(a) = sqrt(2 pi a w/E*) (Hess, Über die exakte
+Abbildung ausgewählter dreidimensionaler Kontakte, 2011; Popov & Hess, Method of Dimensionality Reduction, 2015),
+so that every radius a has one equilibrium:
+
+    d(a) = g(a) - l(a)          F(a) = 2 E* (a d(a) - \int_0^a g dx)
+
+For the paraboloid this is the theory of Johnson, Kendall and Roberts to the letter. The contact is taken for one
+disc, under tension inside if need be: on a body whose transform falls somewhere that means that it was pressed
+together before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.material import Solid, as_modulus
+from roughcontact.mdr.disc import sample_radii
+from roughcontact.mdr.indentation import Indentation
+from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.recovery import spring_energy
+from roughcontact.mdr.roots import bisect
+
+__all__ = ["Adhesion", "Control", "PullOff", "jkr"]
+
+Array = npt.NDArray[np.float64]
+
+SPAN = (1e-15, 1e6)  # contact radii of a body without end that are looked at [m]
+PER_DECADE = 200
+
+
+@dataclass(frozen=True, slots=True)
+class PullOff:
+    """The equilibrium from which a contact snaps off: force [N], depth [m] and contact radius [m]."""
+
+    force: float
+    depth: float
+    contact_radius: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Adhesion:
+    """The equilibria of a body of revolution that sticks, one for each contact radius; made by `jkr`.
+
+    Parameters
+    ----------
+    profile : Profile
+    modulus : float
+        Reduced modulus E* [Pa].
+    work : float
+        Work of adhesion w [J/m^2].
+    """
+
+    profile: Profile
+    modulus: float
+    work: float
+
+    def elongation(self, radius: float | Array) -> Array:
+        """Return l(a) = sqrt(2 pi a w/E*), that of the outermost springs [m], at contact radii [m]."""
+        return np.asarray(np.sqrt(2 * np.pi * self.work / self.modulus * np.asarray(radius)))
+
+    def depth(self, radius: float | Array) -> Array:
+        """Return the depth of the equilibria [m] at contact radii [m]."""
+        return self.profile.transform(radius) - self.elongation(radius)
+
+    def force(self, radius: float | Array) -> Array:
+        """Return the force of the equilibria [N], tension negative, at contact radii [m]."""
+        integral = self.profile.transform_integral(radius)
+        return 2 * self.modulus * (np.asarray(radius) * self.depth(radius) - integral)
+
+    def depth_slope(self, radius: float | Array) -> Array:
+        """Return dd/da along the equilibria [-]; positive where they are stable under a given depth."""
+        return np.asarray(
+            self.profile.transform_slope(radius) - self.elongation(radius) / (2 * np.asarray(radius))
+        )
+
+    def force_slope(self, radius: float | Array) -> Array:
+        """Return dF/da along the equilibria [N/m]; positive where they are stable under a given force."""
+        a = np.asarray(radius, dtype=np.float64)
+        return 2 * self.modulus * (a * self.profile.transform_slope(a) - 1.5 * self.elongation(a))
+
+    def energy(self, radius: float, depth: float) -> float:
+        """Return the elastic energy less that of adhesion [J] of a contact held at a radius and a depth [m]."""
+        elastic = self.modulus * spring_energy(self.profile, radius, depth)
+        return elastic - math.pi * self.work * radius**2
+
+    def at(self, radius: float) -> Indentation:
+        """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap."""
+        if not 0 < radius <= self.profile.radius:
+            raise ValueError(
+                f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}"
+            )
+        return Indentation(self.profile, self.modulus, float(self.depth(radius)), float(radius))
+
+    def pull_off(self, machine_stiffness: float = 0.0) -> PullOff:
+        """Return where the contact snaps off for good when it is unloaded.
+
+        Parameters
+        ----------
+        machine_stiffness : float
+            Of what holds the body [N/m]: 0 under a given force, infinite under a given depth.
+
+        Raises
+        ------
+        ValueError
+            If the contact would spread without limit, or snaps off from where the body is not known.
+        """
+        control = Control(self, machine_stiffness)
+        a, level = control.turns()
+        lowest = int(level.argmin())
+        if lowest == len(a) - 1 and not self.profile.edge:
+            raise ValueError(
+                "the contact spreads to the end of the body by itself: its transform must rise faster than the square "
+                f"root of the radius somewhere below {a[-1]:g} m; take more of the body, or cut(radius)"
+            )
+        radius = float(a[lowest])
+        return PullOff(float(self.force(radius)), float(self.depth(radius)), radius)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Control:
+    """What is prescribed: the place c of the far end of a spring that holds the body, or the force.
+
+    Parameters
+    ----------
+    adhesion : Adhesion
+    machine_stiffness : float
+        c = d + F/stiffness [m] for a positive stiffness, d itself for an infinite one; for 0 c = F [N].
+    """
+
+    adhesion: Adhesion
+    machine_stiffness: float
+
+    def __post_init__(self) -> None:
+        if not self.machine_stiffness >= 0:
+            raise ValueError(
+                f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}"
+            )
+
+    @property
+    def compliance(self) -> float:
+        """Share of the force in c [m/N]; of no use under a given force."""
+        return 1 / self.machine_stiffness if self.machine_stiffness else math.inf
+
+    def level(self, radius: float | Array) -> Array:
+        """Return c of the equilibria at contact radii [m]."""
+        if self.machine_stiffness == 0:
+            return self.adhesion.force(radius)
+        if self.machine_stiffness == math.inf:
+            return self.adhesion.depth(radius)
+        return self.adhesion.depth(radius) + self.compliance * self.adhesion.force(radius)
+
+    def slope(self, radius: Array) -> Array:
+        """Return dc/da; an equilibrium is stable where it is positive."""
+        if self.machine_stiffness == 0:
+            return self.adhesion.force_slope(radius)
+        if self.machine_stiffness == math.inf:
+            return self.adhesion.depth_slope(radius)
+        return self.adhesion.depth_slope(radius) + self.compliance * self.adhesion.force_slope(radius)
+
+    def turns(self) -> tuple[Array, Array]:
+        """Return the radii at which c turns [m], from 0 to the end of the body, and c there."""
+        profile = self.adhesion.profile
+        end = min(profile.radius, SPAN[1])
+        count = math.ceil(PER_DECADE * math.log10(end / SPAN[0]))
+        x = np.geomspace(SPAN[0], end, count)
+        x[-1] = end
+        if math.isfinite(profile.radius) or profile.breaks:
+            reach = end if math.isfinite(profile.radius) else 2 * profile.breaks[-1]
+            x = np.union1d(x, sample_radii(profile, reach)[1:])
+        stable = self.slope(x) > 0
+        turn = np.nonzero(stable[:-1] != stable[1:])[0]
+        rising = stable[turn]
+        places = bisect(lambda a: (self.slope(a) > 0) != rising, x[turn], x[turn + 1])
+        a = np.concatenate([[0.0], places, x[-1:]])
+        return a, np.concatenate([[0.0], self.level(a[1:])])
+
+
+def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> Adhesion:
+    """Return the adhesive contact of a body of revolution with short-ranged attraction.
+
+    Parameters
+    ----------
+    profile : Profile
+        The body.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    work : float
+        Work of adhesion w [J/m^2].
+
+    Raises
+    ------
+    ValueError
+        If the work is not positive.
+    """
+    if not (math.isfinite(work) and work > 0):
+        raise ValueError(f"the work of adhesion must be positive [J/m^2], not {work}; without, indent serves")
+    return Adhesion(profile, as_modulus(modulus), float(work))

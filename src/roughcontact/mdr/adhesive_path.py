@@ -1,0 +1,180 @@
+"""Approach and retreat of a body that sticks: stable equilibria, snaps between them, and what the snaps cost."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+from roughcontact.mdr.adhesion import Adhesion, Control
+
+__all__ = ["AdhesivePath", "adhesive_path"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AdhesivePath:
+    """States of a sticking body, in the order of the history; radius 0 and force 0 where it is off.
+
+    Attributes
+    ----------
+    force : array, shape (n,)
+        [N], tension negative.
+    depth : array, shape (n,)
+        [m]; NaN of a body that was torn off under a given force.
+    contact_radius : array, shape (n,)
+        [m].
+    dissipated : array, shape (n,)
+        Energy lost in snaps up to each state [J]; infinite from a tear under a given force on, which nothing stops.
+    """
+
+    force: Array
+    depth: Array
+    contact_radius: Array
+    dissipated: Array
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+
+def adhesive_path(
+    adhesion: Adhesion,
+    *,
+    depths: Sequence[float] | Array | None = None,
+    forces: Sequence[float] | Array | None = None,
+    machine_stiffness: float = math.inf,
+) -> AdhesivePath:
+    """Lead a sticking body, which comes from afar, through a history.
+
+    It sticks at first touch, depth 0. From then on the edge of the contact moves out as long as it gains
+    energy, and in as long as it must: it stays on stable equilibria and snaps where one ends.
+
+    Parameters
+    ----------
+    adhesion : Adhesion
+    depths : array, shape (n,)
+        History of the depth [m], or of the far end of a spring with `machine_stiffness` [N/m] that holds the body.
+    forces : array, shape (n,)
+        Instead: history of the force [N].
+
+    Returns
+    -------
+    AdhesivePath
+
+    Raises
+    ------
+    ValueError
+        If not exactly one history is given, or the contact comes to where the body is not known.
+    """
+    if (depths is None) == (forces is None):
+        raise ValueError("give exactly one history, of depths or of forces")
+    if depths is not None and not machine_stiffness > 0:
+        raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
+    control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
+    history = np.asarray(forces if depths is None else depths, dtype=np.float64)
+    if history.ndim != 1 or not np.isfinite(history).all():
+        raise ValueError("a history is a list of finite numbers")
+    track = _Track(control, *control.turns())
+    radius, lost = 0.0, 0.0
+    states = []
+    for c in history.tolist():
+        radius, loss = track.move(radius, c)
+        lost += loss
+        states.append((*_state(control, radius, c), radius, lost))
+    force, depth, radii, dissipated = np.array(states).reshape(-1, 4).T
+    return AdhesivePath(force, depth, radii, dissipated)
+
+
+def _state(control: Control, a: float, c: float) -> tuple[float, float]:
+    """Return force and depth of a contact of radius `a` under the control `c`."""
+    given_force = control.machine_stiffness == 0
+    if a == 0:
+        return 0.0, (math.nan if given_force and c < 0 else 0.0 if given_force else c)
+    # At the radius a the force is linear in the depth, whether the edge is free to move or pinned.
+    E = control.adhesion.modulus
+    integral = float(control.adhesion.profile.transform_integral(a))
+    if given_force:
+        return c, (c / (2 * E) + integral) / a
+    share = 2 * E * control.compliance
+    depth = (c + integral * share) / (1 + a * share)
+    return 2 * E * (a * depth - integral), depth
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Track:
+    """The pieces between the `turns` of c(a), on each of which it only rises or only falls."""
+
+    control: Control
+    turns: Array
+    levels: Array
+
+    def move(self, a: float, c: float) -> tuple[float, float]:
+        """Return where the edge goes from radius `a` when the control becomes `c`, and the energy it loses."""
+        own = float(self.control.level(a)) if a > 0 else 0.0
+        if c > own or (a == 0 and c == 0):
+            return self._out(a, own, c)
+        if a > 0 and c < own:
+            return self._in(a, own, c)
+        return a, 0.0
+
+    def _out(self, a: float, level: float, c: float) -> tuple[float, float]:
+        loss = 0.0
+        for index in range(int(np.searchsorted(self.turns, a, side="right")), len(self.turns)):
+            end, there = float(self.turns[index]), float(self.levels[index])
+            if there < level:
+                continue
+            start = float(self.turns[index - 1])
+            if start > a:  # the equilibria between lie lower: a snap to where they are as high again
+                landing = self._cross(start, end, level)
+                loss += self._energy(a, level) - self._energy(landing, level)
+                a = landing
+            if there >= c:
+                return self._cross(a, end, c), loss
+            a, level = end, there
+        last = float(self.turns[-1])
+        if not self.control.adhesion.profile.edge:
+            raise ValueError(f"the contact spreads beyond {last:g} m, where the body is not known")
+        if a < last:
+            loss += self._energy(a, level) - self._energy(last, level)
+        return last, loss
+
+    def _in(self, a: float, level: float, c: float) -> tuple[float, float]:
+        loss = 0.0
+        for index in range(int(np.searchsorted(self.turns, a)) - 1, -1, -1):
+            start, there = float(self.turns[index]), float(self.levels[index])
+            if there > level:
+                continue
+            end = float(self.turns[index + 1])
+            if end < a:
+                landing = self._cross(start, end, level)
+                loss += self._energy(a, level) - self._energy(landing, level)
+                a = landing
+            if there <= c:
+                return self._cross(start, a, c), loss
+            a, level = start, there
+        torn = math.inf if self.control.machine_stiffness == 0 else self._energy(a, level)
+        return 0.0, loss + torn
+
+    def _cross(self, low: float, high: float, level: float) -> float:
+        """Return where c passes a level on a rising piece."""
+        below, above = (float(self.control.level(a)) - level for a in (low, high))
+        if below >= 0 or above <= 0:
+            return low if below >= 0 else high
+        return float(
+            brentq(lambda a: float(self.control.level(a)) - level, low, high, xtol=1e-300, rtol=2.0**-50)
+        )
+
+    def _energy(self, a: float, c: float) -> float:
+        """Return the energy of body, adhesion and machine at a radius under the control `c` [J]."""
+        if a == 0:
+            return 0.0
+        force, depth = _state(self.control, a, c)
+        own = self.control.adhesion.energy(a, depth)
+        if self.control.machine_stiffness == 0:
+            return own - force * depth
+        return own + force**2 / 2 * self.control.compliance

@@ -1,0 +1,154 @@
+"""The spectrum of the rough line that stands for a rough surface (thesis, eqs 4.54 and A.73)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.moments import Moments
+
+__all__ = ["LineSpectrum", "TabulatedSpectrum", "line_spectrum"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class LineSpectrum:
+    """``C1D(q) = factor q C2D(q)``, two-sided.
+
+    A spectrum with a plateau (`rolloff_wavelength`) gives a line whose spectrum rises on it.
+
+    Parameters
+    ----------
+    surface : callable
+        C2D(q) [m^4] of an isotropic surface at wavenumbers [rad/m], such as a `SelfAffineSpectrum`.
+    factor : float
+        lambda, see `line_spectrum`.
+
+    Raises
+    ------
+    ValueError
+        If the factor is not positive, or the spectrum is that of a line or of profiles.
+    """
+
+    surface: Callable[[Array], Array]
+    factor: float = math.pi
+
+    def __post_init__(self) -> None:
+        if getattr(self.surface, "dimension", 2) != 2 or getattr(self.surface, "kind", "C2D") != "C2D":
+            raise ValueError(
+                "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
+                "roughcontact.surface_spectrum"
+            )
+        if not (math.isfinite(self.factor) and self.factor > 0):
+            raise ValueError(f"factor must be positive and finite, not {self.factor}")
+
+    @property
+    def dimension(self) -> int:
+        """One: the spectrum of a line."""
+        return 1
+
+    @property
+    def q_min(self) -> float:
+        """Smallest wavenumber [rad/m]; 0 if the surface names none."""
+        return float(getattr(self.surface, "q_min", 0.0))
+
+    @property
+    def q_max(self) -> float:
+        """Largest wavenumber [rad/m]; infinite if the surface names none."""
+        return float(getattr(self.surface, "q_max", math.inf))
+
+    def __call__(self, wavenumber: Array) -> Array:
+        """Return C1D [m^3] at the wavenumbers [rad/m]."""
+        q = np.asarray(wavenumber, dtype=np.float64)
+        return np.asarray(self.factor * q * self.surface(q))
+
+    def moments(self) -> Moments:
+        """Return the moments of the line, ``mn = 2 int q^n C1D dq``, from those of the surface.
+
+        With factor pi m0 is that of the surface, and m2 twice that of its profiles: the rms slope of the line
+        is the rms gradient of the surface.
+
+        Raises
+        ------
+        AttributeError
+            If the spectrum of the surface knows no moments.
+        """
+        surface: Any = self.surface
+        moments, part = surface.moments(), self.factor / math.pi
+        return Moments(part * moments.m0, part * 2 * moments.m2, part * 8 / 3 * moments.m4, dimension=1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TabulatedSpectrum:
+    """A measured spectrum C2D as a function: a power law between its bins, absent outside its band.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        Of kind C2D. The band from its `q_min` to its `q_max` counts; where that goes a little beyond the outermost
+        bins with power, their laws go on.
+
+    Raises
+    ------
+    ValueError
+        If it is the spectrum of profiles, or fewer than two bins with power lie in the band.
+    """
+
+    spectrum: PowerSpectrum
+
+    def __post_init__(self) -> None:
+        if self.spectrum.kind != "C2D":
+            raise ValueError("this is the spectrum of profiles: convert it by roughcontact.surface_spectrum")
+        if np.count_nonzero(self.spectrum.within().density) < 2:
+            raise ValueError("two bins with power are needed between q_min and q_max")
+
+    @property
+    def q_min(self) -> float:
+        """Smallest wavenumber [rad/m]."""
+        return self.spectrum.q_min
+
+    @property
+    def q_max(self) -> float:
+        """Largest wavenumber [rad/m]."""
+        return self.spectrum.q_max
+
+    def __call__(self, wavenumber: Array) -> Array:
+        """Return C2D [m^4] at the wavenumbers [rad/m]."""
+        q = np.asarray(wavenumber, dtype=np.float64)
+        band = self.spectrum.within()
+        ln_q, ln_c = (np.log(a[band.density > 0]) for a in (band.wavenumber, band.density))
+        inside = (q >= self.q_min * (1 - 1e-9)) & (q <= self.q_max * (1 + 1e-9))
+        x = np.log(q, where=inside, out=np.zeros_like(q))
+        stretch = np.clip(np.searchsorted(ln_q, x) - 1, 0, ln_q.size - 2)
+        slope = np.diff(ln_c) / np.diff(ln_q)
+        return np.where(inside, np.exp(ln_c[stretch] + slope[stretch] * (x - ln_q[stretch])), 0.0)
+
+
+def line_spectrum(
+    spectrum: PowerSpectrum | Callable[[Array], Array], factor: float = math.pi
+) -> LineSpectrum:
+    """Return the spectrum of the line that stands for an isotropic surface, ``C1D = factor q C2D``.
+
+    Parameters
+    ----------
+    spectrum : callable or PowerSpectrum
+        C2D(q) [m^4], or a measured C2D.
+    factor : float
+        pi: line and surface have one rms height as integrals over all waves (eqs 4.54, A.73).
+        `lambda_rms`: they have it as sums over the waves of a grid (A.76 as corrected).
+        `calibrated_lambda`: their stiffness is the same at low loads (4.75), and their rms heights are not.
+
+    Raises
+    ------
+    ValueError
+        If the spectrum is not that of a surface, or the factor not positive.
+    """
+    surface = TabulatedSpectrum(spectrum) if isinstance(spectrum, PowerSpectrum) else spectrum
+    return LineSpectrum(surface, factor)

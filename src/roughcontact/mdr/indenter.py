@@ -1,0 +1,207 @@
+"""Bodies of revolution: closed forms, functions, samples, and roughness as a body (thesis, section 5.2).
+
+All stand on their apex at height 0. Profiles add: ``paraboloid(0.5) + equivalent_roughness(0.7, rms=9e-3, length=1.0)``
+is the rough sphere of the thesis' eq. 5.8, and any other smooth body may take the sphere's place.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.tables import from_function, from_samples, from_two_functions
+from roughcontact.mdr.terms import PowerTerm, SphereTerm, kappa, ripple_transform
+
+__all__ = [
+    "cone",
+    "equivalent_roughness",
+    "flat_punch",
+    "from_transform",
+    "kappa",
+    "of",
+    "paraboloid",
+    "power_law",
+    "ripples",
+    "rounded_cone",
+    "sampled",
+    "sampled_transform",
+    "sphere",
+]
+
+Array = npt.NDArray[np.float64]
+
+
+def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Profile:
+    """Return ``f = Q r^n``, or with a flat face of radius b ``f = Q (r^n - b^n)`` beyond it (thesis, eq. 5.2).
+
+    Parameters
+    ----------
+    exponent : float
+        n > 0 [-].
+    coefficient : float
+        Q > 0 [m^(1-n)].
+    flat : float
+        Radius b of the flat face [m].
+
+    Raises
+    ------
+    ValueError
+        If exponent or coefficient are not positive, or `flat` is negative.
+    """
+    _positive(exponent=exponent, coefficient=coefficient)
+    if not (math.isfinite(flat) and flat >= 0):
+        raise ValueError(f"the radius of a flat face must be 0 or above [m], not {flat}")
+    return Profile(((1.0, PowerTerm(float(exponent), float(coefficient), float(flat))),))
+
+
+def cone(slope: float, *, flat: float = 0.0) -> Profile:
+    """Return ``f = slope * r``, or with a flat face of radius b ``f = slope * (r - b)`` beyond it.
+
+    `slope` is the tangent of the angle between the flank and the ground [-], as in `shapes.cone`.
+    """
+    _positive(slope=slope)
+    return power_law(1.0, slope, flat=flat)
+
+
+def paraboloid(radius: float, *, flat: float = 0.0) -> Profile:
+    """Return ``f = r^2/(2R)``, or with a flat face of radius b ``f = (r^2 - b^2)/(2R)`` beyond it; R in m."""
+    _positive(radius=radius)
+    return power_law(2.0, 1 / (2 * radius), flat=flat)
+
+
+def sphere(radius: float) -> Profile:
+    """Return ``f = R - sqrt(R^2 - r^2)``, up to the equator; R in m. Hertz' sphere is the `paraboloid`."""
+    _positive(radius=radius)
+    return Profile(((1.0, SphereTerm(float(radius))),), float(radius))
+
+
+def flat_punch(radius: float) -> Profile:
+    """Return a cylinder with a flat face and a sharp edge; radius in m. Added to a body, it cuts it."""
+    _positive(radius=radius)
+    return Profile((), float(radius), edge=True)
+
+
+def rounded_cone(slope: float, radius: float) -> Profile:
+    """Return a cone with a round tip: a paraboloid of `radius` R [m] up to r = slope R, and `slope` from there on."""
+    _positive(slope=slope, radius=radius)
+    joint = slope * radius
+    body = paraboloid(radius) - paraboloid(radius, flat=joint) + cone(slope, flat=joint)
+    # A slope that does not fall makes a transform that does not fall.
+    return replace(body, rises=True)
+
+
+def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
+    """Return rings of waves, ``f = A (1 - cos(2 pi r / wavelength))``, to be added to a body.
+
+    Parameters
+    ----------
+    amplitude : float
+        A [m]; negative for a trough in the middle.
+    wavelength : float
+        [m].
+    radius : float
+        How far the body is known [m].
+    """
+    _positive(wavelength=wavelength, radius=radius)
+    if not math.isfinite(amplitude):
+        raise ValueError(f"the amplitude of ripples must be finite [m], not {amplitude}")
+    k = 2 * math.pi / wavelength
+    # The transform turns between any two quarters of a wavelength.
+    quarters = tuple(wavelength / 4 * n for n in range(1, math.ceil(4 * radius / wavelength)))
+    return from_two_functions(
+        lambda r: 2 * amplitude * np.sin(k * r / 2) ** 2,
+        lambda x: ripple_transform(amplitude, k, x),
+        float(radius),
+        quarters,
+    )
+
+
+def equivalent_roughness(
+    hurst: float, *, rms: float, length: float, prefactor: float | None = None
+) -> Profile:
+    """Return the power law that is pressed in like self-affine roughness on the average (thesis, eqs 5.5-5.6).
+
+    Added to any body of revolution it gives that body's rough contact, as 5.7-5.9 do for the sphere.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H > 0, the exponent of the body.
+    rms : float
+        Root mean square height h over the length [m].
+    length : float
+        Side L of the square that has this rms height [m]; only h/L^H matters.
+    prefactor : float, optional
+        zeta of ``k/(E* L) = zeta (F/(E* h L))^(1/(H+1))``; by default 1.7/(H + 1) (thesis, eq. 4.74).
+    """
+    _positive(hurst=hurst, rms=rms, length=length)
+    zeta = 1.7 / (hurst + 1) if prefactor is None else prefactor
+    _positive(prefactor=zeta)
+    h, L, H = rms, length, hurst
+    Q = (2 / (zeta * L)) ** (H + 1) * (H + 1) * L * h / (2 * H * kappa(H))
+    return power_law(H, Q)
+
+
+def of(height: Callable[[Array], Array], radius: float) -> Profile:
+    """Return the body whose height is a function of the radius.
+
+    Parameters
+    ----------
+    height : callable
+        f(r) [m] of an array of radii [m]. What it is at 0 is taken off. Kinks are found; derivatives are not needed.
+    radius : float
+        How far the body is known [m]. A load whose contact comes as far is refused; `Profile.cut` makes an edge.
+
+    Returns
+    -------
+    Profile
+        Whose transform is within about 1e-13 of its value, and its slope within 1e-11, from 1e-10 of the `radius` on.
+
+    Raises
+    ------
+    ValueError
+        If the function is not finite or not piecewise smooth, or vanishes everywhere.
+    """
+    return from_function(height, radius, transformed=False)
+
+
+def from_transform(transform: Callable[[Array], Array], radius: float) -> Profile:
+    """Return the body whose transform g(x) [m] is a function; the arguments are those of `of`."""
+    return from_function(transform, radius, transformed=True)
+
+
+def sampled(r: Array, height: Array, *, sharp: bool = False) -> Profile:
+    """Return the body whose height is a cubic spline through samples.
+
+    Parameters
+    ----------
+    r : array, shape (n,)
+        Radii, increasing from 0 [m]; the body is known up to the last.
+    height : array, shape (n,)
+        f(r) [m]. The first is taken off.
+    sharp : bool
+        Whether the body may have a tip. Otherwise its slope is zero on the axis.
+
+    Notes
+    -----
+    The transform of the spline is exact at its nodes. For samples of a smooth body at steps D the error of the height
+    falls as D^4, that of the transform as D^3.5, that of its slope as D^2.5. A spline rounds kinks: a body with a
+    flat face or a sharp joint is better described by a function (`of`).
+    """
+    return from_samples(r, height, sharp=sharp, transformed=False)
+
+
+def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Profile:
+    """Return the body whose transform g(x) [m] is a cubic spline through samples; see `sampled`."""
+    return from_samples(x, transform, sharp=sharp, transformed=True)
+
+
+def _positive(**values: float) -> None:
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} must be positive and finite, not {value}")

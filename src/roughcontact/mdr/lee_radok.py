@@ -1,0 +1,219 @@
+r"""From an elastic loading curve to a viscous or viscoelastic one, while the contact grows (thesis, chapter 4).
+
+If F = E* Phi(d) is the elastic law of any frictionless contact - a rough surface's as well as a sphere's - then
+(Lee & Radok, J. Appl. Mech. 27, 438 (1960); Radok, Quart. Appl. Math. 15, 198 (1957))
+
+    F(t) = \int_0^t E(t - s) dPhi(d(s))          Phi(d(t)) = \int_0^t J(t - s) dF(s)
+
+as long as no point leaves the contact, and the contact at every time is the elastic one at the same depth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
+
+from roughcontact.mdr.viscoelastic import Viscoelastic
+
+__all__ = ["ElasticCurve", "Transfer", "transfer"]
+
+Array = npt.NDArray[np.float64]
+
+ROUNDING = 1e-12  # of the largest value: what a fall must exceed to count
+
+
+class ElasticCurve(Protocol):
+    """What the transfer asks of a curve: `Curve` and `IndentationCurve` have it."""
+
+    @property
+    def force(self) -> Array:
+        """Force [N], shape (n,)."""
+
+    @property
+    def depth(self) -> Array:
+        """Depth [m], shape (n,)."""
+
+    @property
+    def contact_area(self) -> Array:
+        """Contact area [m^2], shape (n,)."""
+
+    @property
+    def modulus(self) -> float:
+        """Reduced modulus [Pa]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Transfer:
+    """A loading history on a viscoelastic half-space.
+
+    Attributes
+    ----------
+    time : array, shape (n,)
+        [s].
+    force, depth, contact_area : array, shape (n,)
+        [N], [m], [m^2].
+    elastic_force : array, shape (n,)
+        Force of the elastic contact of the same depth [N]: where to look up everything else on the curve.
+    """
+
+    time: Array
+    force: Array
+    depth: Array
+    contact_area: Array
+    elastic_force: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def transfer(
+    curve: ElasticCurve,
+    material: Viscoelastic,
+    times: Sequence[float] | Array,
+    *,
+    forces: Sequence[float] | Array | float | None = None,
+    depths: Sequence[float] | Array | float | None = None,
+) -> Transfer:
+    """Transfer an elastic loading curve to a viscoelastic material.
+
+    Parameters
+    ----------
+    curve : Curve, IndentationCurve or alike
+        Elastic curve with increasing forces and depths.
+    material : Viscoelastic
+    times : array, shape (n,)
+        Not decreasing [s]; a time that stands twice is a jump. Before the first there is no load.
+    forces, depths : float or array, shape (n,)
+        Exactly one: force [N], straight lines in between, or depth [m]. One number is a sudden load that stays.
+
+    Returns
+    -------
+    Transfer
+        Under given forces exact up to the interpolation on the curve, monotone cubic in the logarithms. Under given
+        depths Phi is taken for straight between the times: the error falls as the square of the step.
+
+    Raises
+    ------
+    ValueError
+        If the contact shrinks at some time, a load leaves the curve, or a depth jumps into a dashpot.
+    """
+    if (forces is None) == (depths is None):
+        raise ValueError("give exactly one of forces and depths")
+    t = np.asarray(times, dtype=np.float64)
+    given = np.asarray(depths if forces is None else forces, dtype=np.float64)
+    load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
+    if t.ndim != 1 or not len(t) or t.shape != load.shape:
+        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
+    if not (
+        np.isfinite(t).all() and np.isfinite(load).all() and (np.diff(t) >= 0).all() and (load >= 0).all()
+    ):
+        raise ValueError(
+            "times and loads must be finite, loads not negative, and times must not run backwards"
+        )
+    table = _Table.of(curve)
+    if forces is None:
+        _growing(t, load, "depth")
+        phi = table.look_up(table.depth, table.force, load, "depth") / curve.modulus
+        force = _resisting(material, t, phi)
+        depth = load
+    else:
+        force = load
+        phi = _creeping(material, t, load)
+        _growing(t, phi, "contact")
+        depth = table.look_up(table.force, table.depth, phi * curve.modulus, "elastic force")
+    elastic = phi * curve.modulus
+    area = table.look_up(table.force, table.area, elastic, "elastic force")
+    return Transfer(t, force, depth, area, elastic)
+
+
+def _creeping(material: Viscoelastic, t: Array, force: Array) -> Array:
+    """Return the convolution of the creep function with a force that is straight between the times [m^2]."""
+    creep = material.creep()
+    thetas, compliances = np.array(creep.times), np.array(creep.compliances)
+    phi = np.empty_like(t)
+    flowed, retarded = 0.0, np.zeros(len(thetas))
+    before, load = t[0], 0.0
+    for index, (now, F) in enumerate(zip(t, force, strict=True)):
+        h = now - before
+        if h > 0:
+            flowed += creep.fluidity * h * (load + F) / 2
+            part = -np.expm1(-h / thetas)
+            # theta e' + e = J F(t) with F straight over the step
+            retarded += (compliances * load - retarded) * part + compliances * (F - load) * (
+                1 - part * thetas / h
+            )
+        before, load = now, F
+        phi[index] = creep.instantaneous * F + flowed + retarded.sum()
+    return phi
+
+
+def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
+    """Return the convolution of the relaxation function with a Phi that is straight between the times [N]."""
+    taus, moduli = np.array(material.times), np.array(material.moduli)
+    force = material.equilibrium * phi
+    elements = np.zeros(len(taus))
+    before, last = t[0], 0.0
+    for index, (now, value) in enumerate(zip(t, phi, strict=True)):
+        h, step = now - before, value - last
+        if h > 0:
+            part = -np.expm1(-h / taus)
+            elements += -elements * part + moduli * taus * step / h * part
+        else:
+            if material.dashpot and step > 0:
+                raise ValueError("a dashpot admits no jump of the depth: its force would be infinite")
+            elements += moduli * step
+        before, last = now, value
+        force[index] += elements.sum()
+    if material.dashpot:
+        if len(t) < 3 or (np.diff(t) == 0).any():
+            raise ValueError("a dashpot's force under a given depth wants at least three different times")
+        # Phi grows; a parabola through the first three points may fall at the first all the same.
+        force += material.dashpot * np.maximum(np.gradient(phi, t, edge_order=2), 0.0)
+    return force
+
+
+def _growing(t: Array, value: Array, what: str) -> None:
+    """Refuse a history in which the contact shrinks."""
+    fall = np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]
+    if len(fall):
+        raise ValueError(
+            f"the {what} falls from t = {t[fall[0]]:g} s on: the transfer holds only while no point leaves the contact "
+            "(Lee & Radok); for a body of revolution depth_history and force_history go on"
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Table:
+    """Points of an elastic curve, all positive and increasing."""
+
+    force: Array
+    depth: Array
+    area: Array
+
+    @classmethod
+    def of(cls, curve: ElasticCurve) -> _Table:
+        columns = np.array([curve.force, curve.depth, curve.contact_area])
+        columns = columns[:, (columns > 0).all(axis=0)]
+        if columns.shape[1] < 2 or (np.diff(columns[:2], axis=1) <= 0).any():
+            raise ValueError("the elastic curve must have at least two points of increasing force and depth")
+        return cls(*columns)
+
+    def look_up(self, at: Array, of: Array, value: Array, what: str) -> Array:
+        """Return one column where another has the value; 0 at 0."""
+        out = np.zeros_like(value)
+        asked = value > 0
+        low, high = at[0] * (1 - ROUNDING), at[-1] * (1 + ROUNDING)
+        outside = value[asked & ((value < low) | (value > high))]
+        if len(outside):
+            raise ValueError(
+                f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
+                f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
+            )
+        inner = np.log(np.clip(value[asked], at[0], at[-1]))
+        out[asked] = np.exp(PchipInterpolator(np.log(at), np.log(of))(inner))
+        return out

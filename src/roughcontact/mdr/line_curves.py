@@ -1,0 +1,192 @@
+"""Loading curves of many rough lines: a value with its means, its scatter and its power law."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
+from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.mdr.ensemble_fit import EnsembleFit, fit_ensemble
+
+__all__ = ["LineCurves", "Mean"]
+
+Array = npt.NDArray[np.float64]
+Mean: TypeAlias = Literal["arithmetic", "geometric"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class LineCurves:
+    """Loading curves of rough lines on springs, at the same loads.
+
+    Attributes
+    ----------
+    force : array, shape (loads,), of given depths (lines, loads)
+        Normal force [N].
+    depth : array, shape (lines, loads), if given (loads,)
+        Approach since first touch [m].
+    springs : int array, shape (lines, loads)
+        Number of springs that carry load.
+    elastic_energy : array, shape (lines, loads)
+        Energy in the springs [J]; NaN if it was not asked for.
+    rms : array, shape (lines,)
+        Root mean square height of each line [m].
+    modulus : float
+        Reduced modulus E* [Pa].
+    spacing : float
+        Width of a spring [m].
+    points : int
+        Springs in a line.
+    """
+
+    force: Array
+    depth: Array
+    springs: npt.NDArray[np.int32]
+    elastic_energy: Array
+    rms: Array
+    modulus: float
+    spacing: float
+    points: int
+
+    def __len__(self) -> int:
+        """Return the number of lines."""
+        return len(self.springs)
+
+    @classmethod
+    def joined(cls, parts: Iterable[LineCurves]) -> LineCurves:
+        """Return the curves of all lines in `parts`, such as batches of an ensemble, as one.
+
+        Raises
+        ------
+        ValueError
+            If there is none, or the parts differ in loads, modulus or points.
+        """
+        batches = list(parts)
+        if not batches:
+            raise ValueError("there are no curves to join")
+        first = batches[0]
+        common = "force" if first.force.ndim == 1 else "depth"
+        for other in batches[1:]:
+            same = (other.modulus, other.spacing, other.points) == (
+                first.modulus,
+                first.spacing,
+                first.points,
+            )
+            if not (same and np.array_equal(getattr(other, common), getattr(first, common))):
+                raise ValueError("curves are joined that have the same loads, modulus, spacing and points")
+        return replace(
+            first,
+            force=first.force if common == "force" else np.concatenate([b.force for b in batches]),
+            depth=first.depth if common == "depth" else np.concatenate([b.depth for b in batches]),
+            springs=np.concatenate([b.springs for b in batches]),
+            elastic_energy=np.concatenate([b.elastic_energy for b in batches]),
+            rms=np.concatenate([b.rms for b in batches]),
+        )
+
+    @property
+    def contact_length(self) -> Array:
+        """Length in contact [m], shape (lines, loads)."""
+        return np.asarray(self.spacing * self.springs, dtype=np.float64)
+
+    @property
+    def stiffness(self) -> Array:
+        """Contact stiffness dF/dd [N/m], E* times the length in contact, shape (lines, loads)."""
+        return self.modulus * self.contact_length
+
+    @property
+    def length(self) -> float:
+        """Length L of a line [m]."""
+        return self.points * self.spacing
+
+    @property
+    def force_scale(self) -> float:
+        """E* h L [N] (thesis, eq. 4.13); h is the rms height of all lines."""
+        return self.stiffness_scale * float(np.sqrt(np.mean(self.rms**2)))
+
+    @property
+    def stiffness_scale(self) -> float:
+        """E* L [N/m] (thesis, eq. 4.8), the stiffness of a line in full contact."""
+        return self.modulus * self.length
+
+    @property
+    def dimensionless_force(self) -> Array:
+        """Force over E* h L (thesis, eq. 4.13); NaN for flat lines."""
+        scale = self.force_scale
+        return self.force / scale if scale > 0 else np.full(self.force.shape, np.nan)
+
+    @property
+    def scatter(self) -> Array:
+        """Standard deviation of the stiffness over its mean (thesis, fig. 18), shape (loads,); of one line NaN."""
+        if len(self) < 2:
+            return np.full(self.springs.shape[1], np.nan)
+        mean = self.springs.mean(axis=0)
+        # Without contact, at depth 0, nothing scatters.
+        return np.asarray(self.springs.std(axis=0, ddof=1) / np.where(mean > 0, mean, 1.0))
+
+    def mean_stiffness(self, mean: Mean = "arithmetic") -> Array:
+        """Return the mean over all lines of the stiffness at each load [N/m], shape (loads,).
+
+        The geometric mean is what averages of ln k over ln F give: lower by about half the variance of ln k, 4 %
+        at a scatter of 30 %.
+        """
+        if mean not in ("arithmetic", "geometric"):
+            raise ValueError(f"mean must be 'arithmetic' or 'geometric', not {mean!r}")
+        if mean == "arithmetic":
+            springs = self.springs.mean(axis=0)
+        else:
+            with np.errstate(divide="ignore"):  # no contact, at depth 0
+                springs = np.exp(np.log(self.springs).mean(axis=0))
+        return np.asarray(self.modulus * self.spacing * springs)
+
+    def resolved(self, mean: Mean = "arithmetic") -> npt.NDArray[np.bool_]:
+        """Return the mask of loads whose mean stiffness is above 20 springs and below 90 % of all."""
+        springs = self.mean_stiffness(mean) / (self.modulus * self.spacing)
+        return np.asarray((springs > CELLS) & (springs < SATURATED * self.points))
+
+    def fit(self, mean: Mean = "arithmetic", window: tuple[float, float] | None = None) -> EnsembleFit:
+        """Return the power law k ~ F^alpha (thesis, eq. 4.53) of the mean stiffness, with standard errors.
+
+        Parameters
+        ----------
+        mean : {"arithmetic", "geometric"}
+            Which mean over the lines.
+        window : tuple of float, optional
+            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07. A law
+            that is not quite a power law has another exponent in another window.
+
+        Raises
+        ------
+        ValueError
+            If the depths were given and not the forces, or fewer than three forces lie in the window.
+        """
+        if self.force.ndim != 1:
+            raise ValueError(
+                "lines are averaged at equal forces: compute the curves with forces=, not depths="
+            )
+        if window is None:
+            inside = self.resolved(mean) & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
+        else:
+            low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
+            inside = (self.force >= low) & (self.force <= high)
+        if inside.sum() < 3:
+            raise ValueError(
+                f"a power law needs at least 3 forces in its window, not {int(inside.sum())}: more forces, up to "
+                f"{FORCE_LIMIT * self.force_scale:.3g} N, or lines of more than {self.points} points"
+            )
+        return fit_ensemble(
+            self.force[inside],
+            self.stiffness[:, inside],
+            (self.force_scale, self.stiffness_scale),
+            mean,
+        )
+
+    def __repr__(self) -> str:
+        """Say what the curves span, not their numbers."""
+        force = f"force {self.force.min():.4g} to {self.force.max():.4g} N"
+        return (
+            f"LineCurves({len(self)} lines of {self.points} points, {self.springs.shape[1]} loads, {force})"
+        )

@@ -1,0 +1,154 @@
+"""Bodies of revolution as sums of terms: the contact of a sum is that of the sum of the transforms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Profile", "Term"]
+
+Array = npt.NDArray[np.float64]
+
+
+class Term(Protocol):
+    """One part of a body's height and its transform, as functions of arrays of radii >= 0."""
+
+    @property
+    def flat(self) -> float:
+        """Radius up to which the term vanishes [m]."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Radii beside which the term is not smooth, or within which it turns [m]."""
+
+    @property
+    def rises(self) -> bool:
+        """Whether the transform is known never to fall."""
+
+    def height(self, r: Array) -> Array:
+        """Return f(r) [m]."""
+
+    def transform(self, x: Array) -> Array:
+        """Return g(x) [m]."""
+
+    def slope(self, x: Array) -> Array:
+        """Return g'(x) [-]."""
+
+    def primitive(self, x: Array) -> Array:
+        """Return the integral of g from 0 to x [m^2]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Profile:
+    """A rigid body of revolution that is pressed, apex first, into an elastic half-space.
+
+    Made by the functions of `roughcontact.mdr.indenter` and by arithmetic: ``first + second`` adds heights, and with
+    them the transforms; ``2 * body`` stretches a body along its axis.
+
+    Parameters
+    ----------
+    terms : tuple of (float, Term)
+        Parts of the height with their factors. None: a flat face.
+    radius : float
+        Where the body ends [m].
+    edge : bool
+        Whether it ends there in a sharp edge, to which a contact can be pinned. If not, nothing is known beyond, and
+        a load whose contact comes as far is refused.
+    rises : bool
+        Whether the transform never falls, so that the contact is one disc at every load.
+    """
+
+    terms: tuple[tuple[float, Term], ...]
+    radius: float = math.inf
+    edge: bool = False
+    rises: bool = True
+
+    @property
+    def flat(self) -> float:
+        """Radius of the flat face [m]: of the contact at first touch."""
+        return min((term.flat for c, term in self.terms if c), default=self.radius)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Radii inside the body beside which the transform is not smooth [m], increasing."""
+        return tuple(sorted({b for _, term in self.terms for b in term.breaks if 0 < b < self.radius}))
+
+    def height(self, r: float | Array) -> Array:
+        """Return the height f(r) above the apex [m]; beyond the body infinite, or NaN where it is not known."""
+        r = _radii(r)
+        inside = np.minimum(r, self.radius)
+        beyond = math.inf if self.edge else math.nan
+        return np.where(
+            r > self.radius,
+            beyond,
+            sum((c * term.height(inside) for c, term in self.terms), np.zeros_like(r)),
+        )
+
+    def transform(self, x: float | Array) -> Array:
+        """Return g(x) [m]: the depth at which the contact has the radius x."""
+        x = _radii(x)
+        return sum((c * term.transform(x) for c, term in self.terms), np.zeros_like(x))
+
+    def transform_slope(self, x: float | Array) -> Array:
+        """Return g'(x) [-]; infinite beside the edge of a flat face and at a cusp."""
+        x = _radii(x)
+        return sum((c * term.slope(x) for c, term in self.terms), np.zeros_like(x))
+
+    def transform_integral(self, x: float | Array) -> Array:
+        """Return the integral of g from 0 to x [m^2]."""
+        x = _radii(x)
+        return sum((c * term.primitive(x) for c, term in self.terms), np.zeros_like(x))
+
+    def cut(self, radius: float) -> Profile:
+        """Return the body turned down to a `radius` [m]: what lies beyond is gone, and a sharp edge left.
+
+        Raises
+        ------
+        ValueError
+            If the radius is not positive, or the body is not known so far out.
+        """
+        if not (math.isfinite(radius) and 0 < radius <= self.radius):
+            raise ValueError(f"the radius of a cut must lie between 0 and {self.radius:g} m, not {radius}")
+        return replace(self, radius=float(radius), edge=True)
+
+    def __add__(self, other: Profile) -> Profile:
+        """Return the body whose height is the sum of both."""
+        if not isinstance(other, Profile):
+            return NotImplemented
+        radius = min(self.radius, other.radius)
+        edge = any(body.edge and body.radius == radius for body in (self, other))
+        return Profile(self.terms + other.terms, radius, edge, self.rises and other.rises)
+
+    def __sub__(self, other: Profile) -> Profile:
+        """Return the body whose height is the difference of both."""
+        return self + (-1.0) * other if isinstance(other, Profile) else NotImplemented
+
+    def __mul__(self, factor: float) -> Profile:
+        """Return the body stretched along its axis."""
+        if not isinstance(factor, int | float | np.integer | np.floating):
+            return NotImplemented
+        if not math.isfinite(factor):
+            raise ValueError(f"a body can be stretched by a finite factor, not by {factor}")
+        terms = tuple((float(factor) * c, term) for c, term in self.terms)
+        return replace(self, terms=terms, rises=self.rises and factor >= 0)
+
+    __rmul__ = __mul__
+
+    def __repr__(self) -> str:
+        """Say what the body is made of."""
+        parts = " + ".join(f"{c:g} * {term!r}" if c != 1 else repr(term) for c, term in self.terms) or "flat"
+        end = (
+            f", {'edge' if self.edge else 'known'} to {self.radius:g} m" if math.isfinite(self.radius) else ""
+        )
+        return f"Profile({parts}{end})"
+
+
+def _radii(x: float | Array) -> Array:
+    x = np.asarray(x, dtype=np.float64)
+    if (x < 0).any():
+        raise ValueError(f"radii must not be negative [m], but the least is {x.min():g}")
+    return x

@@ -1,0 +1,177 @@
+r"""Linear viscoelastic materials as a spring, a dashpot and Maxwell elements side by side.
+
+The reduced modulus E* becomes a relaxation function E(t), its compliance a creep function J(t); Poisson's ratio is
+constant in time.
+
+    E(t) = c delta(t) + E_inf + sum E_k exp(-t/tau_k)         J(t) = J_0 + t/eta_0 + sum J_j (1 - exp(-t/theta_j))
+
+with the identity that the convolution of E with dJ is 1 (Lee & Radok, J. Appl. Mech. 27, 438 (1960)).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+__all__ = ["Creep", "Viscoelastic", "kelvin_voigt", "maxwell", "prony", "standard_solid", "viscous"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Creep:
+    """J(t) as a sum: instantaneous, viscous, and retarded parts.
+
+    Attributes
+    ----------
+    instantaneous : float
+        J_0 [1/Pa].
+    fluidity : float
+        1/eta_0 [1/(Pa s)].
+    compliances, times : tuple of float
+        J_j [1/Pa] and theta_j [s].
+    """
+
+    instantaneous: float
+    fluidity: float
+    compliances: tuple[float, ...]
+    times: tuple[float, ...]
+
+    def __call__(self, time: float | Array) -> Array:
+        """Return J(t) [1/Pa] at times >= 0 [s]."""
+        t = np.asarray(time, dtype=np.float64)
+        retarded = (J * -np.expm1(-t / theta) for J, theta in zip(self.compliances, self.times, strict=True))
+        return self.instantaneous + self.fluidity * t + sum(retarded)
+
+
+@dataclass(frozen=True, slots=True)
+class Viscoelastic:
+    """A linear viscoelastic half-space in terms of its reduced modulus.
+
+    Made by `viscous`, `kelvin_voigt`, `maxwell`, `standard_solid` and `prony`.
+
+    Parameters
+    ----------
+    equilibrium : float
+        E_inf, what is left of E* after a long time [Pa]; 0 for a fluid.
+    moduli, times : tuple of float
+        E_k [Pa] and the different relaxation times tau_k [s] of the Maxwell elements.
+    dashpot : float
+        c of a dashpot beside them [Pa s]; with one, no jump of the depth is possible.
+
+    Raises
+    ------
+    ValueError
+        If a number is negative, two times are equal, or nothing resists.
+    """
+
+    equilibrium: float = 0.0
+    moduli: tuple[float, ...] = ()
+    times: tuple[float, ...] = ()
+    dashpot: float = 0.0
+
+    def __post_init__(self) -> None:
+        if len(self.moduli) != len(self.times):
+            raise ValueError(
+                f"each modulus wants its time: {len(self.moduli)} and {len(self.times)} are given"
+            )
+        if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
+            raise ValueError(
+                f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}"
+            )
+        if not all(math.isfinite(v) and v > 0 for v in (*self.moduli, *self.times)):
+            raise ValueError(f"moduli {self.moduli} and times {self.times} of elements must be positive")
+        if len(set(self.times)) != len(self.times):
+            raise ValueError(f"elements of one relaxation time are one element: {self.times}")
+        if self.equilibrium == 0 and self.dashpot == 0 and not self.moduli:
+            raise ValueError("a material without modulus and viscosity resists nothing")
+
+    @property
+    def instantaneous(self) -> float:
+        """E_inf + sum E_k, the modulus under a sudden load if there is no dashpot [Pa]."""
+        return self.equilibrium + math.fsum(self.moduli)
+
+    def relaxation(self, time: float | Array) -> Array:
+        """Return E(t) [Pa] at times > 0 [s]; a dashpot adds its pulse c delta(t)."""
+        t = np.asarray(time, dtype=np.float64)
+        return self.equilibrium + sum(
+            (E * np.exp(-t / tau) for E, tau in zip(self.moduli, self.times, strict=True)), np.zeros_like(t)
+        )
+
+    def creep(self) -> Creep:
+        """Return the creep function.
+
+        Its retardation times theta_j are where c s + E_inf + sum E_k s/(s + 1/tau_k) vanishes, at s = -1/theta: one
+        between any two relaxation times, one beyond the longest if the material is a solid, and one below the shortest
+        if it has a dashpot.
+        """
+        pairs = sorted(zip(self.times, self.moduli, strict=True))
+        taus = [tau for tau, _ in pairs]
+        flow = self.dashpot + math.fsum(tau * E for tau, E in pairs)
+
+        def balance(theta: float) -> float:
+            elements = math.fsum(E * tau / (theta - tau) for tau, E in pairs)
+            return self.equilibrium - self.dashpot / theta - elements
+
+        ends = [*([0.0] if self.dashpot else []), *taus]
+        if self.equilibrium:
+            ends.append(max(taus, default=0.0) + 2 * flow / self.equilibrium)
+        thetas = [_zero(balance, low, high) for low, high in pairwise(ends)]
+        compliances = tuple(self._compliance(theta) for theta in thetas)
+        instantaneous = 0.0 if self.dashpot else 1 / self.instantaneous
+        return Creep(instantaneous, 0.0 if self.equilibrium else 1 / flow, compliances, tuple(thetas))
+
+    def _compliance(self, theta: float) -> float:
+        """Return the residue of the creep function's transform at s = -1/theta."""
+        elements = (E * tau / (1 - tau / theta) ** 2 for tau, E in zip(self.times, self.moduli, strict=True))
+        return theta / (self.dashpot + math.fsum(elements))
+
+
+def viscous(viscosity: float) -> Viscoelastic:
+    """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt."""
+    return Viscoelastic(dashpot=4 * viscosity)
+
+
+def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
+    """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s]."""
+    return Viscoelastic(equilibrium=modulus, dashpot=modulus * retardation_time)
+
+
+def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
+    """Return spring and dashpot in a row: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s]."""
+    return Viscoelastic(moduli=(modulus,), times=(relaxation_time,))
+
+
+def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: float) -> Viscoelastic:
+    """Return ``E(t) = E_inf + (E_0 - E_inf) exp(-t/tau)``.
+
+    Parameters
+    ----------
+    equilibrium, instantaneous : float
+        Reduced moduli after a long time and at once, E_inf < E_0 [Pa].
+    relaxation_time : float
+        tau [s].
+    """
+    if not 0 < equilibrium < instantaneous:
+        raise ValueError(
+            f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
+            f"not to {equilibrium} Pa"
+        )
+    return Viscoelastic(equilibrium, (instantaneous - equilibrium,), (relaxation_time,))
+
+
+def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
+    """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s]."""
+    return Viscoelastic(float(equilibrium), tuple(map(float, moduli)), tuple(map(float, times)))
+
+
+def _zero(balance: Callable[[float], float], low: float, high: float) -> float:
+    """Return the zero between two ends; `balance` rises from minus infinity above `low` to above 0 below `high`."""
+    first, last = low + (high - low) * 2.0**-50, high - (high - low) * 2.0**-50
+    return float(brentq(balance, first, last, xtol=1e-300, rtol=2.0**-50, maxiter=500))
