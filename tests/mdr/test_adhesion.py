@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 from roughcontact.mdr import indenter
 from roughcontact.mdr.adhesion import jkr
+from roughcontact.theory.power_law_indenter import kappa
 
 R, E, W = 0.5, 3.0, 0.2
 SPHERE = jkr(indenter.paraboloid(R), E, W)
@@ -68,8 +69,8 @@ class TestSphere:
 def test_power_laws(n, machine, share):
     """Where n g(a) = share * l(a): a^(n - 1/2) = share sqrt(2 pi w/E*)/(n kappa Q)."""
     Q = 0.8
-    a = (share * math.sqrt(2 * math.pi * W / E) / (n * indenter.kappa(n) * Q)) ** (1 / (n - 0.5))
-    g, elongation = indenter.kappa(n) * Q * a**n, math.sqrt(2 * math.pi * a * W / E)
+    a = (share * math.sqrt(2 * math.pi * W / E) / (n * kappa(n) * Q)) ** (1 / (n - 0.5))
+    g, elongation = kappa(n) * Q * a**n, math.sqrt(2 * math.pi * a * W / E)
     pull = jkr(indenter.power_law(n, Q), E, W).pull_off(machine)
     assert pull.contact_radius == pytest.approx(a, rel=1e-11)
     assert pull.depth == pytest.approx(g - elongation, rel=1e-11)

@@ -29,7 +29,9 @@ __all__ = [
 
 def __getattr__(name: str) -> ModuleType:
     if name not in __all__:
-        raise AttributeError(f"module 'roughcontact.mdr' has no attribute {name!r}; it has {', '.join(__all__)}")
+        raise AttributeError(
+            f"module 'roughcontact.mdr' has no attribute {name!r}; it has {', '.join(__all__)}"
+        )
     return import_module(f"{__name__}.{name}")
 
 

@@ -15,14 +15,14 @@ import numpy.typing as npt
 
 from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.tables import from_function, from_samples, from_two_functions
-from roughcontact.mdr.terms import PowerTerm, SphereTerm, kappa, ripple_transform
+from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
+from roughcontact.theory import rough_sphere
 
 __all__ = [
     "cone",
     "equivalent_roughness",
     "flat_punch",
     "from_transform",
-    "kappa",
     "of",
     "paraboloid",
     "power_law",
@@ -131,7 +131,7 @@ def equivalent_roughness(
     Parameters
     ----------
     hurst : float
-        Hurst exponent H > 0, the exponent of the body.
+        Hurst exponent H, above 0 and at most 2, the exponent of the body.
     rms : float
         Root mean square height h over the length [m].
     length : float
@@ -139,12 +139,8 @@ def equivalent_roughness(
     prefactor : float, optional
         zeta of ``k/(E* L) = zeta (F/(E* h L))^(1/(H+1))``; by default 1.7/(H + 1) (thesis, eq. 4.74).
     """
-    _positive(hurst=hurst, rms=rms, length=length)
-    zeta = 1.7 / (hurst + 1) if prefactor is None else prefactor
-    _positive(prefactor=zeta)
-    h, L, H = rms, length, hurst
-    Q = (2 / (zeta * L)) ** (H + 1) * (H + 1) * L * h / (2 * H * kappa(H))
-    return power_law(H, Q)
+    Q = rough_sphere.coefficient(hurst, rms, length, prefactor=prefactor)
+    return power_law(hurst, float(Q))
 
 
 def of(height: Callable[[Array], Array], radius: float) -> Profile:

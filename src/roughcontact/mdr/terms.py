@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,18 +9,11 @@ import numpy.typing as npt
 from scipy import special
 
 from roughcontact.mdr.panels import Panels
+from roughcontact.theory.power_law_indenter import kappa
 
-__all__ = ["PowerTerm", "SphereTerm", "TableTerm", "kappa", "ripple_transform"]
+__all__ = ["PowerTerm", "SphereTerm", "TableTerm", "ripple_transform"]
 
 Array = npt.NDArray[np.float64]
-
-
-def kappa(exponent: float) -> float:
-    """Return kappa(n) = sqrt(pi) Gamma(n/2 + 1) / Gamma((n + 1)/2) (beside thesis, eq. 5.3).
-
-    The transform of r^n is kappa(n) x^n: pi/2 for a cone, 2 for a paraboloid.
-    """
-    return math.sqrt(math.pi) * math.exp(math.lgamma(exponent / 2 + 1) - math.lgamma((exponent + 1) / 2))
 
 
 def ripple_transform(amplitude: float, wavenumber: float, x: Array) -> Array:
@@ -79,7 +71,7 @@ class PowerTerm:
 
     @property
     def _full(self) -> float:
-        return kappa(self.exponent) * self.coefficient
+        return float(kappa(self.exponent)) * self.coefficient
 
     def _outside(self, x: Array) -> Array:
         """Return 1 - (b/x)^2, 0 on the flat face; without one 1."""
