@@ -164,6 +164,10 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
 
 def checked_lines(heights: Array) -> Array:
     """Return heights as rows of lines, or say why they are none."""
+    if not hasattr(heights, "__len__"):
+        raise ValueError(
+            f"heights must be an array, not a {type(heights).__name__}: join the curves of batches by LineCurves.joined"
+        )
     lines = np.atleast_2d(np.asarray(heights, dtype=np.float64))
     if lines.ndim != 2 or lines.size == 0:
         raise ValueError(f"heights must be one line or a row a line, not of shape {np.shape(heights)}")
