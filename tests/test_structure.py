@@ -139,6 +139,7 @@ def test_importing_the_package_and_all_its_names_loads_no_heavy_library():
         "h5netcdf",
         "h5py",
         "matplotlib",
+        "numba",
         "pandas",
         "pint",
         "rich",

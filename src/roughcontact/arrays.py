@@ -24,6 +24,7 @@ Array = npt.NDArray[np.float64]
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
 # to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
 SLAB = 32
+CELLS = 2**15  # of a slab: of few rows, as on a line, more columns go at once
 
 
 def namespace(array: Any) -> Any:
@@ -144,8 +145,9 @@ def _by_slabs(field: Array, multiplier: Array, padded: tuple[int, int]) -> Array
     my, mx = padded
     spectrum = scipy.fft.rfft(field, n=mx, axis=1)
     upper = my // 2 + 1
-    for start in range(0, spectrum.shape[1], SLAB):
-        part = slice(start, start + SLAB)
+    slab = max(SLAB, CELLS // my)
+    for start in range(0, spectrum.shape[1], slab):
+        part = slice(start, start + slab)
         column = scipy.fft.fft(spectrum[:, part], n=my, axis=0)
         factor = multiplier[:, part]
         column[:upper] *= factor

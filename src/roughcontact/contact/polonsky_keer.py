@@ -16,7 +16,7 @@ from roughcontact.contact.state import State
 from roughcontact.contact.status import Status
 from roughcontact.halfspace.operator import Operator
 
-__all__ = ["PolonskyKeer"]
+__all__ = ["PolonskyKeer", "depth_of"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -59,7 +59,7 @@ class PolonskyKeer:
             steps += 1
             inside = (p > 0) & (p < hardness)
             g = u + separation
-            d = _depth(measure, g, p, inside) if given is None else given
+            d = depth_of(measure, g, p, inside) if given is None else given
             g -= d
             r = judge.residual(p, u, g)
             idle = 0 if r < best else idle + 1
@@ -93,7 +93,7 @@ class PolonskyKeer:
                 p = _within(measure, p, g, terms)
 
 
-def _depth(measure: Measure, level: Array, pressure: Array, inside: Mask) -> float:
+def depth_of(measure: Measure, level: Array, pressure: Array, inside: Mask) -> float:
     """Return the depth that leaves no gap on the mean of the cells between the bounds.
 
     Without any it is the least at which no cell under the hardness would be pulled.

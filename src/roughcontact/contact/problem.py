@@ -14,7 +14,7 @@ from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.operator import Operator, geometry_of, is_semidefinite
+from roughcontact.halfspace.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
@@ -193,7 +193,7 @@ class ContactProblem:
             xp = namespace(self.separation)
             measured = xp.astype(self.measured, self.separation.dtype)
             # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
-            return self.operator.apply(measured) / self._measure.total(measured)
+            return exact_of(self.operator).apply(measured) / self._measure.total(measured)
 
         return self.once("mean_response", respond)
 

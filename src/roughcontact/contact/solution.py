@@ -24,6 +24,7 @@ from roughcontact.contact.stiffness import (
     yields_not,
 )
 from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operator import exact_of
 from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ class Solution:
     @cached_property
     def displacement(self) -> Array:
         """Displacement of the surface [m]; its mean is zero on a periodic grid, else it vanishes far away."""
-        return self.problem.operator.apply(self.pressure)
+        return exact_of(self.problem.operator).apply(self.pressure)
 
     @cached_property
     def gap(self) -> Array:

@@ -15,7 +15,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on
-from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.halfspace.operator import Operator, exact_of, is_semidefinite
 from roughcontact.material import Solid
 
 __all__ = [
@@ -66,7 +66,7 @@ def frozen_contact(
     operator: Operator, region: Mask, *, tangent: Tangent | None = None, tolerance: float = TOLERANCE
 ) -> FrozenContact:
     """Return the response of `region` to a unit displacement; a `tangent` at hand is used or improved."""
-    xp = namespace(region)
+    operator, xp = exact_of(operator), namespace(region)
     if not bool(xp.any(region)):
         return FrozenContact(0.0, 0.0, xp.zeros(region.shape, dtype=xp.float64, device=region.device))
     if is_semidefinite(operator) and bool(xp.all(region)):

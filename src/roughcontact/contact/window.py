@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
+from roughcontact.contact.certified import run_certified
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Terms
 from roughcontact.contact.state import Solver, State
@@ -82,7 +83,7 @@ class Windows:
         if not (is_positive(self.operator) and is_numpy(separation)):
             # Elsewhere than on the host a window would cost a look at every side of the overlap.
             whole = tuple(slice(0, n) for n in separation.shape)
-            return solver.run(self.operator, separation, terms, pressure), whole
+            return run_certified(solver, self.operator, separation, terms, pressure), whole
         window = (separation < depth) | (pressure > 0)
         if not window.any():
             window = separation == separation.min()
@@ -90,7 +91,9 @@ class Windows:
         steps = 0
         while True:
             place = self._place(window)
-            state = solver.run(self.part(place), take(separation, place), terms, take(pressure, place))
+            state = run_certified(
+                solver, self.part(place), take(separation, place), terms, take(pressure, place)
+            )
             inside = np.zeros(window.shape, dtype=bool)
             if isinstance(place, tuple):
                 inside[place] = True

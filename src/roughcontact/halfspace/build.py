@@ -10,13 +10,16 @@ from roughcontact.halfspace.influence import Love, Periodic, Tables
 from roughcontact.halfspace.operator import Operator
 from roughcontact.halfspace.ring import ring
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
+from roughcontact.halfspace.sums import Sum, summed
 from roughcontact.material import Solid, as_modulus
 
 __all__ = ["body_on", "half_space", "memory_needed"]
 
 
 def half_space(
-    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], method: Literal["fft", "dense"] = "fft"
+    grid: Grid,
+    modulus: float | Solid | tuple[Solid, Solid],
+    method: Literal["dense"] | Sum = "fft",
 ) -> Operator:
     """Return the elastic half-space on a grid of two axes.
 
@@ -26,13 +29,16 @@ def half_space(
         Free or periodic along both axes.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
-    method : {"fft", "dense"}
-        Fast Fourier transforms, or the full matrix (8 n^2 bytes for n cells).
+    method : {"fft", "dense", "moving-grid", "multilevel"}
+        How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
+        free grid by shifting the influence function from cell to cell (the time of the matrix without its memory),
+        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`, and
+        fastest with Numba: ``pip install 'roughcontact[compiled]'``).
 
     Raises
     ------
     ValueError
-        If the grid has one axis or is periodic along one axis only.
+        If the grid has one axis or is periodic along one axis only, or the method is not for it.
     """
     value = as_modulus(modulus)
     if grid.ndim != 2:
@@ -49,9 +55,7 @@ def half_space(
         operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
         return DenseOperator(grid, operator.as_matrix(), operator.positive)
-    if method != "fft":
-        raise ValueError(f"method must be 'fft' or 'dense', not {method!r}")
-    return operator
+    return summed(operator, method)
 
 
 def body_on(

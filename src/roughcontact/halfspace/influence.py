@@ -11,7 +11,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier, strip_table
+from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier, strip
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables"]
 
@@ -82,16 +82,13 @@ class Strip:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa] of one row."""
-        dx = self.spacing[-1]
-        # The printed A.45 lacks the factor -2 (with it the sign) and hides the logarithm of the cell in a constant.
-        return (
-            dx / (math.pi * self.modulus) * (strip_table(shape[-1])[None] + 2 * math.log(self.reference / dx))
-        )
+        return self.at(np.zeros(1, np.intp), np.arange(shape[-1]))[None]
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
-        """Return single values [m/Pa]."""
-        far = np.abs(columns) + 0 * rows
-        return np.asarray(self.table((1, int(far.max(initial=0)) + 1))[0, far])
+        """Return single values [m/Pa]; there is but one row."""
+        dx = self.spacing[-1]
+        # The printed A.45 lacks the factor -2 (with it the sign) and hides the logarithm of the cell in a constant.
+        return dx / (math.pi * self.modulus) * (strip(columns + 0 * rows) + 2 * math.log(self.reference / dx))
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipe, ellipkm1
 
-__all__ = ["love", "love_table", "periodic_multiplier", "ring_matrix", "strip_table"]
+__all__ = ["love", "love_table", "periodic_multiplier", "ring_matrix", "strip"]
 
 Array = npt.NDArray[np.float64]
 
@@ -69,8 +69,8 @@ def periodic_multiplier(wavenumber: npt.ArrayLike) -> Array:
     return np.asarray(np.divide(2.0, q, out=np.zeros_like(q), where=q > 0))
 
 
-def strip_table(count: int) -> Array:
-    """Return the mean of ``-2 ln|x|`` over a strip, integrated over another, for offsets from zero up (A.46).
+def strip(offset: npt.ArrayLike) -> Array:
+    """Return the mean of ``-2 ln|x|`` over a strip, integrated over another, at offsets of whole strips (A.46).
 
     The strips have width one. ``B_0 = 3``, ``B_k = 3 - (k+1)^2 ln(k+1) + 2 k^2 ln k - (k-1)^2 ln(k-1)``. The
     thesis finds the same number for a hat-shaped pressure at its nodes, printed without the factor -2: a hat
@@ -78,20 +78,22 @@ def strip_table(count: int) -> Array:
 
     Parameters
     ----------
-    count : int
-        Number of offsets.
+    offset : array of int
+        Of either sign.
     """
-    k = np.arange(count, dtype=np.float64)
-    table = np.empty(count)
-    near = k[
-        :8
-    ]  # beyond, the closed form would lose k^2 units in the last place; the series has none to lose
-    table[:8] = 3 - _square_log(near + 1) + 2 * _square_log(near) - _square_log(near - 1)
-    far = k[8:]
-    table[8:] = -2 * np.log(far)
+    k = np.abs(np.asarray(offset, dtype=np.float64))
+    value = np.empty(k.shape)
+    near = (
+        k < 8
+    )  # beyond, the closed form would lose k^2 units in the last place; the series has none to lose
+    x = k[near]
+    value[near] = 3 - _square_log(x + 1) + 2 * _square_log(x) - _square_log(x - 1)
+    far = k[~near]
+    series = -2 * np.log(far)
     for m in range(1, 8):
-        table[8:] += 2 / (m * (2 * m + 1) * (2 * m + 2)) * far ** (-2 * m)
-    return table
+        series += 2 / (m * (2 * m + 1) * (2 * m + 2)) * far ** (-2 * m)
+    value[~near] = series
+    return value
 
 
 def _square_log(x: Array) -> Array:

@@ -15,6 +15,7 @@ __all__ = [
     "Invertible",
     "Listable",
     "Operator",
+    "exact_of",
     "geometry_of",
     "is_positive",
     "is_semidefinite",
@@ -31,7 +32,8 @@ class Operator(Protocol):
     constant pressure moves nothing.
 
     What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`. Each
-    makes solves faster and none changes an answer. One that is not a half-space under a surface says so by
+    makes solves faster and none changes an answer. One whose sum is not exact has the `exact` one, by which answers
+    are certified. One that is not a half-space under a surface says so by
     its `geometry`, on which the units of the answers hang.
     """
 
@@ -56,6 +58,12 @@ class Operator(Protocol):
     def restrict(self, window: tuple[slice, ...]) -> Operator:
         """Return the map between the cells of `window`, with no pressure outside."""
         ...
+
+
+def exact_of(operator: Operator) -> Operator:
+    """Return the operator that certifies: the same body without the error of its sum."""
+    exact: Operator | None = getattr(operator, "exact", None)
+    return operator if exact is None else exact
 
 
 def is_positive(operator: Operator) -> bool:

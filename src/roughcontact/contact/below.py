@@ -1,0 +1,182 @@
+"""What a solved contact does below the surface: stresses, displacements, and where a metal would flow first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize_scalar
+
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.window import bounding_box
+from roughcontact.grid import Grid
+from roughcontact.halfspace import subsurface
+from roughcontact.halfspace.build import half_space
+from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.half_periodic import half_periodic
+from roughcontact.halfspace.subsurface import Displacement, Stress
+from roughcontact.material import Solid
+
+__all__ = [
+    "StressPeak",
+    "below",
+    "displacement_below",
+    "half_space_grid",
+    "largest_von_mises",
+    "loaded_part",
+    "ratio_of",
+]
+
+Array = npt.NDArray[np.float64]
+
+ALIKE = 1e-3  # of its own range: a displacement that is further from the half-space's is another body's
+STEP = 1.4  # from one depth to the next while the largest stress is looked for
+PRECISION = 1e-3  # of its depth
+
+
+@dataclass(frozen=True, slots=True)
+class StressPeak:
+    """The largest equivalent stress below a contact.
+
+    Attributes
+    ----------
+    von_mises : float
+        Equivalent stress of von Mises [Pa].
+    depth : float
+        Below the surface [m].
+    position : tuple of float
+        Middle of the cell above it, ``(y, x)`` [m].
+    resolved : bool
+        Whether it lies at least two cells below the surface. Nearer to it, the grid speaks: the stress is that of
+        uniformly loaded cells, and a finer grid has another.
+    """
+
+    von_mises: float
+    depth: float
+    position: tuple[float, float]
+    resolved: bool
+
+
+def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Stress:
+    """Return the stresses at a depth, or at several, below a solved contact.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a half-space under a surface, free or periodic.
+    depth : float or array, shape (nz,)
+        Depth below the surface [m], 0 or more.
+    solid : Solid or float
+        The body looked into, or its Poisson's ratio: of two bodies in contact both carry the same pressure.
+
+    Returns
+    -------
+    Stress
+        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)``, positive in tension; `von_mises`, `principal`,
+        `largest_shear`.
+
+    Raises
+    ------
+    ValueError
+        If the solution is not that of a half-space under a surface, or depth or Poisson's ratio make no sense.
+    """
+    return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
+
+
+def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
+    """Return the displacements at a depth, or at several, below a solved contact, as `below`.
+
+    Of two bodies in contact it is the one that is given: their displacements add up to that of the surface.
+
+    Raises
+    ------
+    ValueError
+        As `below`, if the solid is rigid, or the solution periodic along one axis only.
+    """
+    return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
+
+
+def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
+    """Return the largest equivalent stress of von Mises below a solved contact, and where it is.
+
+    Depths from half a cell to the extent of the contact are looked at in steps, those next to the best one closer
+    until the depth is known to a thousandth. Sideways the answer is that of a cell.
+
+    Parameters
+    ----------
+    solution, solid
+        As of `below`.
+
+    Raises
+    ------
+    ValueError
+        As `below`, or if nothing is in contact.
+    """
+    grid, nu = half_space_grid(solution), ratio_of(solid)
+    pressure, part, first = loaded_part(solution.pressure, grid)
+
+    def strongest(depth: float) -> tuple[float, int]:
+        field = subsurface.stress(pressure, part, depth, nu).von_mises
+        return float(field.max()), int(field.argmax())
+
+    shallow, deep = min(grid.spacing) / 2, max(part.lengths)
+    depths = np.geomspace(shallow, deep, 2 + int(np.log(deep / shallow) / np.log(STEP)))
+    best = int(np.argmax([strongest(depth)[0] for depth in depths]))
+    ends = depths[max(0, best - 1)], depths[min(len(depths) - 1, best + 1)]
+    found = minimize_scalar(
+        lambda z: -strongest(float(np.exp(z)))[0],
+        bounds=tuple(np.log(ends)),
+        method="bounded",
+        options={"xatol": PRECISION},
+    )
+    depth = max(float(np.exp(found.x)), float(depths[best]), key=lambda z: strongest(z)[0])
+    value, cell = strongest(depth)
+    row, column = np.unravel_index(cell, part.shape)
+    (dy, dx) = grid.spacing
+    position = (float(first[0] + row + 0.5) * dy, float(first[1] + column + 0.5) * dx)
+    return StressPeak(value, depth, position, bool(depth >= 2 * max(grid.spacing)))
+
+
+def half_space_grid(solution: Solution) -> Grid:
+    """Return the grid of a solution, or say that nothing is known of what lies below it."""
+    problem = solution.problem
+    grid = problem.grid
+    if problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
+        raise ValueError(
+            f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}"
+        )
+    own = solution.displacement
+    like = half_periodic(grid, 1.0) if sum(grid.periodic) == 1 else half_space(grid, 1.0)
+    alike = like.apply(solution.pressure)
+    # The same but for the modulus and a constant, which one periodic axis leaves open.
+    own, alike = own - own.mean(), alike - alike.mean()
+    size = float(np.vdot(alike, alike))
+    factor = float(np.vdot(alike, own)) / size if size else 0.0
+    if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max():
+        raise ValueError(
+            "only the field below a half-space is known, and this is the solution of another body"
+        )
+    return grid
+
+
+def ratio_of(solid: Solid | float) -> float:
+    """Return the Poisson's ratio of a solid, or the number that was given for it."""
+    return solid.poisson_ratio if isinstance(solid, Solid) else float(solid)
+
+
+def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:
+    """Return the part of the surface below which the stress can be largest, its grid, and its first cell.
+
+    Further from all loads than their extent there is less than below them.
+    """
+    box = bounding_box(pressure != 0)
+    if box is None:
+        raise ValueError("nothing is in contact: there is no stress below it")
+    sides = [
+        slice(0, n) if periodic else slice(max(0, s.start - (s.stop - s.start)), min(n, 2 * s.stop - s.start))
+        for s, n, periodic in zip(box, grid.shape, grid.periodic, strict=True)
+    ]
+    part = tuple(sides)
+    cut = Grid(grid.window(part).shape, grid.spacing, grid.periodic)
+    return pressure[part], cut, (sides[0].start, sides[1].start)

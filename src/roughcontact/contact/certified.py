@@ -1,0 +1,50 @@
+"""Inexact operators may drive the iteration; the exact one certifies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import namespace
+from roughcontact.contact.measure import Measure
+from roughcontact.contact.optimality import Judge
+from roughcontact.contact.polonsky_keer import depth_of
+from roughcontact.contact.problem import Terms
+from roughcontact.contact.state import Solver, State
+from roughcontact.contact.status import Status
+from roughcontact.halfspace.operator import Operator, exact_of
+
+__all__ = ["run_certified"]
+
+Array = npt.NDArray[np.float64]
+
+
+def run_certified(
+    solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
+) -> State:
+    """Run a solver; an inexact operator's separation is corrected by what its sum lacks until the exact one agrees."""
+    exact = exact_of(operator)
+    if exact is operator:
+        return solver.run(operator, separation, terms, initial)
+    measure, judge = Measure(exact.weights), Judge.of(exact, terms)
+    inner = replace(terms, tolerance=terms.tolerance / 2)
+    lacking, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
+    while True:
+        state = solver.run(operator, separation + lacking, inner, pressure)
+        pressure, steps = state.pressure, steps + state.steps + 1
+        displacement = exact.apply(pressure)
+        level = displacement + separation
+        inside = (pressure > 0) & (pressure < terms.hardness)
+        depth = depth_of(measure, level, pressure, inside) if terms.depth is None else terms.depth
+        residual = judge.residual(pressure, displacement, level - depth)
+        found = replace(state, depth=depth, residual=residual, steps=steps, tangent=None)
+        if residual <= terms.tolerance:
+            return replace(found, status=Status.CONVERGED)
+        if not state.status.converged:
+            return found
+        if residual > best / 2:
+            return replace(found, status=Status.STAGNATED)
+        best, lacking = residual, displacement - operator.apply(pressure)
