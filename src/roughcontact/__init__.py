@@ -57,6 +57,14 @@ _ROOMS = {
     "stratified_parameters": "surface.parameters.material_ratio",
     "half_space": "halfspace.build",
     "ring": "halfspace.ring",
+    "half_periodic": "halfspace.half_periodic",
+    "layer": "halfspace.layer",
+    "Stress": "halfspace.subsurface",
+    "Displacement": "halfspace.subsurface",
+    "below": "contact.below",
+    "displacement_below": "contact.below",
+    "largest_von_mises": "contact.below",
+    "StressPeak": "contact.below",
     "line": "halfspace.line",
     "foundation": "mdr.foundation",
     "Geometry": "halfspace.geometry",
@@ -97,6 +105,10 @@ if TYPE_CHECKING:
     from roughcontact import mdr as mdr
     from roughcontact import theory as theory
     from roughcontact.contact.active_set import ActiveSet as ActiveSet
+    from roughcontact.contact.below import StressPeak as StressPeak
+    from roughcontact.contact.below import below as below
+    from roughcontact.contact.below import displacement_below as displacement_below
+    from roughcontact.contact.below import largest_von_mises as largest_von_mises
     from roughcontact.contact.compare import Comparison as Comparison
     from roughcontact.contact.conductance import conductance as conductance
     from roughcontact.contact.curve import Curve as Curve
@@ -125,9 +137,13 @@ if TYPE_CHECKING:
     from roughcontact.grid import RadialGrid as RadialGrid
     from roughcontact.halfspace.build import half_space as half_space
     from roughcontact.halfspace.geometry import Geometry as Geometry
+    from roughcontact.halfspace.half_periodic import half_periodic as half_periodic
+    from roughcontact.halfspace.layer import layer as layer
     from roughcontact.halfspace.line import line as line
     from roughcontact.halfspace.operator import Operator as Operator
     from roughcontact.halfspace.ring import ring as ring
+    from roughcontact.halfspace.subsurface import Displacement as Displacement
+    from roughcontact.halfspace.subsurface import Stress as Stress
     from roughcontact.material import Solid as Solid
     from roughcontact.material import reduced_modulus as reduced_modulus
     from roughcontact.material import reduced_shear_modulus as reduced_shear_modulus

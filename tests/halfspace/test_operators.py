@@ -5,6 +5,10 @@ import oracles
 import pytest
 
 import roughcontact as rc
+from roughcontact.halfspace.half_periodic import half_periodic
+from roughcontact.halfspace.layer import layer
+from roughcontact.halfspace.line import LineOperator
+from roughcontact.halfspace.multilevel import MultilevelOperator
 from roughcontact.halfspace.operator import Operator, is_positive, is_semidefinite
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
@@ -12,6 +16,7 @@ PLANES = [
     (shape, periodic, method) for shape in SHAPES for periodic in (False, True) for method in ("fft", "dense")
 ]
 EDGES = np.r_[0.2, 0.2 + np.cumsum(np.linspace(0.1, 0.6, 40))]  # widths that differ by six
+RUBBER = rc.Solid(1.5, 0.5)  # bonded and periodic, a constant pressure moves nothing
 OTHERS = {
     "disc": lambda: rc.ring(rc.RadialGrid.uniform(1, 0.7), 2.0),
     "rings": lambda: rc.ring(rc.RadialGrid.uniform(33, 3.0), 2.0),
@@ -20,6 +25,35 @@ OTHERS = {
     "line": lambda: rc.line(rc.Grid(75, 0.5), 2.0),
     "line in a large body": lambda: rc.line(rc.Grid(75, 0.5), 2.0, reference_length=1e3),
     "periodic line": lambda: rc.line(rc.Grid(76, 0.5, True), 2.0),
+    **{
+        f"periodic along one axis {shape}, {along}": lambda shape=shape, along=along: half_periodic(
+            rc.Grid(shape, (0.3, 0.5), [axis == along for axis in (0, 1)]), 2.0
+        )
+        for shape in ((1, 1), (1, 6), (7, 5), (33, 20))
+        for along in (0, 1)
+    },
+    **{
+        f"{'periodic' if periodic else 'free'} layer {shape}, base {base}": (
+            lambda shape=shape, periodic=periodic, base=base: layer(
+                rc.Grid(shape, (0.3, 0.5), periodic), RUBBER, 0.8, base=base
+            )
+        )
+        for shape, periodic in (((33, 20), False), ((7, 5), True), ((8, 6), True))
+        for base in ("rigid-frictionless", "bonded", rc.Solid(3.0, 0.1), rc.Solid(0.1, 0.4))
+    },
+    **{
+        f"moving grid {shape}": lambda shape=shape: rc.half_space(
+            rc.Grid(shape, (0.3, 0.5)), 2.0, "moving-grid"
+        )
+        for shape in SHAPES
+    },
+    "moving grid along a line": lambda: rc.line(rc.Grid(75, 0.5), 2.0, method="moving-grid"),
+    "multilevel, too small for levels": lambda: rc.half_space(rc.Grid((13, 20), 0.5), 2.0, "multilevel"),
+    # Where all pairs are near, all are corrected, and the sum is exact.
+    "multilevel": lambda: MultilevelOperator(rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), near=80),
+    "multilevel along a line": lambda: LineOperator(
+        MultilevelOperator(rc.line(rc.Grid(601, 0.5), 2.0).plane, near=600)
+    ),
     "foundation": lambda: rc.foundation(rc.Grid(20, 0.5), 2.0),
     "foundation of a periodic line": lambda: rc.foundation(rc.Grid(20, 0.5, True), 2.0),
 }
@@ -153,7 +187,6 @@ def test_periodic_waves_answer_with_two_over_q():
     ("grid", "more", "message"),
     [
         (rc.Grid(8, 1.0), {}, "two axes"),
-        (rc.Grid((8, 8), 1.0, (True, False)), {}, "both axes"),
         (rc.Grid((8, 8), 1.0), {"method": "magic"}, "method must be"),
         (rc.Grid((8, 8), 1.0), {"modulus": 0.0}, "modulus must be positive"),
     ],

@@ -177,3 +177,51 @@ def test_what_is_no_profile_is_refused():
         rc.ring(rc.Grid(5, 1.0), 1.0)
     with pytest.raises(ValueError, match="operator's grid"):
         rc.press(rc.RadialProfile(np.zeros(4), grid), 1.0, force=1.0, operator=rc.line(rc.Grid(4, 1.0), 1.0))
+
+
+def test_a_small_ring_in_a_large_one_keeps_its_digits():
+    """Rings over six decades against sixty digits; their widths are a fifth of their radius, which costs 5^2 ulp."""
+    import mpmath
+
+    edges = np.r_[0.0, np.geomspace(1e-6, 1.0, 61)]
+    matrix = rc.ring(rc.RadialGrid(edges), 1.0).as_matrix()
+
+    def discs(b, a):
+        b, a = sorted((mpmath.mpf(b), mpmath.mpf(a)))
+        m = (b / a) ** 2
+        second = (1 - m) * mpmath.ellipk(m) if m < 1 else 0
+        return 8 * mpmath.pi / 3 * a**3 * ((1 + m) * mpmath.ellipe(m) - second)
+
+    with mpmath.workdps(60):
+        for j, i in ((1, 60), (1, 2), (5, 40), (30, 60), (60, 60)):
+            energy = discs(edges[j + 1], edges[i + 1]) - discs(edges[j], edges[i + 1])
+            energy -= discs(edges[j + 1], edges[i]) - discs(edges[j], edges[i])
+            area = mpmath.pi * (mpmath.mpf(edges[j + 1]) ** 2 - mpmath.mpf(edges[j]) ** 2)
+            assert matrix[j, i] == pytest.approx(float(energy / area / mpmath.pi), rel=2e-14)
+
+
+def test_what_is_no_profile_of_numbers_is_refused():
+    grid = rc.RadialGrid.uniform(3, 1.0)
+    with pytest.raises(ValueError, match="real numbers"):
+        rc.RadialProfile(np.zeros(3) * 1j, grid)
+    assert rc.RadialProfile(np.ma.masked_array(np.zeros(3), [0, 1, 0]), grid).missing == 1
+
+
+@pytest.mark.parametrize("body", [rc.line, rc.foundation, rc.half_space])
+def test_rings_are_no_line_and_no_plane(body):
+    with pytest.raises(ValueError, match="axis|axes"):
+        body(rc.RadialGrid.uniform(3, 1.0), 1.0)
+
+
+def test_rings_count_by_their_area():
+    """Densities of the pressure: the force is the mean pressure times the area, the gap's mean that of the rings."""
+    grid = rc.RadialGrid(np.r_[0, np.cumsum(np.linspace(0.001, 0.02, 90))])
+    solution = rc.press(rc.RadialProfile(-(grid.radii**2) / 2, grid), MODULUS, depth=0.1)
+    for histogram, mean in (
+        (solution.pressure_histogram, solution.force / solution.contact_area),
+        (solution.gap_histogram, solution.mean_gap / (1 - solution.contact_fraction)),
+    ):
+        density, edges = histogram(2000)
+        middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+        # Within half a bar of 1/2000 of the largest.
+        assert (middle * density * width).sum() == pytest.approx(mean, abs=width[0] / 2)

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from scipy.optimize import minimize_scalar
 
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import cell_stiffness
 from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
 from roughcontact.halfspace import subsurface
@@ -30,7 +31,8 @@ __all__ = [
 
 Array = npt.NDArray[np.float64]
 
-ALIKE = 1e-3  # of its own range: a displacement that is further from the half-space's is another body's
+ALIKE = 1e-3  # a displacement that is further from the half-space's is another body's
+ROUNDING = 1e-9  # of what the largest pressure does in its own cell: all that a constant one leaves
 STEP = 1.4  # from one depth to the next while the largest stress is looked for
 PRECISION = 1e-3  # of its depth
 
@@ -146,14 +148,15 @@ def half_space_grid(solution: Solution) -> Grid:
         raise ValueError(
             f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}"
         )
+    row = sum(grid.periodic) == 1
     own = solution.displacement
-    like = half_periodic(grid, 1.0) if sum(grid.periodic) == 1 else half_space(grid, 1.0)
-    alike = like.apply(solution.pressure)
-    # The same but for the modulus and a constant, which one periodic axis leaves open.
-    own, alike = own - own.mean(), alike - alike.mean()
+    alike = (half_periodic(grid, 1.0) if row else half_space(grid, 1.0)).apply(solution.pressure)
+    if row:  # whose constant is a matter of choice
+        own, alike = own - own.mean(), alike - alike.mean()
     size = float(np.vdot(alike, alike))
-    factor = float(np.vdot(alike, own)) / size if size else 0.0
-    if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max():
+    factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
+    in_own_cell = float(solution.pressure.max()) * grid.cell_area / cell_stiffness(problem.operator)
+    if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max() + ROUNDING * in_own_cell:
         raise ValueError(
             "only the field below a half-space is known, and this is the solution of another body"
         )

@@ -6,6 +6,7 @@ from typing import Literal
 
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.dense import DenseOperator
+from roughcontact.halfspace.half_periodic import HalfPeriodicOperator, half_periodic
 from roughcontact.halfspace.influence import Love, Periodic, Tables
 from roughcontact.halfspace.operator import Operator
 from roughcontact.halfspace.ring import ring
@@ -26,7 +27,7 @@ def half_space(
     Parameters
     ----------
     grid : Grid
-        Free or periodic along both axes.
+        Free, periodic, or periodic along one axis (see `half_periodic` for what its depths count from).
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     method : {"fft", "dense", "moving-grid", "multilevel"}
@@ -38,19 +39,19 @@ def half_space(
     Raises
     ------
     ValueError
-        If the grid has one axis or is periodic along one axis only, or the method is not for it.
+        If the grid has one axis, or the method is not for it.
     """
     value = as_modulus(modulus)
-    if grid.ndim != 2:
+    if not isinstance(grid, Grid) or grid.ndim != 2:
         raise ValueError(
-            "a half-space needs a grid of two axes; a line must name its own operator: "
-            "operator=line(grid, modulus), or foundation(grid, modulus)"
+            "a half-space needs a grid of two axes; rings have ring(grid, modulus), and a line must name its own "
+            "operator: operator=line(grid, modulus), or foundation(grid, modulus)"
         )
-    if any(grid.periodic) != all(grid.periodic):
-        raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
-    operator: FreeOperator | PeriodicOperator
+    operator: FreeOperator | PeriodicOperator | HalfPeriodicOperator
     if all(grid.periodic):
         operator = PeriodicOperator(grid, Periodic(grid, value))
+    elif any(grid.periodic):
+        operator = half_periodic(grid, value)
     else:
         operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
@@ -66,10 +67,12 @@ def body_on(
     Raises
     ------
     ValueError
-        If the operator lies on another grid, or there is none and the grid is a line.
+        If the operator is none or lies on another grid, or is not given and the grid is a line.
     """
     if operator is None:
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
+    if not isinstance(operator, Operator):
+        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
     return operator

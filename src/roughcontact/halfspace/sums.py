@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
+from roughcontact.halfspace.half_periodic import HalfPeriodicOperator
 from roughcontact.halfspace.moving_grid import MovingGridOperator
 from roughcontact.halfspace.multilevel import MultilevelOperator
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
@@ -11,10 +12,10 @@ from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 __all__ = ["Sum", "Summed", "summed"]
 
 Sum = Literal["fft", "moving-grid", "multilevel"]
-Summed = FreeOperator | PeriodicOperator | MovingGridOperator | MultilevelOperator
+Summed = FreeOperator | PeriodicOperator | HalfPeriodicOperator | MovingGridOperator | MultilevelOperator
 
 
-def summed(operator: FreeOperator | PeriodicOperator, method: str) -> Summed:
+def summed(operator: FreeOperator | PeriodicOperator | HalfPeriodicOperator, method: str) -> Summed:
     """Return the same body with its sum done by `method`.
 
     Raises
