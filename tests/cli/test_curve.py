@@ -172,7 +172,7 @@ def test_theories_stand_beside_the_curve(invoke, rough, tmp_path):
         (("--theory", "gw,gw"), "each theory once"),
         (("--theory", ","), "each theory once"),
         (("--hurst", "0.8"), "--hurst is for theories"),
-        (("--theory", "hertz"), "radius missing"),
+        (("--theory", "hertz"), "by --radius"),
         (("--theory", "power-law", "--hurst", "5"), "hurst"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
         (("--theory", "cgp", "--periodic"), "cgp is about a body"),

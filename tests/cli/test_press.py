@@ -224,3 +224,12 @@ def test_the_distribution_of_the_pressure_is_drawn_beside_a_theory(invoke, rough
     assert nowhere.exit_code == 2
     assert "say where by --out" in nowhere.stderr
     assert invoke(*words[:-1], "gw", "--out", tmp_path / "result").exit_code == 2
+
+
+def test_a_hardness(invoke, rough):
+    words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--json")
+    soft = json.loads(invoke(*words, "--hardness", "2GPa").stdout)
+    assert soft["largest_pressure"] == 2e9
+    assert any("give way" in note for note in soft["notes"])
+    for bad in ("--hardness=-1GPa", "--hardness=2N"):
+        assert invoke(*words, bad).exit_code == 2

@@ -6,7 +6,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from roughcontact.cli.errors import UsageError
-from roughcontact.cli.quantity import FORCE, LENGTH, PRESSURE, parse, parse_loads, parse_points, parse_size
+from roughcontact.cli.quantity import (
+    CONDUCTIVITY,
+    FORCE,
+    LENGTH,
+    PRESSURE,
+    parse,
+    parse_loads,
+    parse_points,
+    parse_size,
+)
 
 
 @pytest.mark.parametrize(
@@ -132,3 +141,8 @@ def test_points_are_rows_by_columns():
 def test_bad_points_are_refused(text):
     with pytest.raises(UsageError, match=r"^--points: "):
         parse_points(text, "--points")
+
+
+@pytest.mark.parametrize("text", ["400W/m/K", "400 W/(m*K)", "400 W/( m · K )", "0.4 kW/(m*K)", "400"])
+def test_conductivities_as_people_write_them(text):
+    assert parse(text, CONDUCTIVITY, "--conductivity") == pytest.approx(400.0)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -238,3 +239,16 @@ def test_equal_surfaces_give_equal_npz_and_vti(tmp_path, surface):
         write(surface, tmp_path / f"a{suffix}")
         write(surface, tmp_path / f"b{suffix}")
         assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
+
+
+def test_a_curve_is_written_and_can_be_opened(tmp_path):
+    grid = rc.Grid((24, 24), 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    curve = rc.loading_curve(rough, 1e11, forces=[1e-3, 1e-2])
+    rc.write(curve, tmp_path / "curve.nc")
+    with xarray.open_dataset(tmp_path / "curve.nc", engine="h5netcdf") as dataset:
+        np.testing.assert_array_equal(dataset.stiffness, curve.stiffness)
+    rc.write(curve, tmp_path / "curve.csv")
+    assert (tmp_path / "curve.csv").read_text(encoding="utf-8").startswith("force,depth,stiffness")
+    with pytest.raises(rc.WriteError, match="a Curve is written as one of .nc, .csv"):
+        rc.write(curve, tmp_path / "curve.vti")

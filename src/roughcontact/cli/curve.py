@@ -74,6 +74,7 @@ def curve(
     poisson: options.PoissonOption = None,
     young2: options.Young2Option = None,
     poisson2: options.Poisson2Option = None,
+    hardness: options.HardnessOption = None,
     resistivity: ResistivityOption = None,
     conductivity: ConductivityOption = None,
     theory: TheoryOption = None,
@@ -97,6 +98,7 @@ def curve(
         text = given[name]
         loads = None if text is None else parse_loads(text, _KINDS[name], f"--{name}")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
+        strength = options.hardness_of(hardness)
         conductors = Materials(resistivity, conductivity).conductors()
         theories = Theories(theory, hurst, rolloff, radius)
         theories.check()
@@ -106,7 +108,7 @@ def curve(
             laws = theories.laws(surface, reduced)
             if loads is None:
                 loads = _suggested(surface, reduced)
-            computed, notes = _load(surface, reduced, name, loads, asked)
+            computed, notes = _load(surface, reduced, name, loads, asked, strength)
             answer = CurveAnswer(computed, surface, file, asked, notes, laws, conductors)
             if folder is not None:
                 kind = _KINDS[name].unit
@@ -132,7 +134,12 @@ def _suggested(surface: Surface, modulus: float) -> npt.NDArray[np.float64]:
 
 
 def _load(
-    surface: Surface, modulus: float, name: str, loads: npt.NDArray[np.float64], tolerance: float
+    surface: Surface,
+    modulus: float,
+    name: str,
+    loads: npt.NDArray[np.float64],
+    tolerance: float,
+    hardness: float | None,
 ) -> tuple[Curve, tuple[str, ...]]:
     """Return the curve and the notes on its last load; a bar on standard error moves on at every load."""
     import roughcontact as rc
@@ -146,6 +153,7 @@ def _load(
         pressures=given["pressures"],
         depths=given["depths"],
         tolerance=tolerance,
+        hardness=hardness,
     )
     notes: list[tuple[str, ...]] = []
 

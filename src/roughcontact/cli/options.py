@@ -25,6 +25,7 @@ __all__ = [
     "Bodies",
     "ChannelOption",
     "FileArgument",
+    "HardnessOption",
     "JsonOption",
     "Level",
     "LevelOption",
@@ -39,6 +40,7 @@ __all__ = [
     "UnitOption",
     "Young2Option",
     "YoungOption",
+    "hardness_of",
     "only_one",
 ]
 
@@ -120,6 +122,14 @@ ToleranceOption = Annotated[
 ]
 OutOption = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Folder for files and pictures.", rich_help_panel=_ANSWER)
+]
+HardnessOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="2GPa",
+        help="Pressure that no cell exceeds: there the softer body gives way.",
+        rich_help_panel=_BODIES,
+    ),
 ]
 JsonOption = Annotated[
     bool,
@@ -238,6 +248,22 @@ class Bodies:
         if self.young2 is None and self.poisson2 is None:
             return rc.reduced_modulus(first)
         return rc.reduced_modulus(first, _solid(self.young2, self.poisson2, "--young2", "--poisson2"))
+
+
+def hardness_of(text: str | None) -> float | None:
+    """Return the hardness [Pa] that was given, if one was.
+
+    Raises
+    ------
+    UsageError
+        If it is no positive pressure.
+    """
+    if text is None:
+        return None
+    value = parse(text, PRESSURE, "--hardness")
+    if not value > 0:
+        raise UsageError(f"--hardness: a hardness must be positive, not {text!r}")
+    return value
 
 
 def only_one(given: dict[str, Any], what: str) -> str:

@@ -76,6 +76,7 @@ def press(
     size: options.SizeOption = None,
     periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
+    hardness: options.HardnessOption = None,
     theory: TheoryOption = None,
     tolerance: options.ToleranceOption = "1e-8",
     out: options.OutOption = None,
@@ -90,9 +91,10 @@ def press(
         load = {name: parse_load(str(given[name]), _KINDS[name], f"--{name}")}
         asked = parse_tolerance(tolerance, "--tolerance")
         reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
+        strength = options.hardness_of(hardness)
         with output(out) as folder:
             surface = options.Reading(file, channel, unit, size, level, periodic).surface()
-            solution = _solve(surface, reduced, load, asked)
+            solution = _solve(surface, reduced, load, asked, strength)
             record = _record(solution, file)
             if folder is not None:
                 _write(solution, record, folder, f"{name} = {load[name]!r} {_KINDS[name].unit}", theory)
@@ -103,7 +105,9 @@ def press(
             raise typer.Exit(MISSED)
 
 
-def _solve(surface: Surface, modulus: float, load: dict[str, float], tolerance: float) -> Solution:
+def _solve(
+    surface: Surface, modulus: float, load: dict[str, float], tolerance: float, hardness: float | None
+) -> Solution:
     """Return the loaded state, the best that was reached where the tolerance was missed."""
     import roughcontact as rc
 
@@ -117,6 +121,7 @@ def _solve(surface: Surface, modulus: float, load: dict[str, float], tolerance: 
                 pressure=load.get("pressure"),
                 depth=load.get("depth"),
                 tolerance=tolerance,
+                hardness=hardness,
             )
         except rc.ConvergenceError as error:
             return error.solution

@@ -35,7 +35,8 @@ __all__ = [
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 # A product or quotient of names with small powers; arithmetic beyond it could take for ever.
 _NAME = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d|[²³])?"
-_UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*")
+_PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
+_UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
 _MOST_LOADS = 100_000
 # Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
 _SMALLEST, _LARGEST = 1e-30, 1e30

@@ -101,10 +101,16 @@ class Theories:
     def laws(self, surface: Surface, modulus: float) -> dict[str, LoadingLaw]:
         """Return the theories of a surface by the names they were asked for."""
         import roughcontact as rc
+        from roughcontact.theory.laws import LAWS
 
         names = self.checked()
         if not names:
             return {}
+        for name in names:
+            if "radius" in LAWS[name].needs and self.radius is None:
+                raise UsageError(
+                    f"--theory {name}: give the radius of curvature by --radius, such as --radius 5mm"
+                )
         return dict(zip(names, rc.loading_laws(surface, modulus, names, **self.knowns()), strict=True))
 
 

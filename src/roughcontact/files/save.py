@@ -9,9 +9,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.vti import vti_bytes
+from roughcontact.files.write import write_csv, write_netcdf
 from roughcontact.files.write_text import text_of
 from roughcontact.files.write_x3p import x3p_bytes
 from roughcontact.surface.surface import Surface
@@ -19,12 +21,13 @@ from roughcontact.surface.surface import Surface
 __all__ = ["require_surface_file", "write"]
 
 
-def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
-    """Write a surface or a solution; the file appears whole or not at all.
+def write(what: Surface | Solution | Curve, path: str | os.PathLike[str]) -> None:
+    """Write a surface, a solution or a curve; the file appears whole or not at all.
 
     ========  ==================================================================================================
     ``.npz``  a surface: heights, spacing, unit, periodic, history; read back to the last bit
-    ``.nc``   a surface or a solution, NetCDF-4; the surface in it is read back to the last bit
+    ``.nc``   a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit
+    ``.csv``  a curve: one line a load
     ``.x3p``  a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
               history, for which the format has no place
     ``.txt``  a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
@@ -35,7 +38,7 @@ def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    what : Surface or Solution
+    what : Surface, Solution or Curve
     path : str or path
         File to write; one that is there is replaced.
 
@@ -54,8 +57,11 @@ def write(what: Surface | Solution, path: str | os.PathLike[str]) -> None:
         )
         with written_aside(path) as aside:
             _OF_A_SOLUTION[_kind(path)](what, aside)
+    elif isinstance(what, Curve):
+        _require_kind(path, "Curve", _OF_A_CURVE)
+        _OF_A_CURVE[_kind(path)](what.to_dataset(), path)
     else:
-        raise WriteError(f"cannot write a {type(what).__name__}; give a Surface or a Solution")
+        raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a Solution or a Curve")
 
 
 def require_surface_file(path: str | os.PathLike[str]) -> None:
@@ -168,3 +174,4 @@ _OF_A_SURFACE: Mapping[str, Callable[[Surface, Path], None]] = MappingProxyType(
 _OF_A_SOLUTION: Mapping[str, Callable[[Solution, Path], None]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
+_OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

@@ -17,13 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_laws"]
 
-# Four colours that every eye tells from the points and from each other, and dashes for eyes that see no colours.
-_STYLES = (
-    ("#009e73", "-"),
-    ("#cc79a7", (0, (5, 1.5))),
-    ("#e69f00", (0, (3, 1.5, 1, 1.5))),
-    ("#56b4e9", (0, (1, 1))),
-)
+# Colours that every eye tells from the points and from each other, and dashes for eyes that see no colours. Five
+# colours and four dashes have no common period: of twenty laws no two look the same.
+_COLOURS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
+_DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
 _POINTS = 200
 
 
@@ -38,7 +35,7 @@ def draw_laws(
     x, y = scales
     force = np.geomspace(*forces, _POINTS)
     limits = axes.get_ylim()
-    for law, (colour, dashes) in zip(laws, cycle(_STYLES), strict=False):
+    for law, colour, dashes in zip(laws, cycle(_COLOURS), cycle(_DASHES), strict=False):
         if quantity not in law.quantities:
             continue
         values = law.predict(quantity, force)
