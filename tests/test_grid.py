@@ -34,7 +34,11 @@ def test_a_window_is_free():
         (((4, -1), 1.0), "positive whole"),
         (((4, 2.5), 1.0), "positive whole"),
         (((4, 4, 4), 1.0), "one or two axes"),
+        (((4, None), 1.0), "positive whole"),
+        (("4", 1.0), "positive whole"),
+        ((np.nan, 1.0), "positive whole"),
         (((4, 4), 0.0), "spacing must be positive"),
+        (((4, 4), None), "spacing must be positive"),
         (((4, 4), (1.0, np.nan)), "spacing must be positive"),
         (((4, 4), (1.0, np.inf)), "spacing must be positive"),
         (((4, 4), (1.0, 1.0, 1.0)), "spacing needs one value or 2"),
@@ -68,3 +72,16 @@ def test_a_window_of_rings_has_a_hole():
     window = rc.RadialGrid([0.0, 0.1, 0.5, 2.0]).window((slice(1, 3),))
     assert window == rc.RadialGrid([0.1, 0.5, 2.0])
     assert window.ends == ((0, -1),)
+
+
+@pytest.mark.parametrize(
+    "arguments", [(0, 1.0), (2.5, 1.0), ("3", 1.0), (np.nan, 1.0), (3, 0.0), (3, np.inf), (3, None)]
+)
+def test_a_disc_without_rings_is_refused(arguments):
+    with pytest.raises(ValueError, match="a disc needs"):
+        rc.RadialGrid.uniform(*arguments)
+
+
+def test_radii_are_real_numbers():
+    with pytest.raises(ValueError, match="real numbers"):
+        rc.RadialGrid([0.0, 1j])

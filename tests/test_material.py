@@ -45,6 +45,17 @@ def test_a_solid_of_no_body_is_refused(young, nu):
         rc.Solid(young, nu)
 
 
+@pytest.mark.parametrize("modulus", ["110GPa", None, [1.0], [STEEL, RUBBER], 1j])
+def test_what_is_no_number_is_refused(modulus):
+    with pytest.raises(ValueError, match="reduced modulus must be one number"):
+        as_modulus(modulus)
+
+
+def test_three_bodies_are_refused():
+    with pytest.raises(ValueError, match="two solids"):
+        as_modulus((STEEL, RUBBER, STEEL))
+
+
 def test_two_rigid_bodies_are_refused():
     with pytest.raises(ValueError, match="rigid"):
         rc.reduced_modulus(rc.Solid(math.inf, 0.3))

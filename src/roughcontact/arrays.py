@@ -17,6 +17,7 @@ __all__ = [
     "is_numpy",
     "namespace",
     "on_host",
+    "wants_gradient",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -50,8 +51,13 @@ def is_numpy(array: Any) -> bool:
     return isinstance(array, np.ndarray)
 
 
+def wants_gradient(array: Any) -> bool:
+    """Whether a library would record what is done to an array, to differentiate it."""
+    return bool(getattr(array, "requires_grad", False))
+
+
 def on_host(array: Any) -> Array:
-    """Return a copy of an array in NumPy's memory: for files and pictures, at the rim, and nowhere else."""
+    """Return an array in NumPy's memory, as it is if there already: for files and pictures, at the rim."""
     if isinstance(array, np.ndarray):
         return array
     import array_api_compat
@@ -73,10 +79,20 @@ class Placed:
         self._copies: dict[Any, Any] = {}
 
     def beside(self, array: Any) -> Any:
-        """Return the table in the library, on the device and in the precision of `array`."""
-        if isinstance(array, np.ndarray) and array.dtype == self.host.dtype:
+        """Return the table in the library, on the device and in the precision of `array`.
+
+        Raises
+        ------
+        ValueError
+            If the array of another library than NumPy, which brings whole numbers up to the table's precision
+            itself, holds no floating numbers.
+        """
+        if isinstance(array, np.ndarray) and (array.dtype == self.host.dtype or array.dtype.kind in "biu"):
             return self.host
         import array_api_compat
+
+        if not namespace(array).isdtype(array.dtype, ("real floating", "complex floating")):
+            raise ValueError(f"a field must hold floating numbers, not {array.dtype}: convert it to float64")
 
         device = array_api_compat.device(array)
         key = (type(array), str(device), str(array.dtype))

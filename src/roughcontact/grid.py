@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -52,10 +53,10 @@ class Grid:
         sizes: tuple[int, ...] = tuple(np.atleast_1d(shape).tolist())
         if len(sizes) not in (1, 2):
             raise ValueError(f"shape must have one or two axes, not {len(sizes)}: {sizes}")
-        if any(int(n) != n or n < 1 for n in sizes):
+        if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
             raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(spacing, len(sizes), "spacing")
-        if any(not (math.isfinite(step) and step > 0) for step in steps):
+        if any(not (_is_real(step) and math.isfinite(step) and step > 0) for step in steps):
             raise ValueError(f"spacing must be positive and finite [m], not {steps}")
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
@@ -123,7 +124,10 @@ class RadialGrid:
     edges: Array
 
     def __post_init__(self) -> None:
-        edges = np.array(self.edges, dtype=np.float64)
+        given = np.asarray(self.edges)
+        if given.dtype.kind not in "fiu":
+            raise ValueError(f"edges must be radii [m], real numbers, not of type {given.dtype}")
+        edges = np.array(given, dtype=np.float64)
         if edges.ndim != 1 or len(edges) < 2:
             raise ValueError(f"edges must hold the radii of at least two circles, not shape {edges.shape}")
         if not (np.isfinite(edges).all() and edges[0] >= 0 and (np.diff(edges) > 0).all()):
@@ -133,9 +137,18 @@ class RadialGrid:
 
     @classmethod
     def uniform(cls, rings: int, radius: float) -> RadialGrid:
-        """Return `rings` rings of one width over a disc of `radius` [m]."""
-        if rings < 1 or not (math.isfinite(radius) and radius > 0):
-            raise ValueError(f"a disc needs at least one ring and a radius above 0, not {rings} and {radius}")
+        """Return `rings` rings of one width over a disc of `radius` [m].
+
+        Raises
+        ------
+        ValueError
+            If the number of rings is not a positive whole one, or the radius not positive and finite.
+        """
+        numbers = _is_real(rings) and _is_real(radius)
+        if not (numbers and rings >= 1 and rings % 1 == 0 and math.isfinite(radius) and radius > 0):
+            raise ValueError(
+                f"a disc needs a whole number of rings, at least one, and a radius above 0, not {rings} and {radius}"
+            )
         return cls(np.linspace(0.0, radius, int(rings) + 1))
 
     def __eq__(self, other: object) -> bool:
@@ -208,6 +221,10 @@ class RadialGrid:
 
 
 AnyGrid = Grid | RadialGrid
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, Real)
 
 
 def _per_axis(value: Any, ndim: int, name: str) -> tuple[Any, ...]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
-__all__ = ["Solid", "as_modulus", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Solid", "as_modulus", "number", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +65,30 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
     if isinstance(modulus, Solid):
         value = reduced_modulus(modulus)
     elif isinstance(modulus, tuple):
+        if len(modulus) != 2:
+            raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
         value = reduced_modulus(*modulus)
     else:
-        value = float(modulus)
+        value = number("reduced modulus", modulus)
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return value
+
+
+def number(name: str, value: Any) -> float:
+    """Return one real number.
+
+    Raises
+    ------
+    ValueError
+        If it is none: a text, a list, nothing. The command line reads units, this does not.
+    """
+    try:
+        if isinstance(value, str):
+            raise ValueError(value)
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"the {name} must be one number in SI units, not {value!r}") from error
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

@@ -100,6 +100,31 @@ def test_single_precision_in_numpy_too():
     assert operator.apply(np.ones(operator.grid.shape, np.float32)).dtype == np.float32
 
 
+@pytest.mark.parametrize("name", OPERATORS)
+def test_whole_numbers_lose_nothing(name):
+    operator = OPERATORS[name]()
+    p = np.arange(operator.grid.size).reshape(operator.grid.shape) % 3
+    np.testing.assert_array_equal(operator.apply(p), operator.apply(p.astype(float)))
+    np.testing.assert_array_equal(operator.apply(p > 1), operator.apply((p > 1).astype(float)))
+
+
+@pytest.mark.parametrize("name", [name for name in OPERATORS if name != "foundation"])
+def test_whole_numbers_of_other_libraries_are_refused(library, name):
+    operator = OPERATORS[name]()
+    with pytest.raises(ValueError, match=r"floating numbers, not .*int64: convert"):
+        operator.apply(library.put(np.ones(operator.grid.shape), "int64"))
+
+
+def test_heights_in_single_precision_are_pressed_in_double(library, rough):
+    single = rc.Surface(library.put(rough.heights.copy(), "float32"), rough.grid)
+    same = rc.Surface(rough.heights.astype(np.float32), rough.grid)
+    here, there = (rc.press(s, 1.0, force=2e-3, tolerance=1e-10) for s in (same, single))
+    assert str(there.pressure.dtype).endswith("float64")
+    largest = here.pressure.max()
+    np.testing.assert_allclose(library.get(there.pressure), here.pressure, rtol=0, atol=1e-7 * largest)
+    assert single.rms == pytest.approx(same.rms, rel=1e-12)
+
+
 @pytest.mark.parametrize("load", [{"force": 2e-3}, {"depth": 0.008}], ids=str)
 @pytest.mark.parametrize("solver", [rc.ActiveSet(), rc.ActiveSet(single=True), rc.PolonskyKeer()], ids=repr)
 def test_press(library, rough, load, solver):
@@ -164,3 +189,44 @@ def test_back_on_the_host_it_is_a_solution_like_any(library, rough):
 def test_bad_heights_are_refused_there_too(library, heights, message):
     with pytest.raises(ValueError, match=message):
         rc.Surface(library.put(heights), rc.Grid((2, 2), 1.0))
+
+
+@without_torch
+def test_what_is_to_be_differentiated_is_refused(rough):
+    import torch
+
+    with pytest.raises(ValueError, match="detach"):
+        rc.Surface(torch.tensor(rough.heights, requires_grad=True), rough.grid)
+
+
+def test_two_libraries_are_not_mixed(library, rough):
+    there = elsewhere(rough, library)
+    for first, second in ((there, rough), (rough, there)):
+        with pytest.raises(ValueError, match="where both live"):
+            _ = first + second
+    region = library.put(np.eye(*rough.grid.shape), "bool")
+    operator = rc.half_space(rough.grid, 1.0)
+    with pytest.raises(ValueError, match="the library that the region is of"):
+        rc.prescribed_displacement(operator, region, np.ones(rough.grid.shape))
+
+
+def test_a_mask_is_pressed_where_it_lives(library, rough):
+    mask = np.eye(*rough.grid.shape, dtype=bool)
+    there = rc.contact_stiffness(library.put(mask, "bool"), rough.grid, 1.0)
+    assert there == pytest.approx(rc.contact_stiffness(mask, rough.grid, 1.0), rel=1e-7)
+
+
+def test_pictures_and_theories_fetch_what_they_need(library, rough):
+    from roughcontact.contact.theories import persson_pressures
+    from roughcontact.plot.figures import solution_figure
+    from roughcontact.plot.pressures import pressure_distribution_figure
+
+    there = rc.press(elsewhere(rough, library), 1.0, force=2e-3)
+    density = persson_pressures(there)
+    stress = np.array([0.1, 0.2])
+    # The force is a sum of 1200 cells, in another order.
+    np.testing.assert_allclose(density(stress), persson_pressures(there.on_host())(stress), rtol=1e-12)
+    assert len(solution_figure(there).axes) >= 2
+    assert len(pressure_distribution_figure(there, {"Persson": density}).axes) == 1
+    with pytest.raises(ValueError, match="NumPy's memory"):
+        rc.loading_laws(there.problem.surface, 1.0, "gw")

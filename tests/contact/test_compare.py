@@ -68,3 +68,25 @@ def test_deviation_is_none_without_resolved_loads(curve):
 def test_what_nobody_speaks_of_is_refused(curve, name, message):
     with pytest.raises(ValueError, match=message):
         curve.compare(hertz_law(), [name])
+
+
+def test_a_name_is_no_theory(curve):
+    with pytest.raises(ValueError, match="a theory is wanted"):
+        curve.compare("persson")
+
+
+def test_it_says_on_how_many_loads_it_rests(curve):
+    partly = curve.compare(hertz_law((0.0, float(curve.force[1]))), ["depth"])
+    resolved = int(curve.resolved.sum())
+    assert f"({int(partly.common('depth').sum())} of {resolved} loads)" in repr(partly)
+    never = curve.compare(hertz_law((1e9, 1e10)), ["depth"])
+    assert "depth: no load in common" in repr(never)
+    assert never.to_record()["loads_compared"] == {"depth": 0}
+
+
+def test_a_line_is_not_held_against_laws_of_forces():
+    grid = rc.Grid(32, 0.1)
+    operator = rc.line(grid, MODULUS)
+    line = rc.loading_curve(rc.Surface(np.arange(32.0) ** 2, grid), MODULUS, forces=[1.0], operator=operator)
+    with pytest.raises(ValueError, match="per unit length"):
+        line.compare(hertz_law())

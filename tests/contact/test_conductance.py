@@ -50,6 +50,9 @@ def test_along_a_curve():
         ({"conductivities": (np.inf, np.inf)}, "no limit"),
         ({"conductivities": (1.0, np.nan)}, "conductivity"),
         ({"conductivities": (1.0, 1.0), "of": "depth"}, "of must be"),
+        ({"resistivities": 1e-8}, "of both bodies"),
+        ({"resistivities": (1e-8,)}, "of both bodies"),
+        ({"conductivities": (1.0, 1.0, 1.0)}, "of both bodies"),
     ],
 )
 def test_nonsense_is_refused(disc, given, message):
@@ -64,3 +67,50 @@ def test_a_line_has_none():
     )
     with pytest.raises(ValueError, match="line contact"):
         rc.conductance(line, resistivities=(1e-8, 1e-8))
+
+
+def test_what_is_no_contact_is_refused():
+    with pytest.raises(ValueError, match="press the surface first"):
+        rc.conductance(rc.Grid(8, 1.0), resistivities=(1e-8, 1e-8))
+
+
+def test_what_gives_way_conducts_too():
+    """A region conducts whatever its pressure: all in contact, at any hardness, like a flat punch of its shape."""
+    grid = rc.Grid((32, 32), 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    hard = rc.press(rough, MODULUS, force=1e-1, hardness=5e8)
+    assert (hard.pressure == 5e8).any()
+    punch = rc.contact_stiffness(hard.contact, grid, MODULUS)
+    found = rc.conductance(hard, resistivities=(1e-8, 1e-8))["electrical_conductance"]
+    assert found == pytest.approx(punch / MODULUS / 1e-8, rel=1e-12)
+    assert hard.stiffness < 0.9 * punch
+    interface = rc.conductance(hard, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    assert interface["electrical_conductance"] > found
+
+
+def test_a_curve_under_a_hardness_does_not_know():
+    from roughcontact.contact.conductance import Conductors
+    from roughcontact.contact.dataset import with_conductance
+
+    grid = rc.Grid((8, 8), 1e-6)
+    curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)
+    with pytest.raises(ValueError, match="the cells that give way conduct"):
+        rc.conductance(curve, resistivities=(1e-8, 1e-8))
+    dataset = curve.to_dataset()
+    assert dataset.hardness == 1e10
+    with pytest.raises(ValueError, match="the cells that give way conduct"):
+        with_conductance(dataset, Conductors((1e-8, 1e-8)))
+    with pytest.raises(ValueError, match="of must be"):
+        with_conductance(dataset, Conductors((1e-8, 1e-8)), of="depth")
+
+
+def test_an_insulator_has_a_picture():
+    """Its resistance is infinite, and has no place on the axis."""
+    from roughcontact.contact.conductance import Conductors
+    from roughcontact.contact.dataset import with_conductance
+    from roughcontact.plot.conductance import resistance_figure
+
+    grid = rc.Grid((8, 8), 1e-6)
+    curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])
+    dataset = with_conductance(curve.to_dataset(), Conductors(conductivities=(1.0, 0.0)))
+    resistance_figure(dataset).canvas.draw()

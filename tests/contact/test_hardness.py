@@ -145,3 +145,17 @@ def test_random_problems(seed):
     p = solution.pressure
     wrong = np.where(p == hardness, gap, np.where(p > 0, np.abs(gap), -gap))
     assert np.nanmax(wrong) <= 2e-8 * np.abs(u).max()
+
+
+def test_a_flat_body_by_the_depth_that_carries_the_force(monkeypatch):
+    """At depth 0 a flat surface bears everywhere and carries nothing: the search must begin below it."""
+    from roughcontact.contact import hard
+
+    grid = rc.Grid((8, 8), 1.0)
+    flat, force, hardness = rc.Surface(np.zeros((8, 8)), grid), 0.9 * 64 * 1e-3, 1e-3
+    plain = rc.press(flat, MODULUS, force=force, hardness=hardness)
+    monkeypatch.setattr(hard, "FLOWING", 0.0)
+    by_depth = rc.press(flat, MODULUS, force=force, hardness=hardness)
+    assert by_depth.depth == pytest.approx(plain.depth, rel=1e-7)
+    with pytest.raises(rc.ConvergenceError):
+        rc.press(flat, MODULUS, force=force, hardness=hardness, solver=rc.ActiveSet(max_steps=1))

@@ -173,6 +173,14 @@ def test_histograms_are_densities():
         ({"force": 1.0, "depth": 1.0}, "force and depth"),
         ({"force": 1.0, "modulus": 0.0}, "reduced modulus"),
         ({"force": 1.0, "tolerance": 0.0}, "tolerance must lie"),
+        ({"force": [1.0]}, "the force must be one number"),
+        ({"depth": [1.0]}, "the depth must be one number"),
+        ({"pressure": [1.0]}, "the pressure must be one number"),
+        ({"force": 1.0, "tolerance": "1e-8"}, "the tolerance must be one number"),
+        ({"force": 1.0, "hardness": "1GPa"}, "the hardness must be one number"),
+        ({"force": 1.0, "operator": "fft"}, "an operator is wanted"),
+        ({"force": 1.0, "solver": "active set"}, "a solver is wanted"),
+        ({"force": 1.0, "solver": rc.PolonskyKeer}, "a solver is wanted"),
         ({"force": 1.0, "surface": np.zeros((4, 4))}, "a Surface is wanted"),
         ({"force": 1.0, "operator": rc.half_space(rc.Grid((4, 4), 1.0), 1.0)}, "is not the surface's"),
     ],
@@ -196,6 +204,8 @@ def test_masks_that_make_no_sense():
         (some, 0.0, "not zero"),
         (some, np.nan, "finite"),
         (np.ones((2, 2), bool), 1.0, "does not fit"),
+        (some, np.ones(3), "does not fit"),
+        (some.tolist(), np.zeros((4, 4)), "not zero"),
     ]:
         with pytest.raises(ValueError, match=message):
             rc.prescribed_displacement(operator, region, u)
@@ -238,3 +248,59 @@ def test_a_number_is_a_number():
         rc.press(wave(False), 1.0, force="10N")
     with pytest.raises(ValueError, match="a Solid is wanted"):
         rc.reduced_modulus(210e9)
+
+
+def test_a_gap_that_is_but_rounding_has_a_histogram():
+    """One cell is left open, its gap a rounding error of either sign."""
+    from dataclasses import replace
+
+    solution = rc.press(wave(True), 1.0, force=1e-2)
+    closed = replace(solution, pressure=solution.pressure + 1.0)
+    closed.pressure[0, 0] = 0.0
+    closed.__dict__["gap"] = np.full(closed.pressure.shape, -1e-20)
+    density, edges = closed.gap_histogram(4)
+    assert (density * np.diff(edges)).sum() == pytest.approx(1)
+
+
+def test_words_on_lines_and_springs():
+    """Units per length; a line is judged by its width; the pressure of springs is none to hold against a modulus."""
+    grid = rc.Grid(64, 0.1)
+    surface = rc.Surface(-((grid.coordinates[0] - 3.2) ** 2), grid)
+    line = rc.press(surface, 1.0, force=1e-1, operator=rc.line(grid, 1.0))
+    assert "force 0.1 N m-1," in repr(line)
+    assert any("narrower than 20 cells" in note for note in line.notes)
+    curve = rc.loading_curve(surface, 1.0, forces=[0.1, 0.2], operator=rc.line(grid, 1.0))
+    assert repr(curve).endswith("force 0.1 to 0.2 N m-1)")
+    with pytest.raises(ValueError, match=r"N m-1 to .* N m-1, a finer grid"):
+        curve.fit()
+    springs = rc.press(surface, 1.0, depth=6.0, operator=rc.foundation(grid, 1.0))
+    assert springs.pressure.max() > 1.0
+    assert not any("modulus:" in note for note in springs.notes)
+
+
+@pytest.mark.parametrize("window", [(1.0, 1e-8), (-1.0, 1.0), (np.nan, 1.0)])
+def test_a_window_that_is_none_is_refused(window):
+    curve = rc.loading_curve(wave(False), 1.0, forces=[1e-3, 1e-2])
+    with pytest.raises(ValueError, match="to a larger one"):
+        curve.fit(window)
+
+
+@pytest.mark.parametrize(
+    "kind", ["plane", "dense", "moving-grid", "multilevel", "periodic", "half", "ring", "line", "foundation"]
+)
+def test_two_moduli_are_one_too_many(kind):
+    """The operator has one, and the call names one: where they differ, numbers would be wrong."""
+    grid = rc.Grid((6, 8), 1.0, {"periodic": True, "half": (True, False)}.get(kind, False))
+    rows, rings = rc.Grid(8, 1.0), rc.RadialGrid.uniform(8, 1.0)
+    operators = {
+        "ring": lambda: rc.ring(rings, 2.0),
+        "line": lambda: rc.line(rows, 2.0),
+        "foundation": lambda: rc.foundation(rows, 2.0),
+    }
+    method = kind if kind in ("dense", "moving-grid", "multilevel") else "fft"
+    operator = operators.get(kind, lambda: rc.half_space(grid, 2.0, method))()
+    heights = np.random.default_rng(0).random(operator.grid.shape)
+    body = rc.RadialProfile(heights, rings) if kind == "ring" else rc.Surface(heights, operator.grid)
+    assert rc.press(body, 2.0, force=0.1, operator=operator).status.converged
+    with pytest.raises(ValueError, match="modulus of 2 Pa, and 1 Pa is asked for"):
+        rc.press(body, 1.0, force=0.1, operator=operator)

@@ -209,7 +209,7 @@ def test_what_is_no_profile_of_numbers_is_refused():
 
 @pytest.mark.parametrize("body", [rc.line, rc.foundation, rc.half_space])
 def test_rings_are_no_line_and_no_plane(body):
-    with pytest.raises(ValueError, match="axis|axes"):
+    with pytest.raises(ValueError, match=r"axis|axes"):
         body(rc.RadialGrid.uniform(3, 1.0), 1.0)
 
 

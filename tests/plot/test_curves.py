@@ -150,3 +150,21 @@ def test_numbers_on_a_logarithmic_axis_are_few_and_at_least_two(ratio, first):
 def test_the_lower_limit_is_named_for_what_it_is(axes, curve):
     stiffness_curve(axes, curve)
     assert [text.get_text() for text in axes.texts] == ["20 x one cell", "saturation"]
+
+
+@pytest.mark.parametrize("kind", ["surface", "line"])
+def test_full_contact_alone_has_a_picture(axes, kind):
+    """Infinite stiffness everywhere: there is nothing to draw but the axes."""
+    grid = rc.Grid((8, 8) if kind == "surface" else 8, 1e-6, True)
+    wavy = rc.self_affine(grid, hurst=0.8, rms=1e-12, rng=np.random.default_rng(0))
+    operator = rc.line(grid, 1e9) if kind == "line" else None
+    stiffness_curve(axes, rc.loading_curve(wavy, 1e9, pressures=[1e6, 2e6], operator=operator))
+    axes.figure.canvas.draw()
+    assert not axes.get_lines() or kind == "surface"
+
+
+def test_on_a_line_no_stiffness_tells_what_is_resolved(axes):
+    grid = rc.Grid(128, 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    stiffness_curve(axes, rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)))
+    assert [text.get_text() for text in axes.texts] == ["saturation"]

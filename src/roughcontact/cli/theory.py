@@ -116,12 +116,5 @@ class Theories:
 
 def deviations(comparisons: Mapping[str, Comparison]) -> list[tuple[str, str]]:
     """Return one line for each theory: by what factor it lies off where the curve is resolved."""
-    lines = []
-    for comparison in comparisons.values():
-        parts = []
-        for name in comparison.predicted:
-            off = comparison.deviation(name)
-            if off == off:  # not where nothing is resolved
-                parts.append(f"{name.replace('_', ' ')} {off:.2f}")
-        lines.append((comparison.name, ", ".join(parts) or "no resolved load to compare at"))
+    lines = [(comparison.name, comparison.words()) for comparison in comparisons.values()]
     return [("theories", "root mean square of ln(predicted/computed) over the resolved loads"), *lines]

@@ -45,6 +45,6 @@ def run_certified(
             return replace(found, status=Status.CONVERGED)
         if not state.status.converged:
             return found
-        if residual > best / 2:
+        if not residual < best / 2:
             return replace(found, status=Status.STAGNATED)
         best, lacking = residual, displacement - operator.apply(pressure)

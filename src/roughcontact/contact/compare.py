@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.halfspace.geometry import Geometry
+
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
 
@@ -75,13 +77,27 @@ class Comparison:
         )
 
     def deviation(self, quantity: str) -> float:
-        """Return the root mean square of ln(predicted/computed) over the resolved loads; NaN without any.
+        """Return the root mean square of ln(predicted/computed) over the `common` loads; NaN without any.
 
         0.1 is about ten per cent.
         """
-        ratio = self.ratio(quantity)[self.resolved]
-        ratio = ratio[np.isfinite(ratio) & (ratio > 0)]
+        ratio = self.ratio(quantity)[self.common(quantity)]
         return float(np.sqrt(np.mean(np.log(ratio) ** 2))) if ratio.size else float("nan")
+
+    def common(self, quantity: str) -> npt.NDArray[np.bool_]:
+        """Return the mask of the resolved loads at which the theory holds and both are above zero, shape (n,)."""
+        ratio = self.ratio(quantity)
+        return np.asarray(self.resolved & np.isfinite(ratio) & (ratio > 0))
+
+    def words(self) -> str:
+        """Return the deviation of every quantity, and on how many of the resolved loads it rests where not on all."""
+        resolved, parts = int(self.resolved.sum()), []
+        for name in self.predicted:
+            count = int(self.common(name).sum())
+            on = "" if count == resolved else f" ({count} of {resolved} loads)"
+            value = f" {self.deviation(name):.2f}{on}" if count else ": no load in common"
+            parts.append(name.replace("_", " ") + value)
+        return ", ".join(parts) or "nothing in common"
 
     def to_record(self) -> dict[str, Any]:
         """Return the comparison as plain values, for JSON; None where there is no number."""
@@ -90,12 +106,12 @@ class Comparison:
             "source": self.source,
             "predicted": {name: _plain(values) for name, values in self.predicted.items()},
             "deviation": {name: _plain(np.array(self.deviation(name))) for name in self.predicted},
+            "loads_compared": {name: int(self.common(name).sum()) for name in self.predicted},
         }
 
     def __repr__(self) -> str:
-        """Say how far apart the two are."""
-        parts = (f"{name} {self.deviation(name):.2g}" for name in self.predicted)
-        return f"Comparison({self.name}: rms ln ratio {', '.join(parts)})"
+        """Say how far apart the two are, and on how many loads that rests."""
+        return f"Comparison({self.name}: rms ln ratio {self.words()})"
 
 
 def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) -> Comparison:
@@ -104,8 +120,12 @@ def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) ->
     Raises
     ------
     ValueError
-        If a quantity that is named is none of the curve's, or the theory says nothing about it.
+        If the theory is none, the curve that of a line contact, or a quantity that is named none of the curve's, or the theory silent about it.
     """
+    if not hasattr(law, "quantities"):
+        raise ValueError(f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {law!r}")
+    if curve.geometry is Geometry.LINE:
+        raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
     names = (
         [name for name in law.quantities if hasattr(curve, name)] if quantities is None else list(quantities)
     )

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
+from roughcontact.contact.dataset import check_conducting
+from roughcontact.contact.problem import Depth
 from roughcontact.contact.solution import Solution
-from roughcontact.halfspace.geometry import Geometry
 from roughcontact.theory import conductance as theory
 
 __all__ = ["Conductors", "conductance"]
@@ -32,7 +34,7 @@ class Conductors:
     Raises
     ------
     ValueError
-        If neither is given, a number is negative, or nothing limits the conductance.
+        If neither is given, or not for both bodies, a number is negative, or nothing limits the conductance.
     """
 
     resistivities: tuple[float, float] | None = None
@@ -41,6 +43,9 @@ class Conductors:
     def __post_init__(self) -> None:
         if self.resistivities is None and self.conductivities is None:
             raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
+        for pair in (self.resistivities, self.conductivities):
+            if pair is not None and np.shape(pair) != (2,):
+                raise ValueError(f"give the numbers of both bodies, such as (1.7e-8, 1.7e-8), not {pair!r}")
         self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
 
     def of(self, stiffness: Array, modulus: float) -> dict[str, Array]:
@@ -70,7 +75,8 @@ def conductance(
     Parameters
     ----------
     contact : Curve or Solution
-        Of a surface, of rings, or of a foundation of springs.
+        Of a surface, of rings, or of a foundation of springs. Of a solution under a hardness the cells that give
+        way conduct like the others.
     resistivities, conductivities : tuple of float
         At least one of the two, see `Conductors`.
     of : {"stiffness", "interfacial_stiffness"}
@@ -87,15 +93,20 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense, or the contact is that of a line, whose conductance per length hangs on
-        the reference length.
+        If the materials make no sense, the contact is that of a line, whose conductance per length hangs on the
+        reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
     """
     materials = Conductors(resistivities, conductivities)
     if of not in ("stiffness", "interfacial_stiffness"):
         raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")
-    scales = contact.problem if isinstance(contact, Solution) else contact
-    if scales.geometry is Geometry.LINE:
+    if not isinstance(contact, Curve | Solution):
         raise ValueError(
-            "a line contact has no conductance of its own: it hangs on how far away the bodies end"
+            f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
         )
+    if isinstance(contact, Solution) and contact.problem.hardness < math.inf:
+        # What gives way conducts as well: the stiffness of the whole region, as if it were elastic.
+        elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
+        contact = replace(contact, problem=elastic, _frozen=None)
+    scales = contact.problem if isinstance(contact, Solution) else contact
+    check_conducting(scales.geometry, scales.hardness < math.inf)
     return materials.of(np.asarray(getattr(contact, of), dtype=np.float64), scales.modulus)

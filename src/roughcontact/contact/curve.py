@@ -17,6 +17,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
+from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ class Curve:
         Stiffness of one cell, and of all measured cells in contact [N/m].
     geometry : Geometry
         What the cells are. On a line forces, stiffness, areas and energy are per unit length.
+    hardness : float
+        Pressure that no cell exceeds [Pa]; cells that reach it have no part in the stiffness.
     """
 
     force: Array
@@ -77,6 +80,7 @@ class Curve:
     cell_stiffness: float
     saturation: float
     geometry: Geometry = Geometry.SURFACE
+    hardness: float = math.inf
 
     def __len__(self) -> int:
         return len(self.force)
@@ -139,11 +143,13 @@ class Curve:
         Raises
         ------
         ValueError
-            If fewer than three points lie in the window; the message names forces that would.
+            If the window is none, or fewer than three points lie in it; the message names forces that would.
         """
         if window is None:
             inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
         else:
+            if not 0 <= window[0] < window[1]:
+                raise ValueError(f"a window goes from a force to a larger one, not {window}")
             low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
@@ -175,17 +181,21 @@ class Curve:
     def _remedy(self) -> str:
         """Say what would give more resolved points."""
         low, high = (part * self.force_scale for part in SUGGESTED)
+        unit = unit_of("force", self.geometry)
         if self.force.min() > low * (1 + ROUNDING) or self.force.max() < high * (1 - ROUNDING):
-            return f"try forces from {low:.3g} N to {high:.3g} N, a finer grid, or a window of forces"
+            return (
+                f"try forces from {low:.3g} {unit} to {high:.3g} {unit}, a finer grid, or a window of forces"
+            )
         return (
-            f"between {low:.3g} N and {high:.3g} N this grid resolves no more; take a finer one, more forces in "
-            "between, or larger ones and a window of your own"
+            f"between {low:.3g} {unit} and {high:.3g} {unit} this grid resolves no more; take a finer one, more forces "
+            "in between, or larger ones and a window of your own"
         )
 
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""
         resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
-        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} N)"
+        unit = unit_of("force", self.geometry)
+        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the curve as an `xarray.Dataset` with units and long names."""
@@ -234,6 +244,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         # A thousandth in the displacement is enough for a limit of nine tenths.
         saturation=saturation(problem),
         geometry=problem.geometry,
+        hardness=problem.hardness,
     )
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.status import Status
 
 __all__ = [
+    "check_conducting",
     "curve_dataset",
     "curve_record",
     "plain_values",
@@ -75,6 +76,8 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     data["status"] = _variable("status", ("load",), _words(curve.status))
     data["secant_stiffness"] = _variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
     data |= {name: _variable(name, (), getattr(curve, name), kind) for name in _CURVE_SCALES}
+    if math.isfinite(curve.hardness):
+        data["hardness"] = _variable("hardness", (), curve.hardness, kind)
     data |= _sizes(curve.lengths, curve.spacing, curve.periodic)
     return _dataset(data, {}, "normal contact stiffness of a rough surface against load", kind)
 
@@ -155,17 +158,35 @@ def with_conductance(
     Raises
     ------
     ValueError
-        If the dataset is not that of a curve, or that of a line contact.
+        If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
     """
+    if of not in ("stiffness", "interfacial_stiffness"):
+        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")
     missing = [name for name in ("force", of, "modulus") if name not in dataset]
     if missing or dataset[of].dims != ("load",):
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
-    if dataset.attrs.get("geometry") == Geometry.LINE.value:
+    check_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
+    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
+    return dataset.assign({name: _variable(name, ("load",), values) for name, values in found.items()})
+
+
+def check_conducting(geometry: Geometry, yielding: bool) -> None:
+    """Refuse a curve whose stiffness does not tell what its contact conducts.
+
+    Raises
+    ------
+    ValueError
+        If it is that of a line, or of a body that gives way.
+    """
+    if geometry is Geometry.LINE:
         raise ValueError(
             "a line contact has no conductance of its own: it hangs on how far away the bodies end"
         )
-    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
-    return dataset.assign({name: _variable(name, ("load",), values) for name, values in found.items()})
+    if yielding:
+        raise ValueError(
+            "under a hardness the cells that give way conduct, but the stiffness of a curve leaves them out: take "
+            "the conductance of each solution of loading_path"
+        )
 
 
 def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.optimality import Judge
 from roughcontact.contact.polonsky_keer import PolonskyKeer
 from roughcontact.contact.problem import Depth, Terms
 from roughcontact.contact.state import State
@@ -53,9 +54,13 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         pressure, steps = state.pressure, steps + state.steps
         return measure.total(pressure) / force - 1
 
-    low, high = 0.0, _bearing_depth(measure, separation, force / terms.hardness)
+    # At least what the hardness does to a single cell: a flat body bears at no depth, and doubling needs one.
+    own = Judge.of(operator, terms).self_influence
+    low, high = 0.0, max(_bearing_depth(measure, separation, force / terms.hardness), own * terms.hardness)
     below, above = -1.0, excess(high)
-    while above < 0:
+    for _ in range(TRIALS):
+        if above >= 0:
+            break
         low, below = high, above
         high *= 2
         above = excess(high)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import is_array, is_numpy, namespace
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
@@ -68,7 +69,7 @@ def prescribed_displacement(
     ------
     ValueError
         If the region is empty, of a wrong shape, or the whole of a periodic grid, if the displacement is zero
-        or not finite on it, or if the initial pressure is not finite.
+        or not finite on it, if the initial pressure is not finite, or if one of them does not fit the region.
     RuntimeError
         If the tolerance was missed.
     """
@@ -90,6 +91,7 @@ def prescribe(
     initial: Array | None = None,
 ) -> Prescribed:
     """Return what `prescribed_displacement` does, with whatever residual was reached."""
+    region = region if is_array(region) else np.asarray(region)
     xp = namespace(region)
     if not xp.isdtype(region.dtype, "bool"):
         region = xp.astype(region, xp.bool)
@@ -101,6 +103,8 @@ def prescribe(
         raise ValueError("the region holds no cell: nothing can be displaced")
     if is_semidefinite(operator) and bool(xp.all(region)):
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
+    _check("displacement", displacement, region)
+    _check("initial pressure", initial, region)
     field = xp.zeros(region.shape, dtype=xp.float64, device=region.device) if initial is None else initial
     target = xp.where(region, xp.zeros_like(field) + displacement, 0.0)
     largest = float(xp.max(xp.abs(target)))
@@ -119,6 +123,18 @@ def prescribe(
     measure = Measure(operator.weights)
     whole = embed(pressure, box, region.shape)
     return Prescribed(whole, measure.total(whole), error / largest, steps)
+
+
+def _check(name: str, given: Any, region: Mask) -> None:
+    """Refuse a field that does not fit its region."""
+    if not is_array(given) or given.ndim == 0:
+        return
+    if tuple(given.shape) != tuple(region.shape):
+        raise ValueError(
+            f"the {name}, of shape {tuple(given.shape)}, does not fit {tuple(region.shape)} cells"
+        )
+    if is_numpy(given) != is_numpy(region):
+        raise ValueError(f"the {name} must be an array of the library that the region is of")
 
 
 def _solve(

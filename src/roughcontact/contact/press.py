@@ -12,7 +12,7 @@ from roughcontact.contact.status import ConvergenceError
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on
 from roughcontact.halfspace.operator import Operator
-from roughcontact.material import Solid, as_modulus
+from roughcontact.material import Solid, as_modulus, number
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
@@ -92,8 +92,9 @@ def make_problem(
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
-    strength = math.inf if hardness is None else float(hardness)
-    return ContactProblem(separation_of(surface), body, control, tolerance, surface, value, strength)
+    strength = math.inf if hardness is None else number("hardness", hardness)
+    allowed = number("tolerance", tolerance)
+    return ContactProblem(separation_of(surface), body, control, allowed, surface, value, strength)
 
 
 def control_of(
@@ -107,15 +108,11 @@ def control_of(
         raise ValueError(
             f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
         )
-    numbers: dict[str, object] = {"force": force, "depth": depth, "pressure": pressure}
-    for name, value in numbers.items():
-        if isinstance(value, str):  # the command line reads units, this does not
-            raise ValueError(f"{name} must be a number in SI units, not {value!r}")
     if force is not None:
-        return Force(float(force))
+        return Force(number("force", force))
     if depth is not None:
-        return Depth(float(depth))
-    assert pressure is not None
+        return Depth(number("depth", depth))
+    pressure = number("pressure", pressure)
     if not (math.isfinite(pressure) and pressure > 0):
         raise ValueError(f"the pressure must be positive and finite [Pa], not {pressure}")
-    return Force(float(pressure) * grid.area)
+    return Force(pressure * grid.area)

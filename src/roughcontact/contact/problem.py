@@ -211,8 +211,10 @@ class ContactProblem:
 
 
 def separation_of(surface: Body) -> Array:
-    """Return the undeformed gap at first touch [m]; infinite where nothing was measured."""
-    heights, xp = surface.heights, namespace(surface.heights)
+    """Return the undeformed gap at first touch [m], in double precision; infinite where nothing was measured."""
+    xp = namespace(surface.heights)
+    # In single precision no certificate could be met.
+    heights = xp.astype(surface.heights, xp.float64, copy=False)
     missing = xp.isnan(heights)
     separation: Array = xp.max(xp.where(missing, -math.inf, heights)) - heights
     separation = xp.where(missing, math.inf, separation)

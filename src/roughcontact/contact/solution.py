@@ -23,6 +23,7 @@ from roughcontact.contact.stiffness import (
     saturation,
     yields_not,
 )
+from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import exact_of
 from roughcontact.surface.surface import Surface
@@ -104,7 +105,7 @@ class Solution:
 
     @cached_property
     def mean_gap(self) -> float:
-        """Mean of the deformed gap over the measured cells [m]."""
+        """Mean of the deformed gap over the measured cells [m]; cells that give way count below zero."""
         return self._mean_displacement(self.pressure) + self.problem.mean_separation - self.depth
 
     @cached_property
@@ -218,9 +219,9 @@ class Solution:
                 "A single cell is in contact: stiffness and area are those of the grid, not of the body."
             )
         elif touching and not self._above_cells:
-            notes.append(
-                f"Not resolved: the stiffness is below that of {CELLS} cells, so that the grid speaks, not the surface."
-            )
+            line = self.problem.geometry is Geometry.LINE
+            small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
+            notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
         return (*notes, *self._doubts())
 
     def _doubts(self) -> tuple[str, ...]:
@@ -228,7 +229,8 @@ class Solution:
         doubts = []
         modulus, surface = self.problem.modulus, self.problem.surface
         largest = float(namespace(self.pressure).max(self.pressure))
-        if largest > STRAINED * modulus:
+        springs = self.problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
+        if largest > STRAINED * modulus and not springs:
             doubts.append(
                 f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
                 "bodies yield or break before, and the theory of small strains ends."
@@ -259,19 +261,22 @@ class Solution:
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""
-        xp = namespace(self.contact)
+        xp, unit = namespace(self.contact), unit_of("force", self.problem.geometry)
         return (
-            f"Solution({self.status.value}, force {self.force:.4g} N, depth {self.depth:.4g} m, "
+            f"Solution({self.status.value}, force {self.force:.4g} {unit}, depth {self.depth:.4g} m, "
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
-        """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa]."""
-        return _density(on_host(self.pressure[self.contact]), bins)
+        """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa].
+
+        Cells count by their area. On springs [m/N] and [N/m].
+        """
+        return _density(*self._of_cells(self.pressure, self.contact), bins)
 
     def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/m] of the gap over the cells not in contact, and the edges [m]."""
-        return _density(on_host(self.gap[~self.contact & self.problem.measured]), bins)
+        return _density(*self._of_cells(self.gap, ~self.contact & self.problem.measured), bins)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return fields and numbers as an `xarray.Dataset` with units and long names."""
@@ -284,6 +289,11 @@ class Solution:
         from roughcontact.contact.dataset import solution_record
 
         return solution_record(self.on_host())
+
+    def _of_cells(self, field: Array, mask: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
+        """Return a field on the cells of a mask and their areas, on the host."""
+        chosen = on_host(mask).astype(bool)
+        return on_host(field)[chosen], self._measure.on(np.flatnonzero(chosen))
 
     @cached_property
     def _cells(self) -> npt.NDArray[np.intp]:
@@ -305,10 +315,12 @@ class Solution:
         return float(force @ self.problem.mean_response.ravel()[cells])
 
 
-def _density(values: Array, bins: int) -> tuple[Array, Array]:
+def _density(values: Array, areas: Array, bins: int) -> tuple[Array, Array]:
     if bins < 1:
         raise ValueError(f"a histogram needs at least one bin, not {bins}")
+    values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
     if not values.size:
         return np.zeros(bins), np.linspace(0.0, 1.0, bins + 1)
-    density, edges = np.histogram(values, bins=bins, range=(0.0, float(values.max()) or 1.0), density=True)
+    end = float(values.max()) or 1.0
+    density, edges = np.histogram(values, bins=bins, range=(0.0, end), weights=areas, density=True)
     return density, edges

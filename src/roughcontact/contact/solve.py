@@ -49,6 +49,8 @@ def solve_state(
     problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, windows: Windows
 ) -> tuple[State, Place]:
     """Return the solver's last state on its window, and where that lies."""
+    if isinstance(solver, type) or not hasattr(solver, "run"):
+        raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
     if isinstance(problem.control, Depth) and problem.control.value == 0:
         return _untouched(problem)
     with one_blas_thread():

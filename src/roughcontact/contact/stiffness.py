@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
+from roughcontact.arrays import is_array, is_numpy, namespace
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.prescribed import prescribe
 from roughcontact.contact.problem import ContactProblem
@@ -95,7 +95,7 @@ def contact_stiffness(
     Parameters
     ----------
     mask : bool array, shape ``grid.shape``
-        The cells in contact.
+        The cells in contact. On arrays of other libraries the work is done where they live.
     grid : Grid or RadialGrid
         Free or periodic.
     modulus : float, Solid or pair of Solids
@@ -117,9 +117,11 @@ def contact_stiffness(
     RuntimeError
         If the tolerance was not reached.
     """
-    region = np.asarray(mask, dtype=bool)
-    if region.shape != grid.shape:
-        raise ValueError(f"a mask of shape {region.shape} does not fit the grid of shape {grid.shape}")
+    region = mask if is_array(mask) and not is_numpy(mask) else np.asarray(mask, dtype=bool)
+    if tuple(region.shape) != grid.shape:
+        raise ValueError(f"a mask of shape {tuple(region.shape)} does not fit the grid of shape {grid.shape}")
+    xp = namespace(region)
+    region = xp.astype(region, xp.bool)
     body = body_on(grid, modulus, operator)
     frozen = frozen_contact(body, region, tolerance=tolerance)
     if frozen.residual > tolerance:

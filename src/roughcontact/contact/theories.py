@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.build import half_space
 from roughcontact.material import Solid, as_modulus
@@ -60,8 +61,10 @@ def loading_laws(
     Spectrum and moments are those of the very waves of a periodic surface; of a free one those of its power
     spectrum under a window, over the band to be relied upon. The Hurst exponent is fitted where none is given.
     """
-    if surface.grid.ndim != 2:
+    if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise ValueError("these theories are about surfaces; give a grid of two axes")
+    if not is_numpy(surface.heights):
+        raise ValueError("theories look at the heights in NumPy's memory: give a Surface of NumPy's numbers")
     wanted = [names] if isinstance(names, str) else list(names)
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
@@ -86,7 +89,7 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
     ValueError
         If the solution is not that of a surface on a grid of two axes.
     """
-    surface = solution.problem.surface
+    surface = solution.on_host().problem.surface
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise ValueError("Persson's theory is about surfaces on a grid of two axes")
     whole = surface.filled() if surface.missing else surface

@@ -71,13 +71,14 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "stiffness_residual": Variable(
             "1", "residual of the linear problem of the stiffness", "stiffness residual"
         ),
-        "resolved": Variable("", "stiffness lies between twenty cells and saturation", "resolved"),
+        "resolved": Variable("", "contact stands above twenty cells and below saturation", "resolved"),
         "status": Variable("", "how the solver ended", "status"),
         "steps": Variable("1", "steps of the solver", "steps"),
         "missing": Variable("1", "number of cells without a height; they never touch", "missing cells"),
         "touches_edge": Variable("", "contact reaches the edge of the map", "contact at the edge"),
         # scales
         "modulus": Variable("Pa", "reduced modulus E* of the pair of solids", "reduced modulus"),
+        "hardness": Variable("Pa", "pressure that no cell exceeds", "hardness"),
         "rms": Variable("m", "root mean square height about the mean", "rms height"),
         "saturation": Variable("N m-1", "stiffness with every measured cell in contact", "saturation"),
         "cell_stiffness": Variable("N m-1", "stiffness with one cell in contact", "one cell"),
@@ -122,6 +123,7 @@ _OF_SPRINGS = {
     "pressure": "N m-1",
     "largest_pressure": "N m-1",
     "nominal_pressure": "N m-1",
+    "hardness": "N m-1",
     "contact_area": "m",
     "spot_area": "m",
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
@@ -55,7 +56,7 @@ def half_space(
     else:
         operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
-        return DenseOperator(grid, operator.as_matrix(), operator.positive)
+        return DenseOperator(grid, operator.as_matrix(), operator.positive, value)
     return summed(operator, method)
 
 
@@ -67,7 +68,7 @@ def body_on(
     Raises
     ------
     ValueError
-        If the operator is none or lies on another grid, or is not given and the grid is a line.
+        If the operator is none, lies on another grid or has another modulus, or is not given and the grid is a line.
     """
     if operator is None:
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
@@ -75,6 +76,11 @@ def body_on(
         raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
+    own, value = getattr(operator, "modulus", None), as_modulus(modulus)
+    if own is not None and not math.isclose(own, value, rel_tol=1e-9):
+        raise ValueError(
+            f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: make both one"
+        )
     return operator
 
 

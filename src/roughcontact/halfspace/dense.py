@@ -28,11 +28,14 @@ class DenseOperator:
         Displacement per pressure [m/Pa] between the n cells in flat order.
     positive : bool
         Whether no entry is negative.
+    modulus : float, optional
+        Reduced modulus E* of the body [Pa], where it has one.
     """
 
     grid: AnyGrid
     matrix: Array
     positive: bool = True
+    modulus: float | None = None
     _placed: Placed = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -58,4 +61,4 @@ class DenseOperator:
         if self.grid.window(window).shape == self.grid.shape:
             return self  # the whole keeps its period
         cells = np.arange(self.grid.size).reshape(self.grid.shape)[window].ravel()
-        return DenseOperator(self.grid.window(window), self.as_matrix(cells), self.positive)
+        return DenseOperator(self.grid.window(window), self.as_matrix(cells), self.positive, self.modulus)

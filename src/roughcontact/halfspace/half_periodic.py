@@ -94,6 +94,11 @@ class HalfPeriodicOperator:
     positive: bool = True
 
     @property
+    def modulus(self) -> float:
+        """Reduced modulus E* [Pa]."""
+        return self._row.modulus
+
+    @property
     def weights(self) -> float:
         """Area of a cell [m^2]."""
         return self.grid.cell_area

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import ellipe, ellipkm1
+from scipy.special import hyp2f1
 
 __all__ = ["love", "love_table", "periodic_multiplier", "ring_matrix", "strip"]
 
@@ -117,16 +117,13 @@ def ring_matrix(edges: Array) -> Array:
     -----
     A disc of radius a under a unit pressure displaces the half-space by ``4 a E(r^2/a^2)/(pi E*)`` (thesis, before
     A.26; E of parameter m). Its integral over a disc of radius b <= a is closed too,
-    ``(8 pi a^3/3) [(1 + m) E(m) - (1 - m) K(m)]`` with ``m = (b/a)^2`` over ``pi E*``; rings are differences of discs.
-    Means instead of values in the middle make the matrix symmetric under the areas of the rings.
+    ``(8 pi a^3/3) [(1 + m) E(m) - (1 - m) K(m)]`` with ``m = (b/a)^2`` over ``pi E*``; the same as one function,
+    ``2 pi^2 a b^2 2F1(-1/2, 1/2; 2; m)``, keeps its digits for a small disc in a large one. Rings are differences of
+    discs. Means instead of values in the middle make the matrix symmetric under the areas of the rings.
     """
     inner, outer = np.minimum.outer(edges, edges), np.maximum.outer(edges, edges)
-    ratio = np.divide(inner, outer, out=np.zeros_like(inner), where=outer > 0)
-    m = ratio**2
-    rest = (1 - ratio) * (1 + ratio)
-    # At m = 1 the second term is 0 times infinity; its limit is zero.
-    second = np.where(rest > 0, rest * ellipkm1(np.where(rest > 0, rest, 1.0)), 0.0)
-    discs = 8 * np.pi / 3 * outer**3 * ((1 + m) * ellipe(m) - second)
+    m = np.divide(inner, outer, out=np.zeros_like(inner), where=outer > 0) ** 2
+    discs = 2 * np.pi**2 * outer * inner**2 * hyp2f1(-0.5, 0.5, 2, m)
     energy = np.diff(np.diff(discs, axis=0), axis=1)
     areas = np.pi * np.diff(edges) * (edges[1:] + edges[:-1])
     return np.asarray((energy + energy.T) / 2 / areas[:, None])

@@ -47,6 +47,11 @@ class LineOperator:
         return Grid(plane.shape[1:], plane.spacing[1:], plane.periodic[1:])
 
     @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa]."""
+        return self.plane.modulus
+
+    @property
     def positive(self) -> bool:
         """Whether no pressure lifts any cell."""
         return self.plane.positive
@@ -114,8 +119,8 @@ def line(
     Raises
     ------
     ValueError
-        If the grid has two axes, the reference length is shorter than the grid or given for a periodic one, or the
-        method is not for it.
+        If the grid has two axes or is one of rings, the reference length is shorter than the grid or given for a
+        periodic one, or the method is not for it.
 
     Notes
     -----
@@ -123,7 +128,7 @@ def line(
     corrected); a periodic line answers each wave by 2/(E* q), mean displacement zero.
     """
     value = as_modulus(modulus)
-    if grid.ndim != 1:
+    if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a line contact needs a grid of one axis: Grid(n, spacing)")
     plane = _plane(grid)
     if all(grid.periodic):

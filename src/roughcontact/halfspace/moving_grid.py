@@ -38,6 +38,11 @@ class MovingGridOperator:
         return self.free.grid
 
     @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        return self.free.modulus
+
+    @property
     def positive(self) -> bool:
         """Whether no pressure lifts any cell."""
         return self.free.positive

@@ -63,6 +63,11 @@ class MultilevelOperator:
         return self.exact.grid
 
     @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        return self.exact.modulus
+
+    @property
     def positive(self) -> bool:
         """Whether no pressure lifts any cell."""
         return self.exact.positive

@@ -43,4 +43,5 @@ def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> Dens
         raise ValueError(
             f"ring {at} is {narrow[at]:.2g} of its radius wide: make rings at least {NARROWEST:g} of their radius wide"
         )
-    return DenseOperator(grid, ring_matrix(grid.edges) / (math.pi * as_modulus(modulus)))
+    value = as_modulus(modulus)
+    return DenseOperator(grid, ring_matrix(grid.edges) / (math.pi * value), modulus=value)

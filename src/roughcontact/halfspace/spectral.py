@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.arrays import Placed, convolve, even_multiplier, fast_even_length, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
-from roughcontact.halfspace.influence import Periodic, Tables
+from roughcontact.halfspace.influence import Love, Periodic, Strip, Tables
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -36,6 +36,12 @@ class FreeOperator:
     grid: Grid
     influence: Tables
     positive: bool = True
+
+    @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        kernel = self.influence.influence
+        return kernel.modulus if isinstance(kernel, Love | Strip | Periodic) else None
 
     @property
     def weights(self) -> float:
@@ -99,6 +105,11 @@ class PeriodicOperator:
     influence: Periodic
     positive: bool = False
 
+    @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        return self.influence.modulus if isinstance(self.influence, Periodic) else None
+
     @cached_property
     def _tables(self) -> Tables:
         return Tables(self.influence, self.grid.shape)
@@ -116,8 +127,8 @@ class PeriodicOperator:
         """Return the displacement [m] under `pressure` [Pa]."""
         ny, nx = self.grid.shape
         # The mean moves nothing; taken out first, its rounding moves nothing either.
-        xp = namespace(pressure)
-        displacement = convolve(pressure - xp.mean(pressure), self._multiplier, (ny, nx))
+        xp, multiplier = namespace(pressure), self._multiplier.beside(pressure)
+        displacement = convolve(pressure - xp.mean(pressure), multiplier, (ny, nx))
         displacement -= xp.mean(displacement)
         return displacement
 

@@ -79,8 +79,8 @@ def foundation(grid: Grid, modulus: float | Solid | tuple[Solid, Solid]) -> Foun
     Raises
     ------
     ValueError
-        If the grid has two axes.
+        If the grid has two axes, or is one of rings.
     """
-    if grid.ndim != 1:
+    if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a foundation of springs carries a line: give a grid of one axis, Grid(n, spacing)")
     return Foundation(grid, as_modulus(modulus))

@@ -58,7 +58,8 @@ def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
                 markersize=4.5,
                 label=text,
             )
-    axes.legend(fontsize=TICK, frameon=False)
+    if shown.any():
+        axes.legend(fontsize=TICK, frameon=False)
     for axis, numbers in ((axes.xaxis, force[shown]), (axes.yaxis, values[shown])):
         if numbers.size:
             readable_ticks(axis, float(numbers.max() / numbers.min()))

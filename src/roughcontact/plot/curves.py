@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.contact.variables import VARIABLES, unit_of
+from roughcontact.halfspace.geometry import Geometry
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.theories import draw_laws
 from roughcontact.plot.ticks import readable_ticks
@@ -36,31 +37,30 @@ def stiffness_curve(
     """Draw stiffness against force, both logarithmic.
 
     Resolved points are filled, the others open. `law` is drawn strongly over its window and thinly
-    beyond. Horizontal lines mark the stiffness of twenty cells and that of all measured cells in
-    contact. The outer axes give force and stiffness without dimension. `theories` are drawn as lines
-    in colours of their own.
+    beyond. Horizontal lines mark the stiffness of twenty cells (not on a line contact, where widths tell
+    what is resolved) and that of all measured cells in contact. The outer axes give force and stiffness
+    without dimension. `theories` are drawn as lines in colours of their own.
     """
     x, y = _draw(axes, curve, "stiffness")
     values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
-    # A periodic surface in full contact is infinitely stiff: that limit has no line.
-    limits = [level for level in (CELLS * curve.cell_stiffness, curve.saturation) if math.isfinite(level)]
-    low, high = min(*values, *limits) / _ROOM, max(*values, *limits) * _ROOM
+    limits = _limits(curve)
+    levels = [*values, *(level for level, *_ in limits)] or [1.0]
+    low, high = min(levels) / _ROOM, max(levels) * _ROOM
     axes.set_ylim(low * y.factor, high * y.factor)
     readable_ticks(axes.yaxis, high / low)
     if law is not None:
         _draw_law(axes, curve, law, (x, y))
     draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
     beside = axes.get_yaxis_transform()
-    for level, place, side, text in zip(
-        limits, (0.985, 0.015), ("right", "left"), (f"{CELLS} x one cell", "saturation"), strict=False
-    ):
+    for level, place, side, text in limits:
         axes.axhline(level * y.factor, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
         axes.text(
             place, level * y.factor, text, transform=beside, ha=side, va="bottom", fontsize=TICK, color=_LIMIT
         )
-    # The corner between the curve and its upper limit is the one that stays free.
-    top = math.log(max(limits) / low) / math.log(high / low) if len(limits) > 1 else 1.0
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
+    if axes.get_legend_handles_labels()[0]:
+        # The corner between the curve and its upper limit is the one that stays free.
+        top = math.log(curve.saturation / low) / math.log(high / low) if limits[1:] else 1.0
+        axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
     _outer(axes, curve, (x, y))
 
 
@@ -76,6 +76,18 @@ def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
 def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     """Draw the depth since first touch against force, both logarithmic."""
     draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+
+
+def _limits(curve: Curve) -> list[tuple[float, float, Literal["left", "right"], str]]:
+    """Return the stiffnesses between which a curve is resolved: level [N/m], place along the axis, side, text."""
+    limits: list[tuple[float, float, Literal["left", "right"], str]] = [
+        (CELLS * curve.cell_stiffness, 0.985, "right", f"{CELLS} x one cell"),
+        (curve.saturation, 0.015, "left", "saturation"),
+    ]
+    if curve.geometry is Geometry.LINE:  # there it is the width that counts
+        limits = limits[1:]
+    # A periodic surface in full contact is infinitely stiff: that limit has no line.
+    return [limit for limit in limits if math.isfinite(limit[0])]
 
 
 def _forces(curve: Curve) -> tuple[float, float]:

@@ -29,6 +29,7 @@ _FORMATS = ("png", "pdf", "svg")
 
 def solution_figure(solution: Solution) -> Figure:
     """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps."""
+    solution = solution.on_host()
     window = contact_window(solution)
     height, width = solution.problem.grid.lengths
     if width <= 1.8 * height:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.contact.variables import VARIABLES, unit_of
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.units import scale, written
 
@@ -48,20 +48,22 @@ def pressure_distribution(
     ValueError
         If nothing is in contact.
     """
+    solution = solution.on_host()
+    grid, unit = solution.problem.grid, unit_of("pressure", solution.problem.geometry)
     pressures = solution.pressure[solution.contact]
     if not pressures.size:
         raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
     end = float(np.quantile(pressures, _BEYOND)) * 1.05
-    x = scale(end, VARIABLES["pressure"].unit)
-    counts, edges = np.histogram(pressures, bins=bins, range=(0.0, end))
-    density = counts / (solution.pressure.size * np.diff(edges))
+    x = scale(end, unit)
+    areas = np.broadcast_to(solution.problem.operator.weights, grid.shape)[solution.contact]
+    shares, edges = np.histogram(pressures, bins=bins, range=(0.0, end), weights=areas / grid.area)
+    density = shares / np.diff(edges)
     computed = f"computed, {100 * solution.contact_fraction:.3g} % in contact"
     axes.stairs(density / x.factor, edges * x.factor, fill=True, color=_BARS, alpha=0.45, label=computed)
     stress = np.linspace(0.0, end, 400)
     for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
         axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
-    nominal = solution.force / solution.problem.grid.area
-    axes.set_title(f"nominal pressure {written(nominal, 'Pa')}", fontsize=LABEL)
+    axes.set_title(f"nominal pressure {written(solution.force / grid.area, unit)}", fontsize=LABEL)
     axes.set_xlim(0.0, end * x.factor)
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel(f"{VARIABLES['pressure'].label} [{x.unit}]", fontsize=LABEL)

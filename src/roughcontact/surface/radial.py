@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_array, is_numpy
 from roughcontact.grid import RadialGrid
 
 __all__ = ["RadialProfile"]
@@ -40,9 +41,18 @@ class RadialProfile:
     provenance: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=np.float64)
         if not isinstance(self.grid, RadialGrid):
             raise ValueError(f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}")
+        if is_array(self.heights) and not is_numpy(self.heights):
+            raise ValueError("the heights of a radial profile must be NumPy's: bring them to the host")
+        given = (
+            np.ma.filled(self.heights, np.nan)
+            if np.ma.isMaskedArray(self.heights)
+            else np.asarray(self.heights)
+        )
+        if given.dtype.kind not in "fiu":
+            raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
+        heights = np.array(given, dtype=np.float64)  # a copy: a profile never changes
         if heights.shape != self.grid.shape:
             raise ValueError(f"heights of shape {heights.shape} do not fit {self.grid.size} rings")
         if np.isinf(heights).any() or np.isnan(heights).all():

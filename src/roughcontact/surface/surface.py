@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_array, is_numpy, namespace
+from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.levelling import levelled, without_form
@@ -32,7 +32,8 @@ class Surface:
     ----------
     heights : array, shape ``grid.shape``
         Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured. Arrays of other
-        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there; to prepare and analyse them, use NumPy.
+        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there in double precision; to prepare and
+        analyse them, use NumPy.
     grid : Grid
         Where the cells are and whether the surface repeats itself.
     provenance : tuple of str
@@ -81,7 +82,12 @@ class Surface:
         """Check heights of another library than NumPy, and leave them where they are."""
         heights, xp = self.heights, namespace(self.heights)
         if not xp.isdtype(heights.dtype, "real floating"):
-            raise ValueError(f"heights must be real numbers [m], not of type {heights.dtype}")
+            raise ValueError(
+                f"heights that are not NumPy's must be real floating numbers [m], not of type {heights.dtype}: "
+                "convert whole numbers to float64"
+            )
+        if wants_gradient(heights):
+            raise ValueError("nothing here is differentiated: give heights without gradients, .detach()")
         if tuple(heights.shape) != self.grid.shape:
             raise ValueError(
                 f"heights of shape {tuple(heights.shape)} do not fit the grid of shape {self.grid.shape}"
@@ -113,6 +119,10 @@ class Surface:
     __rmul__ = __mul__
 
     def _joined(self, other: Surface, sign: int) -> Surface:
+        if is_numpy(self.heights) != is_numpy(other.heights):
+            raise ValueError(
+                "surfaces are added where both live: the heights of one are NumPy's, of the other not"
+            )
         mine, theirs = self.grid, other.grid
         # Spacings that were computed in two ways differ in their last digits.
         if (mine.shape, mine.periodic) != (theirs.shape, theirs.periodic) or not np.allclose(
@@ -140,8 +150,8 @@ class Surface:
         """Root mean square height about the mean, over the measured points [m] (thesis, eq. 4.12)."""
         if is_numpy(self.heights):
             return float(np.nanstd(self.heights))
-        heights, xp = self.heights, namespace(self.heights)
-        there = self.measured
+        xp, there = namespace(self.heights), self.measured
+        heights = xp.astype(self.heights, xp.float64)  # squares of micrometres are nothing in half precision
         count = int(xp.count_nonzero(there))
         deviation = xp.where(there, heights - xp.sum(xp.where(there, heights, 0.0)) / count, 0.0)
         return math.sqrt(float(xp.sum(deviation**2)) / count)
