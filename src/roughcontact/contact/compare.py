@@ -120,7 +120,8 @@ def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) ->
     Raises
     ------
     ValueError
-        If the theory is none, the curve that of a line contact, or a quantity that is named none of the curve's, or the theory silent about it.
+        If the theory is none, or silent about a quantity that is named, the curve is that of a line contact, or has no
+        such quantity.
     """
     if not hasattr(law, "quantities"):
         raise ValueError(f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {law!r}")

@@ -29,6 +29,7 @@ Array = npt.NDArray[np.float64]
 
 ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 SUGGESTED = (1e-4, 0.07)  # dimensionless forces from the first cells to the end of the power law
+SUGGESTED_ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
 
 
@@ -138,7 +139,7 @@ class Curve:
         Parameters
         ----------
         window : tuple of float, optional
-            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07.
+            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07 (on a line all).
 
         Raises
         ------
@@ -146,7 +147,8 @@ class Curve:
             If the window is none, or fewer than three points lie in it; the message names forces that would.
         """
         if window is None:
-            inside = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
+            limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
+            inside = self.resolved & (self.dimensionless_force <= limit)
         else:
             if not 0 <= window[0] < window[1]:
                 raise ValueError(f"a window goes from a force to a larger one, not {window}")
@@ -180,7 +182,8 @@ class Curve:
 
     def _remedy(self) -> str:
         """Say what would give more resolved points."""
-        low, high = (part * self.force_scale for part in SUGGESTED)
+        suggested = SUGGESTED_ON_LINES if self.geometry is Geometry.LINE else SUGGESTED
+        low, high = (part * self.force_scale for part in suggested)
         unit = unit_of("force", self.geometry)
         if self.force.min() > low * (1 + ROUNDING) or self.force.max() < high * (1 - ROUNDING):
             return (

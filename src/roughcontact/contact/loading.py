@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.active_set import ActiveSet
-from roughcontact.contact.curve import SUGGESTED, Curve, collect, length_scale
+from roughcontact.contact.curve import SUGGESTED, SUGGESTED_ON_LINES, Curve, collect, length_scale
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body, ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
@@ -105,7 +105,8 @@ def suggested_forces(
     """Return forces [N] over the range in which a rough surface is worth looking at.
 
     From 1e-4 to 0.07 of E* h L in equal ratios: from the first cells in contact to where the thesis ends its
-    fits of the power law (section 4.5). On a line contact, of which the `operator` tells, of E* h.
+    fits of the power law (section 4.5). On a line contact, of which the `operator` tells, from 0.03
+    to 3 of E* h.
 
     Raises
     ------
@@ -116,9 +117,10 @@ def suggested_forces(
     if not surface.rms > 0:
         raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
     geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
-    length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
+    line = geometry is Geometry.LINE
+    length = 1.0 if line else length_scale(geometry, grid.lengths)
     scale = as_modulus(modulus) * surface.rms * length
-    low, high = SUGGESTED
+    low, high = SUGGESTED_ON_LINES if line else SUGGESTED
     return np.geomspace(low * scale, high * scale, count)
 
 

@@ -24,7 +24,8 @@ class RadialProfile:
     ----------
     heights : array, shape (n,)
         Heights of the rings [m]: of a profile f(r) measured upwards from its lowest point, ``-f(grid.radii)``.
-        NaN marks a ring that is not there.
+        NaN marks a ring that is not there. The depth counts from the touch of the highest ring: of a body with its tip
+        on the axis the innermost ring, whose middle lies ``f(grid.radii[0])`` lower than the tip.
     grid : RadialGrid
         The rings.
     provenance : tuple of str
