@@ -60,11 +60,18 @@ def check_squeeze_film(stdout, _):
     assert middle > 1.5 * thinnest  # a dimple
 
 
+def check_partial_slip(stdout, _):
+    """Friction takes what Jaeger's rule says, which Poisson's ratio makes an approximation."""
+    loss, expected = re.search(r"takes (\S+) J in a cycle, by Jaeger's rule (\S+) J", stdout).groups()
+    assert float(loss) == pytest.approx(float(expected), rel=0.02)
+
+
 # Script -> its arguments, where FOLDER is an empty folder, and the check of its number.
 CHECKS = {
     "demo.py": (["--out", "FOLDER"], check_demo),
     "ehl_line.py": ([], check_ehl_line),
     "squeeze_film.py": ([], check_squeeze_film),
+    "partial_slip.py": ([], check_partial_slip),
 }
 
 

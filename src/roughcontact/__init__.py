@@ -67,6 +67,16 @@ _ROOMS = {
     "StressPeak": "contact.below",
     "line": "halfspace.line",
     "foundation": "mdr.foundation",
+    "ShearOperator": "halfspace.shear",
+    "shear_half_space": "halfspace.shear",
+    "TangentialSolution": "contact.tangential.solution",
+    "TangentialStiffness": "contact.tangential.stiffness",
+    "tangential_stiffness": "contact.tangential.stiffness",
+    "slide": "contact.tangential.slide",
+    "slide_path": "contact.tangential.path",
+    "load_cycle": "contact.tangential.path",
+    "SlipCurve": "contact.tangential.curve",
+    "slide_curve": "contact.tangential.curve",
     "Geometry": "halfspace.geometry",
     "Operator": "halfspace.operator",
     "Force": "contact.problem",
@@ -126,6 +136,14 @@ if TYPE_CHECKING:
     from roughcontact.contact.status import ConvergenceError as ConvergenceError
     from roughcontact.contact.status import Status as Status
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
+    from roughcontact.contact.tangential.curve import SlipCurve as SlipCurve
+    from roughcontact.contact.tangential.curve import slide_curve as slide_curve
+    from roughcontact.contact.tangential.path import load_cycle as load_cycle
+    from roughcontact.contact.tangential.path import slide_path as slide_path
+    from roughcontact.contact.tangential.slide import slide as slide
+    from roughcontact.contact.tangential.solution import TangentialSolution as TangentialSolution
+    from roughcontact.contact.tangential.stiffness import TangentialStiffness as TangentialStiffness
+    from roughcontact.contact.tangential.stiffness import tangential_stiffness as tangential_stiffness
     from roughcontact.contact.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.errors import ReadError as ReadError
@@ -142,6 +160,8 @@ if TYPE_CHECKING:
     from roughcontact.halfspace.line import line as line
     from roughcontact.halfspace.operator import Operator as Operator
     from roughcontact.halfspace.ring import ring as ring
+    from roughcontact.halfspace.shear import ShearOperator as ShearOperator
+    from roughcontact.halfspace.shear import shear_half_space as shear_half_space
     from roughcontact.halfspace.subsurface import Displacement as Displacement
     from roughcontact.halfspace.subsurface import Stress as Stress
     from roughcontact.material import Solid as Solid

@@ -250,5 +250,5 @@ def test_a_curve_is_written_and_can_be_opened(tmp_path):
         np.testing.assert_array_equal(dataset.stiffness, curve.stiffness)
     rc.write(curve, tmp_path / "curve.csv")
     assert (tmp_path / "curve.csv").read_text(encoding="utf-8").startswith("force,depth,stiffness")
-    with pytest.raises(rc.WriteError, match="a Curve is written as one of .nc, .csv"):
+    with pytest.raises(rc.WriteError, match=r"a Curve is written as one of \.nc, \.csv"):
         rc.write(curve, tmp_path / "curve.vti")

@@ -166,3 +166,10 @@ def test_ripples_toughen():
         lambda a: float(adhesion.force_slope(a)), pull.contact_radius - 1e-3, pull.contact_radius + 1e-3
     )
     assert pull.contact_radius == pytest.approx(turn, rel=1e-9)
+
+
+def test_what_is_no_body_and_no_work():
+    with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+        jkr(0.01, E, W)
+    with pytest.raises(ValueError, match="work of adhesion must be one number"):
+        jkr(indenter.paraboloid(R), E, "a")

@@ -33,6 +33,13 @@ class TestSphere:
         assert math.isnan(path.depth[2])
         assert path.dissipated[2] == math.inf
 
+    def test_it_tells_where_it_let_go(self):
+        path = adhesive_path(SPHERE, forces=[1.0, -0.5 * PULL, -2 * PULL, -3 * PULL, 1.0])
+        assert path.released.tolist() == [False, False, True, True, False]
+        assert path.force[2:4].tolist() == [0, 0]
+        # Before first touch it has not let go.
+        assert not adhesive_path(SPHERE, depths=[-1.0, -0.5]).released.any()
+
     def test_it_sticks_at_first_touch_and_holds_on_below(self):
         lowest = SPHERE.pull_off(math.inf).depth
         path = adhesive_path(
@@ -153,6 +160,10 @@ class TestRefusals:
             adhesive_path(SPHERE, depths=[math.nan])
         with pytest.raises(ValueError, match="must be positive"):
             adhesive_path(SPHERE, depths=[0.0], machine_stiffness=0.0)
+
+    def test_a_body_alone_does_not_stick(self):
+        with pytest.raises(ValueError, match="an Adhesion is wanted"):
+            adhesive_path(indenter.paraboloid(R), forces=[1.0])
 
     def test_the_end_of_what_is_known(self):
         with pytest.raises(ValueError, match="not known"):

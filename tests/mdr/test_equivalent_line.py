@@ -126,3 +126,14 @@ class TestTabulatedSpectrum:
         # sqrt(2), fall into one ring, hence a few per cent.
         discrete = rc.grid_moments(line, grid).m0 / math.pi * 2.5897  # lambda for H = 0.8, many waves
         assert math.sqrt(discrete) == pytest.approx(1e-6, rel=0.1)
+
+
+@pytest.mark.parametrize("wrong", [5, rc.Surface(np.zeros((30, 30)), rc.Grid((30, 30), 1.0))])
+def test_what_is_no_spectrum(wrong):
+    with pytest.raises(ValueError, match=r"a spectrum C2D\(q\) is wanted.*not (5|a Surface)$"):
+        line_spectrum(wrong)
+
+
+def test_a_factor_is_a_number():
+    with pytest.raises(ValueError, match="factor must be one number"):
+        LineSpectrum(lambda q: q, "a")

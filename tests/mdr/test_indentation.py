@@ -193,6 +193,17 @@ class TestRefusals:
         with pytest.raises(ValueError, match="list of loads"):
             indentation_curve(self.body, 1.0, forces=[])
 
+    @pytest.mark.parametrize("loads", [[2.0, 1.0], [1.0, 1.0]])
+    def test_the_loads_of_a_curve_increase(self, loads):
+        with pytest.raises(ValueError, match=r"force goes from \d to 1"):
+            indentation_curve(self.body, 1.0, forces=loads)
+
+    def test_a_number_is_no_body(self):
+        with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+            indent(0.01, 1.0, force=1.0)
+        with pytest.raises(ValueError, match="force must be a number"):
+            indent(self.body, 1.0, force="a")
+
     def test_a_modulus_may_be_solids(self):
         steel = rc.Solid(210e9, 0.3)
         pair = indent(self.body, (steel, steel), depth=0.1)

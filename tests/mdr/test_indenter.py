@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy import special
 from scipy.integrate import quad
 
 from roughcontact.mdr import indenter
@@ -191,11 +192,33 @@ class TestRefusals:
             (lambda: indenter.cone(1.0).cut(0.0), "cut"),
             (lambda: indenter.sphere(1.0).cut(2.0), "cut"),
             (lambda: indenter.cone(1.0).height(-1.0), "not be negative"),
+            (lambda: indenter.paraboloid("a"), "radius must be one number"),
+            (lambda: indenter.power_law(1, 1, flat="a"), "flat face must be one number"),
+            (lambda: indenter.of(lambda r: math.cosh(r) - 1, 1.0), "must take an array of radii"),
+            (lambda: indenter.of(lambda r: r if r > 0.5 else 0, 1.0), "must take an array of radii"),
+            (lambda: indenter.of(5, 1.0), "a function of the radius is wanted, not 5"),
+            (lambda: indenter.of(lambda r: r**2, "a"), "radius must be one number"),
+            (lambda: indenter.ripples(1.0, 1.0, 2001.0), "2001 waves.*2000"),
+            (lambda: indenter.sphere(1.0).cut("a"), "cut"),
         ],
     )
     def test_nonsense(self, make, message):
         with pytest.raises(ValueError, match=message):
             make()
+
+
+@pytest.mark.parametrize("waves", [100, 2000])
+def test_many_ripples(waves):
+    body = indenter.ripples(1e-6, 1e-5, waves * 1e-5)
+    x = np.linspace(0.9, 1, 500) * body.radius
+    z = 2e5 * np.pi * x
+    # The largest argument is known to its rounding, 2.2e-16 z; a panel errs by a few such parts of its values.
+    error = 10 * 2.2e-16 * z[-1]
+    np.testing.assert_allclose(body.height(x), 1e-6 * (1 - np.cos(z)), rtol=0, atol=error * 2e-6)
+    # Struve's function far out (DLMF 11.6.1); the next term is 225 z^-6.
+    struve = special.y0(z) + 2 / np.pi * (1 / z - 1 / z**3 + 9 / z**5)
+    truth = np.pi / 2 * 1e-6 * z * struve
+    np.testing.assert_allclose(body.transform(x), truth, rtol=0, atol=error * truth.max())
 
 
 class TestRoughness:

@@ -90,3 +90,10 @@ def test_surface_and_line_have_one_rms_height(n, hurst):
 def test_what_makes_no_sense_is_refused(hurst, modes):
     with pytest.raises(ValueError, match="at least"):
         lambda_rms(hurst, modes)
+
+
+def test_waves_are_counted():
+    with pytest.raises(ValueError, match=r"modes.*whole number.*not 2.5"):
+        lambda_rms(0.7, modes=2.5)
+    with pytest.raises(ValueError, match="Hurst exponent must be one number"):
+        lambda_rms("a")

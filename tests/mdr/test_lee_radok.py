@@ -129,8 +129,14 @@ class TestRefusals:
             transfer(CURVE, self.solid, T, forces=[0.1])
         with pytest.raises(ValueError, match="run backwards"):
             transfer(CURVE, self.solid, [1.0, 0.0], forces=0.1)
-        with pytest.raises(ValueError, match="not negative"):
+        with pytest.raises(ValueError, match="not be negative"):
             transfer(CURVE, self.solid, T, forces=-0.1)
+        with pytest.raises(ValueError, match="times must be finite, not nan"):
+            transfer(CURVE, self.solid, [0.0, math.nan], forces=0.1)
+        with pytest.raises(ValueError, match="a viscoelastic material is wanted"):
+            transfer(CURVE, 1e9, T, forces=0.1)
+        with pytest.raises(ValueError, match="not 5 without force, depth"):
+            transfer(5, self.solid, T, forces=0.1)
         flat = indentation_curve(BODY, E, forces=[1.0])
         with pytest.raises(ValueError, match="at least two points"):
             transfer(flat, self.solid, T, forces=0.1)

@@ -99,3 +99,8 @@ def test_missing_points_are_refused():
     heights[3] = np.nan
     with pytest.raises(ValueError, match="missing"):
         scan_spectrum(rc.Surface(heights, rc.Grid(64, 1.0)))
+
+
+def test_a_scan_is_a_surface():
+    with pytest.raises(ValueError, match="Surface on a grid of one axis, not 5"):
+        scan_spectrum(5)

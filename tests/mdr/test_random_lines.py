@@ -67,7 +67,7 @@ def test_gaussian_waves_have_unit_power_on_average():
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda rng: rough_lines(GRID, np.ones_like, rng, 0), "at least one line"),
+        (lambda rng: rough_lines(GRID, np.ones_like, rng, 0), "number of lines"),
         (lambda rng: rough_lines(rc.Grid((8, 8), 1.0), np.ones_like, rng, 1), "one axis"),
         (lambda rng: rough_lines(GRID, np.ones_like, 7, 1), "numpy.random.Generator"),
         (lambda rng: rough_lines(GRID, np.ones_like, rng, 1, rms=-1.0), "rms must be positive"),
@@ -79,3 +79,12 @@ def test_gaussian_waves_have_unit_power_on_average():
 def test_what_makes_no_sense_is_refused_at_once(call, says):
     with pytest.raises(ValueError, match=says):
         call(np.random.default_rng(0))
+
+
+def test_what_is_no_spectrum_and_no_count():
+    grid = rc.Grid(64, 1e-6)
+    surface = rc.Surface(np.zeros((30, 30)), rc.Grid((30, 30), 1.0))
+    with pytest.raises(ValueError, match=r"spectrum C1D\(q\) is wanted.*not a Surface$"):
+        rough_lines(grid, surface, np.random.default_rng(0), 2)
+    with pytest.raises(ValueError, match=r"number of lines.*not 2.5"):
+        rough_lines(grid, lambda q: q, np.random.default_rng(0), 2.5)

@@ -243,3 +243,13 @@ class TestSprings:
             slip_history(BODY, E, G, MU, normal_force=F, force=[0.0, math.nan])
         with pytest.raises(ValueError, match="positive"):
             slip_history(BODY, E, G, 0.0, normal_force=F, force=[0.0])
+        with pytest.raises(ValueError, match=r"one length, not of shapes \(2,\) and \(3,\)"):
+            slip_history(BODY, E, G, MU, normal_force=[1.0, 2.0], force=[0.0, 0.1, 0.2])
+        with pytest.raises(ValueError, match="springs must be a whole number"):
+            slip_history(BODY, E, G, MU, normal_force=F, force=[0.0], springs=2.5)
+        with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+            slip_history(0.01, E, G, MU, normal_force=F, force=[0.0])
+        with pytest.raises(ValueError, match="pressed body is wanted"):
+            partial_slip(BODY, G, MU, force=0.1)
+        with pytest.raises(ValueError, match="shear_modulus must be one number"):
+            partial_slip(indent(BODY, E, force=F), "a", MU, force=0.1)

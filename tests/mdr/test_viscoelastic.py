@@ -94,6 +94,15 @@ class TestClosedForms:
         (lambda: maxwell(1.0, math.inf), "must be positive"),
         (lambda: viscous(math.nan), "negative"),
         (lambda: standard_solid(3.0, 1.0, 1.0), "softens"),
+        (lambda: prony(1e8, 1e8, 1.0), "two lists.*not 100000000.0 and 1.0"),
+        (lambda: prony(1e8, ["a"], [1.0]), "moduli must be"),
+        (lambda: maxwell("a", 1.0), "modulus"),
+        (lambda: kelvin_voigt(1.0, "a"), "retardation time"),
+        (lambda: standard_solid("a", 1.0, 1.0), "equilibrium modulus"),
+        (lambda: viscous("a"), "viscosity"),
+        (lambda: maxwell(1.0, 1.0).relaxation(-1.0), "must not be negative.*not -1"),
+        (lambda: maxwell(1.0, 1.0).relaxation([0.0, math.nan]), "not nan"),
+        (lambda: maxwell(1.0, 1.0).creep()(-1.0), "nothing responds before the load"),
     ],
 )
 def test_nonsense_is_refused(make, message):

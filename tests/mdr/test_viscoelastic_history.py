@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve
+from roughcontact.mdr.indentation import indent, indentation_curve, indented
 from roughcontact.mdr.lee_radok import transfer
 from roughcontact.mdr.viscoelastic import Viscoelastic, kelvin_voigt, maxwell, prony, standard_solid, viscous
 from roughcontact.mdr.viscoelastic_history import depth_history, force_history
@@ -108,7 +108,7 @@ class TestSuddenDepth:
         elastic = Viscoelastic(2.0)
         d = np.array([0.1, 0.2, -0.1, 0.05, 0.15])
         history = depth_history(BODY, elastic, np.array([0.0, 1.0, 2.0, 2.0, 3.0]), d)
-        truth = indentation_curve(BODY, 2.0, depths=np.maximum(d, 0)).force
+        truth = indented(BODY, 2.0, "depth", np.maximum(d, 0)).force
         # With 1000 springs up to d = 0.2, some 500 to d = 0.05.
         np.testing.assert_allclose(history.force, truth, rtol=1e-5)
 
@@ -237,8 +237,14 @@ class TestRefusals:
     def test_times_and_bodies(self):
         with pytest.raises(ValueError, match="run backwards"):
             depth_history(BODY, SOLID, [1.0, 0.0], [0.0, 0.1])
-        with pytest.raises(ValueError, match="at least one spring"):
+        with pytest.raises(ValueError, match="springs must be a whole number"):
             depth_history(BODY, SOLID, [0.0, 1.0], [0.0, 0.1], springs=0)
+        with pytest.raises(ValueError, match=r"whole number.*not 2.5"):
+            force_history(BODY, SOLID, [0.0, 1.0], [0.0, 0.1], springs=2.5)
+        with pytest.raises(ValueError, match="viscoelastic material is wanted"):
+            force_history(BODY, 1e9, [0.0, 1.0], [0.0, 0.1])
+        with pytest.raises(ValueError, match="body of revolution is wanted"):
+            depth_history(1.0, SOLID, [0.0, 1.0], [0.0, 0.1])
         rippled = BODY + indenter.ripples(5e-3, 0.1, 0.5)
         with pytest.raises(ValueError, match="one disc"):
             depth_history(rippled, SOLID, [0.0, 1.0], [0.0, 0.1])

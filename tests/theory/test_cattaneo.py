@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from roughcontact.theory import mindlin
 from roughcontact.theory.cattaneo import SlippingSphere
 
 SPHERE = SlippingSphere(50.0, 0.02, 1.1e11, 0.3, 1.2)
@@ -91,3 +92,17 @@ def test_bad_input_is_refused():
         SPHERE.stick_radius(-1.0)
     with pytest.raises(ValueError, match="friction"):
         SlippingSphere(1.0, 1.0, 1.0, 0.0, 1.2)
+    with pytest.raises(ValueError, match="friction must be a number"):
+        SlippingSphere(1.0, 1.0, 1.0, "a", 1.2)
+
+
+@pytest.mark.parametrize("ratio", [5.0, 1.51, 0.74])
+def test_no_solids_have_such_a_ratio(ratio):
+    with pytest.raises(ValueError, match=r"E\*/G\* of a round contact lies from 1 to 1.5"):
+        SlippingSphere(1.0, 1.0, 1.0, 0.3, ratio)
+
+
+@pytest.mark.parametrize("poisson_ratio", [-0.999, 0.0, 0.3, 0.5])
+def test_all_solids_have_one(poisson_ratio):
+    ratio = mindlin.ratio(poisson_ratio)
+    assert SlippingSphere(1.0, 1.0, 1.0, 0.3, ratio).ratio == ratio

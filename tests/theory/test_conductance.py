@@ -97,3 +97,10 @@ def test_bad_input_is_refused():
         conductance.law(POWER, 1.0)
     with pytest.raises(ValueError, match="interfacial_stiffness"):
         conductance.law(POWER, 1.0, resistivities=(1.0, 1.0), quantity="interfacial_stiffness")
+
+
+def test_a_contact_has_two_bodies():
+    with pytest.raises(ValueError, match=r"of both bodies is wanted, not 1\.0"):
+        conductance.electrical(1e5, 1e11, 1.0)
+    with pytest.raises(ValueError, match=r"stiffness \[N/m\] must be a number"):
+        conductance.thermal("a", 1e11, (1.0, 1.0))

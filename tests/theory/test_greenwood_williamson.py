@@ -90,7 +90,7 @@ class TestExponentialHeights:
         highest = population.pressure(population.lowest)
         with pytest.raises(ValueError, match="touches every asperity"):
             population.pressure(population.lowest - 0.01 * STD)
-        with pytest.raises(ValueError, match="below the lowest"):
+        with pytest.raises(ValueError, match="touches every asperity"):
             population.separation(1.01 * highest)
         assert population.separation(highest) == pytest.approx(population.lowest, abs=1e-12 * STD)
 
@@ -111,7 +111,7 @@ class TestGaussianHeights:
         assert slope == pytest.approx([0.730, 0.836, 0.900, 0.935, 0.956], abs=6e-4)
 
     def test_inverse_over_three_hundred_decades(self):
-        p = np.geomspace(1e-290, 1e12, 400)
+        p = np.geomspace(1e-290, spheres().pressure(0.0), 400)
         found = spheres().separation(p)
         assert (np.diff(found) < 0).all()
         # The pressure falls by exp(-t dt): at t = 37 with an error of 40 units in the last place of the separation.
@@ -183,3 +183,22 @@ class TestRefusals:
     def test_pressures(self):
         with pytest.raises(ValueError, match="not negative"):
             spheres().separation(-1.0)
+
+    @pytest.mark.parametrize("distribution", ["gaussian", "exponential"])
+    def test_the_flat_stays_above_the_mean_plane(self, distribution):
+        population = gw.Population(gw.Asperity.hertz(RADIUS, MODULUS), DENSITY, STD, 0.0, distribution)
+        assert population.lowest == 0
+        assert population.separation(population.pressure(0.0)) == pytest.approx(0, abs=1e-11 * STD)
+        with pytest.raises(ValueError, match=r"reaches the mean plane of the surface.*given: 1e\+12"):
+            population.separation(1e12)
+        for name in ("pressure", "stiffness", "contact_fraction", "spot_density", "energy"):
+            for height in (-0.01 * STD, -1.0, [1e-6, math.nan]):
+                with pytest.raises(ValueError, match="at least 0 m"):
+                    getattr(population, name)(height)
+
+    def test_what_is_no_asperity_and_what_is_no_surface(self):
+        with pytest.raises(ValueError, match="an Asperity is wanted"):
+            gw.Population(5, DENSITY, STD)
+        surface = rc.Surface(np.zeros((2, 2)), rc.Grid((2, 2), 1.0))
+        with pytest.raises(ValueError, match=r"rc.surface_moments\(surface\).*not a Surface"):
+            gw.population(surface, MODULUS)

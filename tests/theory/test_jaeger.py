@@ -1,5 +1,7 @@
 """Partial slip from a loading curve: the sphere, a power law, and the limits of every contact."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -60,3 +62,41 @@ def test_bad_input_is_refused():
         jaeger.displacement(HERTZ, FORCE, 0.31 * FORCE, **GIVEN)
     with pytest.raises(ValueError, match="says nothing"):
         jaeger.displacement(LoadingLaw("k", "test", {"stiffness": lambda f: f}), FORCE, 1.0, **GIVEN)
+    with pytest.raises(ValueError, match="must be one number"):
+        jaeger.displacement(HERTZ, [FORCE, FORCE], 1.0, **GIVEN)
+    with pytest.raises(ValueError, match="without force, depth, stiffness"):
+        jaeger.displacement(5, FORCE, 1.0, **GIVEN)
+    short = LoadingLaw("short", "test", HERTZ.quantities, (40.0, 60.0))
+    with pytest.raises(ValueError, match=r"short has no depth at every force.*given: 35"):
+        jaeger.displacement(short, FORCE, 0.3 * 15, **GIVEN)
+
+
+class TestComputedCurves:
+    force = np.geomspace(0.5, FORCE, 5)
+    curve = SimpleNamespace(
+        force=force, depth=HERTZ.predict("depth", force), stiffness=HERTZ.predict("stiffness", force)
+    )
+    inside = np.array([0.0, 0.2, 0.98, 0.99]) * 0.3 * FORCE
+
+    def test_a_power_law_goes_through_its_points_and_the_origin(self):
+        # Cubics in the logarithms are straight: only rounding is left.
+        for function in (jaeger.displacement, jaeger.stiffness):
+            truth = function(HERTZ, FORCE, self.inside, **GIVEN)
+            assert function(self.curve, FORCE, self.inside, **GIVEN) == pytest.approx(truth, rel=1e-10)
+        slid = jaeger.displacement(self.curve, FORCE, 0.3 * FORCE, **GIVEN)
+        assert slid == pytest.approx(SPHERE.gross_slip, rel=1e-12)
+
+    def test_a_cycle(self):
+        loss = jaeger.cycle_loss(self.curve, FORCE, 0.2 * FORCE, **GIVEN)
+        assert loss == pytest.approx(float(SPHERE.cycle_loss(0.2 * FORCE)), rel=1e-6)
+
+    @pytest.mark.parametrize(("force", "part"), [(FORCE, 0.995), (1.01 * FORCE, 0.1)])
+    def test_beyond_its_points_it_is_not_known(self, force, part):
+        with pytest.raises(ValueError, match="a curve of more points"):
+            jaeger.displacement(self.curve, force, part * 0.3 * force, **GIVEN)
+
+    def test_points_that_do_not_increase(self):
+        with pytest.raises(ValueError, match="strictly increasing force"):
+            jaeger.displacement(
+                SimpleNamespace(force=[2.0, 1.0], depth=[2.0, 1.0], stiffness=[1.0, 1.0]), 2.0, 0.1, **GIVEN
+            )

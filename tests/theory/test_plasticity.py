@@ -50,6 +50,21 @@ def test_an_infinite_slope_is_refused():
         plasticity.slope_index(rc.Moments(1.0, math.inf, math.inf), MODULUS, HARDNESS)
 
 
+@pytest.mark.parametrize("index", [plasticity.slope_index, plasticity.asperity_index])
+def test_a_surface_is_not_its_moments(index):
+    with pytest.raises(ValueError, match=r"rc\.surface_moments"):
+        index(rc.Surface([[0.0, 1.0]], rc.Grid((1, 2), 1.0)), MODULUS, HARDNESS)
+
+
+def test_they_say_what_they_predict():
+    assert repr(plasticity.PlasticityIndex(0.8, 0.6, 1.0)) == (
+        "PlasticityIndex(0.8, mixed: elastic below 0.6, plastic above 1)"
+    )
+    assert repr(plasticity.PlasticityIndex(0.5, 2 / 3, math.inf)) == (
+        "PlasticityIndex(0.5, elastic: elastic below 0.667)"
+    )
+
+
 @pytest.mark.parametrize("bad", [(0.0, HARDNESS), (MODULUS, 0.0)])
 def test_moduli_and_hardness_must_be_positive(bad):
     with pytest.raises(ValueError, match="positive"):

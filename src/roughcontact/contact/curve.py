@@ -139,7 +139,8 @@ class Curve:
         Parameters
         ----------
         window : tuple of float, optional
-            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07 (on a line all).
+            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07,
+            on a line all.
 
         Raises
         ------

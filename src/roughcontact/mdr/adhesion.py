@@ -19,10 +19,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus
+from roughcontact.material import Solid, as_modulus, number
 from roughcontact.mdr.disc import sample_radii
 from roughcontact.mdr.indentation import Indentation
-from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.recovery import spring_energy
 from roughcontact.mdr.roots import bisect
 
@@ -91,7 +91,7 @@ class Adhesion:
 
     def at(self, radius: float) -> Indentation:
         """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap."""
-        if not 0 < radius <= self.profile.radius:
+        if not 0 < number("contact radius", radius) <= self.profile.radius:
             raise ValueError(
                 f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}"
             )
@@ -137,7 +137,7 @@ class Control:
     machine_stiffness: float
 
     def __post_init__(self) -> None:
-        if not self.machine_stiffness >= 0:
+        if not number("stiffness of the machine", self.machine_stiffness) >= 0:
             raise ValueError(
                 f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}"
             )
@@ -196,8 +196,14 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     Raises
     ------
     ValueError
-        If the work is not positive.
+        If the profile is no body of revolution, or the work is not positive.
+
+    Notes
+    -----
+    Of small strains: a soft body whose contact radius comes near its radius of curvature is beyond the theory, which
+    nothing here checks.
     """
-    if not (math.isfinite(work) and work > 0):
-        raise ValueError(f"the work of adhesion must be positive [J/m^2], not {work}; without, indent serves")
-    return Adhesion(profile, as_modulus(modulus), float(work))
+    w = number("work of adhesion", work)
+    if not (math.isfinite(w) and w > 0):
+        raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
+    return Adhesion(checked_profile(profile), as_modulus(modulus), w)

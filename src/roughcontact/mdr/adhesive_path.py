@@ -11,6 +11,7 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
+from roughcontact.theory.tools.domain import number, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
 
@@ -20,6 +21,9 @@ Array = npt.NDArray[np.float64]
 @dataclass(frozen=True, slots=True, eq=False)
 class AdhesivePath:
     """States of a sticking body, in the order of the history; radius 0 and force 0 where it is off.
+
+    A body that was pulled by more than it can hold is off: its force is 0, not the one that was asked for, and
+    `released` tells.
 
     Attributes
     ----------
@@ -37,6 +41,12 @@ class AdhesivePath:
     depth: Array
     contact_radius: Array
     dissipated: Array
+
+    @property
+    def released(self) -> npt.NDArray[np.bool_]:
+        """Whether the body is off after it had been on, shape (n,): where it has let go."""
+        on = self.contact_radius > 0
+        return np.logical_or.accumulate(on) & ~on
 
     def __len__(self) -> int:
         return len(self.force)
@@ -60,7 +70,7 @@ def adhesive_path(
     depths : array, shape (n,)
         History of the depth [m], or of the far end of a spring with `machine_stiffness` [N/m] that holds the body.
     forces : array, shape (n,)
-        Instead: history of the force [N].
+        Instead: history of the force [N]. From where it pulls by more than the body can hold, the force is 0.
 
     Returns
     -------
@@ -71,14 +81,18 @@ def adhesive_path(
     ValueError
         If not exactly one history is given, or the contact comes to where the body is not known.
     """
+    if not isinstance(adhesion, Adhesion):
+        raise ValueError(f"an Adhesion is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}")
     if (depths is None) == (forces is None):
         raise ValueError("give exactly one history, of depths or of forces")
     if depths is not None and not machine_stiffness > 0:
         raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
-    history = np.asarray(forces if depths is None else depths, dtype=np.float64)
-    if history.ndim != 1 or not np.isfinite(history).all():
-        raise ValueError("a history is a list of finite numbers")
+    history = np.asarray(number(forces if depths is None else depths, "the history"))  # type: ignore[arg-type]
+    if history.ndim != 1:
+        raise ValueError(f"a history is a list of numbers, not of shape {history.shape}")
+    if not np.isfinite(history).all():
+        raise ValueError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
     track = _Track(control, *control.turns())
     radius, lost = 0.0, 0.0
     states = []

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.material import number
 from roughcontact.mdr.lattice_sums import lambda_rms
 
 __all__ = ["calibrated_lambda"]
@@ -53,6 +54,7 @@ def calibrated_lambda(
     infinity) they are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and lambda is 4: the line's crest
     has half the radius of the surface's, as in the contact of a sphere.
     """
+    number("Hurst exponent", hurst)
     if not (math.isfinite(hurst) and hurst >= 0):
         raise ValueError(
             f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"

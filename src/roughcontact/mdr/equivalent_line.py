@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.material import number
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
+from roughcontact.theory.tools.domain import shown
 
 __all__ = ["LineSpectrum", "TabulatedSpectrum", "line_spectrum"]
 
@@ -34,18 +36,24 @@ class LineSpectrum:
     Raises
     ------
     ValueError
-        If the factor is not positive, or the spectrum is that of a line or of profiles.
+        If the factor is not positive, or the spectrum is no function, or that of a line or of profiles.
     """
 
     surface: Callable[[Array], Array]
     factor: float = math.pi
 
     def __post_init__(self) -> None:
+        if not callable(self.surface):
+            raise ValueError(
+                "a spectrum C2D(q) is wanted, such as a SelfAffineSpectrum or rc.power_spectrum(surface), not "
+                f"{shown(self.surface)}"
+            )
         if getattr(self.surface, "dimension", 2) != 2 or getattr(self.surface, "kind", "C2D") != "C2D":
             raise ValueError(
                 "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
                 "roughcontact.surface_spectrum"
             )
+        number("factor", self.factor)
         if not (math.isfinite(self.factor) and self.factor > 0):
             raise ValueError(f"factor must be positive and finite, not {self.factor}")
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.disc import disc_radius
-from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
 from roughcontact.mdr.roots import last_below
+from roughcontact.theory.tools.domain import number
 
-__all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve"]
+__all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve", "indented"]
 
 Array = npt.NDArray[np.float64]
 
@@ -161,9 +163,14 @@ def indent(
     ------
     ValueError
         If the input makes no sense, the contact is not one disc, or it comes to where the body is no longer known.
+
+    Notes
+    -----
+    Exact for small strains, which nothing here checks: the contact radius is to be well below the radius of
+    curvature, and a soft body under a high force gets a number without a meaning.
     """
     load = _one_load(force=force, depth=depth, contact_radius=contact_radius)
-    d, a = _solve(profile, as_modulus(modulus), load[0], np.atleast_1d(np.asarray(load[1], dtype=np.float64)))
+    d, a = _solve(profile, as_modulus(modulus), load[0], np.atleast_1d(number(load[1], load[0])))
     if len(d) != 1:
         raise ValueError(f"one load is wanted, not {len(d)}: indentation_curve takes many")
     return Indentation(profile, as_modulus(modulus), float(d[0]), float(a[0]))
@@ -177,16 +184,30 @@ def indentation_curve(
     depths: Sequence[float] | Array | None = None,
     contact_radii: Sequence[float] | Array | None = None,
 ) -> IndentationCurve:
-    """Press a body of revolution at many loads; the arguments are those of `indent`, as arrays of shape (n,)."""
+    """Press a body of revolution at many loads.
+
+    The arguments are those of `indent`, as strictly increasing arrays of shape (n,).
+    """
     name, values = _one_load(force=forces, depth=depths, contact_radius=contact_radii)
-    loads = np.asarray(values, dtype=np.float64)
+    loads = number(values, name)
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
-    d, a = _solve(profile, as_modulus(modulus), name, loads)
-    return IndentationCurve(profile, as_modulus(modulus), d, a)
+    falls = np.nonzero(np.diff(loads) <= 0)[0]
+    if len(falls):
+        raise ValueError(
+            f"loads must increase strictly: {name} goes from {loads[falls[0]]:g} to {loads[falls[0] + 1]:g}"
+        )
+    return indented(profile, as_modulus(modulus), name, loads)
 
 
-def _one_load(**given: object) -> tuple[str, object]:
+def indented(
+    profile: Profile, modulus: float, name: Literal["force", "depth", "contact_radius"], loads: Array
+) -> IndentationCurve:
+    """Return the states at loads in any order, as histories have them."""
+    return IndentationCurve(profile, modulus, *_solve(profile, modulus, name, loads))
+
+
+def _one_load(**given: Any) -> tuple[Any, Any]:
     loads = [(name, value) for name, value in given.items() if value is not None]
     if len(loads) != 1:
         names = " and ".join(name for name, _ in loads) or "none"
@@ -196,6 +217,7 @@ def _one_load(**given: object) -> tuple[str, object]:
 
 def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[Array, Array]:
     """Return depths and contact radii."""
+    checked_profile(profile)
     if not (np.isfinite(loads).all() and (loads >= 0).all()):
         raise ValueError(f"loads must be finite and not negative; {name} is {loads}")
     if name == "contact_radius":
@@ -257,7 +279,7 @@ def _force(profile: Profile, modulus: float, depth: float | Array, radius: float
 
 
 def _radii(r: float | Array) -> Array:
-    radii = np.asarray(r, dtype=np.float64)
+    radii = np.asarray(number(r, "radii [m]"))
     if not (radii >= 0).all():
-        raise ValueError("radii must not be negative [m]")
+        raise ValueError(f"radii must not be negative [m], but one is {radii[~(radii >= 0)].flat[0]:g}")
     return radii

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.material import number
 from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.tables import from_function, from_samples, from_two_functions
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
@@ -35,6 +36,8 @@ __all__ = [
 
 Array = npt.NDArray[np.float64]
 
+MOST_WAVES = 2000  # of ripples: each takes two panels of a table or fewer
+
 
 def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Profile:
     """Return ``f = Q r^n``, or with a flat face of radius b ``f = Q (r^n - b^n)`` beyond it (thesis, eq. 5.2).
@@ -54,6 +57,7 @@ def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Prof
         If exponent or coefficient are not positive, or `flat` is negative.
     """
     _positive(exponent=exponent, coefficient=coefficient)
+    number("radius of a flat face", flat)
     if not (math.isfinite(flat) and flat >= 0):
         raise ValueError(f"the radius of a flat face must be 0 or above [m], not {flat}")
     return Profile(((1.0, PowerTerm(float(exponent), float(coefficient), float(flat))),))
@@ -105,10 +109,24 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     wavelength : float
         [m].
     radius : float
-        How far the body is known [m].
+        How far the body is known [m]: at most 2000 wavelengths.
+
+    Notes
+    -----
+    Tables of height and transform, to 1e-14 of their values near the axis and to the rounding of k r far out.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of range, or the waves are too many.
     """
     _positive(wavelength=wavelength, radius=radius)
-    if not math.isfinite(amplitude):
+    if radius > MOST_WAVES * wavelength:
+        raise ValueError(
+            f"{radius / wavelength:.4g} waves within the radius of {radius:g} m are more than the {MOST_WAVES} of a "
+            "table: take less of the body, or a longer wavelength"
+        )
+    if not math.isfinite(number("amplitude", amplitude)):
         raise ValueError(f"the amplitude of ripples must be finite [m], not {amplitude}")
     k = 2 * math.pi / wavelength
     # The transform turns between any two quarters of a wavelength.
@@ -118,6 +136,8 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
         lambda x: ripple_transform(amplitude, k, x),
         float(radius),
         quarters,
+        # The argument of a function of k r is known to its rounding.
+        noise=k * radius * 2.0**-52,
     )
 
 
@@ -149,7 +169,8 @@ def of(height: Callable[[Array], Array], radius: float) -> Profile:
     Parameters
     ----------
     height : callable
-        f(r) [m] of an array of radii [m]. What it is at 0 is taken off. Kinks are found; derivatives are not needed.
+        f(r) [m] of an array of radii [m] (``np.cosh``, not ``math.cosh``). What it is at 0 is taken off. Kinks are
+        found; derivatives are not needed.
     radius : float
         How far the body is known [m]. A load whose contact comes as far is refused; `Profile.cut` makes an edge.
 
@@ -199,5 +220,6 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
+        number(name, value)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")

@@ -8,6 +8,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1, zeta
 
+from roughcontact.material import number
+from roughcontact.theory.tools.domain import count
+
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
 
 Array = npt.NDArray[np.float64]
@@ -40,7 +43,7 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     Raises
     ------
     ValueError
-        If H is below -1 or not finite, or `modes` is below 1.
+        If H is below -1 or not finite, or `modes` is no whole number from 1 up.
 
     Notes
     -----
@@ -122,7 +125,8 @@ def _rings(first: int, last: int) -> Array:
 
 
 def _check(hurst: float, modes: int | None) -> None:
+    number("Hurst exponent", hurst)
     if not (math.isfinite(hurst) and hurst >= -1):
         raise ValueError(f"hurst must be finite and at least -1 (white heights), not {hurst}")
-    if modes is not None and not modes >= 1:
-        raise ValueError(f"a grid needs at least one wave to a side, not modes = {modes}")
+    if modes is not None:
+        count("modes, the waves to a side,", modes)

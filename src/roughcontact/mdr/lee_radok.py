@@ -18,7 +18,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
-from roughcontact.mdr.viscoelastic import Viscoelastic
+from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
+from roughcontact.theory.tools.domain import number, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -100,21 +101,26 @@ def transfer(
     Raises
     ------
     ValueError
-        If the contact shrinks at some time, a load leaves the curve, or a depth jumps into a dashpot.
+        If an argument is of the wrong kind, the contact shrinks at some time, a load leaves the curve, or a depth
+        jumps into a dashpot.
     """
     if (forces is None) == (depths is None):
         raise ValueError("give exactly one of forces and depths")
-    t = np.asarray(times, dtype=np.float64)
-    given = np.asarray(depths if forces is None else forces, dtype=np.float64)
+    checked_material(material)
+    missing = [name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)]
+    if missing:
+        raise ValueError(
+            "an elastic loading curve is wanted, such as rc.loading_curve and indentation_curve return, not "
+            f"{shown(curve)} without {', '.join(missing)}"
+        )
+    t = np.asarray(number(times, "times [s]"))
+    given = np.asarray(number(depths if forces is None else forces, "loads"))  # type: ignore[arg-type]
     load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
     if t.ndim != 1 or not len(t) or t.shape != load.shape:
         raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
-    if not (
-        np.isfinite(t).all() and np.isfinite(load).all() and (np.diff(t) >= 0).all() and (load >= 0).all()
-    ):
-        raise ValueError(
-            "times and loads must be finite, loads not negative, and times must not run backwards"
-        )
+    ordered(t, load)
+    if (load < 0).any():
+        raise ValueError(f"loads must not be negative, but the least is {load.min():g}")
     table = _Table.of(curve)
     if forces is None:
         _growing(t, load, "depth")

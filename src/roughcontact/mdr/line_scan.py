@@ -19,6 +19,7 @@ from roughcontact.surface.analysis.cut import surface_spectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.domain import shown
 
 __all__ = ["scan_curves", "scan_spectrum"]
 
@@ -69,6 +70,8 @@ def scan_spectrum(
     directions and places; that its phases are random, so that the spectrum says all; and that the instrument
     follows the surface up to `q_max`.
     """
+    if not isinstance(scan, Surface):
+        raise ValueError(f"a line scan is a Surface on a grid of one axis, not {shown(scan)}")
     if scan.grid.ndim != 1:
         raise ValueError(
             "a line scan has one axis; a map has a spectrum C2D of its own: line_spectrum(power_spectrum(surface))"

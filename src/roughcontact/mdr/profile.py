@@ -9,7 +9,9 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Profile", "Term"]
+from roughcontact.theory.tools.domain import number, shown
+
+__all__ = ["Profile", "Term", "checked_profile"]
 
 Array = npt.NDArray[np.float64]
 
@@ -111,6 +113,7 @@ class Profile:
         ValueError
             If the radius is not positive, or the body is not known so far out.
         """
+        number(radius, "the radius of a cut [m]")
         if not (math.isfinite(radius) and 0 < radius <= self.radius):
             raise ValueError(f"the radius of a cut must lie between 0 and {self.radius:g} m, not {radius}")
         return replace(self, radius=float(radius), edge=True)
@@ -147,8 +150,17 @@ class Profile:
         return f"Profile({parts}{end})"
 
 
+def checked_profile(profile: Profile) -> Profile:
+    """Return a body of revolution, or say that this is none."""
+    if not isinstance(profile, Profile):
+        raise ValueError(
+            f"a body of revolution is wanted, such as indenter.paraboloid(radius), not {shown(profile)}"
+        )
+    return profile
+
+
 def _radii(x: float | Array) -> Array:
-    x = np.asarray(x, dtype=np.float64)
+    x = np.asarray(number(x, "radii [m]"))
     if (x < 0).any():
         raise ValueError(f"radii must not be negative [m], but the least is {x.min():g}")
     return x

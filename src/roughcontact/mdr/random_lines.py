@@ -12,6 +12,8 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.waves import Spectrum, multiplicity, wave_powers
+from roughcontact.theory.tools.domain import count as whole
+from roughcontact.theory.tools.domain import shown
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
@@ -57,8 +59,7 @@ def rough_lines(
     ValueError
         If an argument is out of range, or no wave of the grid lies inside the limits of the spectrum.
     """
-    if count < 1:
-        raise ValueError(f"count must be at least one line, not {count}")
+    whole("count, the number of lines,", count)
     _check(rng, amplitudes)
     amplitude = _amplitude(grid, spectrum, rms)
     rows = max(1, BATCH // grid.size)
@@ -101,10 +102,12 @@ def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | N
 
 def _amplitude(grid: Grid, spectrum: Spectrum, rms: float | None) -> Array:
     """Return B [m] at every wavenumber (thesis, eq. 2.11)."""
-    if grid.ndim != 1:
+    if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a line has a grid of one axis: Grid(n, spacing)")
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
+    if not callable(spectrum):
+        raise ValueError(f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}")
     powers = wave_powers(spectrum, grid.shape, grid.spacing)
     if rms is not None:
         powers *= rms**2 / float(powers @ multiplicity(grid.shape))

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus
-from roughcontact.mdr.indentation import indentation_curve
+from roughcontact.material import Solid, as_modulus, number
+from roughcontact.mdr.indentation import indented
 from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.roots import bisect
+from roughcontact.theory.tools.domain import count
+from roughcontact.theory.tools.domain import number as real
 
 __all__ = ["SlipHistory", "slip_history"]
 
@@ -93,14 +96,11 @@ def slip_history(
     Between two states all loads change in proportion, and each step is exact for each spring.
     """
     normal, tangential, loads = _histories(normal_force, depth, force, displacement)
-    E, G, mu = as_modulus(modulus), float(shear_modulus), float(friction)
-    if not (G > 0 and mu > 0 and springs >= 1):
-        raise ValueError(f"shear_modulus, friction and springs must be positive, not {G}, {mu} and {springs}")
-    curve = (
-        indentation_curve(profile, E, forces=loads[0])
-        if normal == "force"
-        else indentation_curve(profile, E, depths=np.maximum(loads[0], 0))
-    )
+    E, G, mu = as_modulus(modulus), number("shear_modulus", shear_modulus), number("friction", friction)
+    if not (G > 0 and mu > 0):
+        raise ValueError(f"shear_modulus and friction must be positive, not {G} and {mu}")
+    count("springs", springs)
+    curve = indented(profile, E, normal, loads[0] if normal == "force" else np.maximum(loads[0], 0))
     depths = curve.depth if normal == "force" else loads[0]
     width = float(curve.contact_radius.max()) / springs
     places: Array = width * (np.arange(springs, dtype=np.float64) + 0.5)
@@ -129,7 +129,7 @@ def slip_history(
 
 def _histories(
     normal_force: History | None, depth: History | None, force: History | None, displacement: History | None
-) -> tuple[str, str, Array]:
+) -> tuple[Literal["force", "depth"], Literal["force", "displacement"], Array]:
     """Return which loads are given, and both histories, shape (2, n)."""
     if (normal_force is None) == (depth is None):
         raise ValueError("give exactly one of normal_force and depth")
@@ -137,12 +137,18 @@ def _histories(
         raise ValueError("give exactly one of force and displacement")
     first = normal_force if depth is None else depth
     second = force if displacement is None else displacement
-    pair = np.broadcast_arrays(np.atleast_1d(first), np.atleast_1d(second))  # type: ignore[arg-type]
-    loads = np.array(pair, dtype=np.float64)
-    if loads.ndim != 2 or not np.isfinite(loads).all():
+    pair = [np.atleast_1d(real(values, "a history")) for values in (first, second)]  # type: ignore[arg-type]
+    if (
+        any(one.ndim != 1 for one in pair)
+        or len({one.size for one in pair} - {1}) > 1
+        or not all(one.size for one in pair)
+    ):
         raise ValueError(
-            f"histories are finite numbers, or lists of them of one length, not of shape {loads.shape[1:]}"
+            f"histories are numbers, or lists of one length, not of shapes {pair[0].shape} and {pair[1].shape}"
         )
+    loads = np.array(np.broadcast_arrays(*pair))
+    if not np.isfinite(loads).all():
+        raise ValueError(f"histories must be finite, not {loads[~np.isfinite(loads)][0]}")
     return "force" if depth is None else "depth", "force" if displacement is None else "displacement", loads
 
 

@@ -6,10 +6,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
+from roughcontact.material import number
 from roughcontact.mdr.panels import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.terms import TableTerm
 from roughcontact.mdr.transform import FUNCTION, height_of, transform_of
+from roughcontact.theory.tools.domain import shown
 
 __all__ = ["from_function", "from_samples", "from_two_functions"]
 
@@ -21,9 +23,18 @@ FALL = 1e-9  # and of the value from which it falls
 
 def from_function(function: Function, radius: float, *, transformed: bool) -> Profile:
     """Return the body whose height, or whose transform, is a function of the radius."""
+    number("radius", radius)
     if not (np.isfinite(radius) and radius > 0):
         raise ValueError(f"say how far the body is known: a radius above 0 [m], not {radius}")
-    start = float(np.asarray(function(np.zeros(1)), dtype=np.float64).ravel()[0])
+    if not callable(function):
+        raise ValueError(f"a function of the radius is wanted, not {shown(function)}: sampled takes samples")
+    try:
+        # Two, since a function of single numbers may take an array of one.
+        start = float(np.asarray(function(np.zeros(2)), dtype=np.float64).ravel()[0])
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            f"the function must take an array of radii, as np.cosh does and math.cosh does not, but: {error}"
+        ) from error
     if not np.isfinite(start):
         raise ValueError(f"the function must be finite at its apex, not {start} at radius 0")
     return _profile(fit(lambda x: function(x) - start, radius, tolerance=FUNCTION), transformed)
@@ -43,10 +54,10 @@ def from_samples(places: Array, values: Array, *, sharp: bool, transformed: bool
 
 
 def from_two_functions(
-    height: Function, transform: Function, radius: float, breaks: tuple[float, ...]
+    height: Function, transform: Function, radius: float, breaks: tuple[float, ...], *, noise: float = 0.0
 ) -> Profile:
-    """Return the body whose height and transform are both known functions of the radius."""
-    f, g = (fit(function, radius, tolerance=FUNCTION) for function in (height, transform))
+    """Return the body whose height and transform are both known functions, to a relative `noise`, of the radius."""
+    f, g = (fit(function, radius, tolerance=max(FUNCTION, noise)) for function in (height, transform))
     return _tabled(f, g, _flat(f), breaks)
 
 

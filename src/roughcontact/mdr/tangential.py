@@ -14,7 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.material import number
 from roughcontact.mdr.indentation import Indentation, indent
+from roughcontact.theory.tools.domain import shown
 
 __all__ = ["PartialSlip", "partial_slip"]
 
@@ -125,13 +127,17 @@ def partial_slip(
     Exact where all slip has the direction of the force, for nu = 0. Otherwise the small slip across it is left out, and
     so is the coupling of normal and tangential displacements (Johnson, Contact Mechanics, 1985, section 7.2).
     """
+    if not isinstance(indentation, Indentation):
+        raise ValueError(
+            f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}"
+        )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
+        value = number(name, value)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")
     if (force is None) == (displacement is None):
         raise ValueError("give exactly one of force and displacement")
-    given = force if displacement is None else displacement
-    assert given is not None
+    given = number("tangential load", force if displacement is None else displacement)
     if not (math.isfinite(given) and given >= 0):
         raise ValueError(
             f"a tangential load must be finite and not negative, not {given}: only its size matters"

@@ -19,7 +19,21 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-__all__ = ["Creep", "Viscoelastic", "kelvin_voigt", "maxwell", "prony", "standard_solid", "viscous"]
+from roughcontact.material import number
+from roughcontact.theory.tools.domain import number as real
+from roughcontact.theory.tools.domain import shown
+
+__all__ = [
+    "Creep",
+    "Viscoelastic",
+    "checked_material",
+    "kelvin_voigt",
+    "maxwell",
+    "ordered",
+    "prony",
+    "standard_solid",
+    "viscous",
+]
 
 Array = npt.NDArray[np.float64]
 
@@ -45,7 +59,7 @@ class Creep:
 
     def __call__(self, time: float | Array) -> Array:
         """Return J(t) [1/Pa] at times >= 0 [s]."""
-        t = np.asarray(time, dtype=np.float64)
+        t = _times(time)
         retarded = (J * -np.expm1(-t / theta) for J, theta in zip(self.compliances, self.times, strict=True))
         return self.instantaneous + self.fluidity * t + sum(retarded)
 
@@ -81,6 +95,10 @@ class Viscoelastic:
             raise ValueError(
                 f"each modulus wants its time: {len(self.moduli)} and {len(self.times)} are given"
             )
+        for name, values in (("modulus", (self.equilibrium, *self.moduli)), ("time", self.times)):
+            for value in values:
+                number(f"{name} of a viscoelastic material", value)
+        number("viscosity", self.dashpot)
         if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
             raise ValueError(
                 f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}"
@@ -98,8 +116,8 @@ class Viscoelastic:
         return self.equilibrium + math.fsum(self.moduli)
 
     def relaxation(self, time: float | Array) -> Array:
-        """Return E(t) [Pa] at times > 0 [s]; a dashpot adds its pulse c delta(t)."""
-        t = np.asarray(time, dtype=np.float64)
+        """Return E(t) [Pa] at times >= 0 [s], at 0 what follows at once; a dashpot adds its pulse c delta(t)."""
+        t = _times(time)
         return self.equilibrium + sum(
             (E * np.exp(-t / tau) for E, tau in zip(self.moduli, self.times, strict=True)), np.zeros_like(t)
         )
@@ -135,12 +153,14 @@ class Viscoelastic:
 
 def viscous(viscosity: float) -> Viscoelastic:
     """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt."""
-    return Viscoelastic(dashpot=4 * viscosity)
+    return Viscoelastic(dashpot=4 * number("viscosity", viscosity))
 
 
 def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
     """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s]."""
-    return Viscoelastic(equilibrium=modulus, dashpot=modulus * retardation_time)
+    return Viscoelastic(
+        equilibrium=modulus, dashpot=number("modulus", modulus) * number("retardation time", retardation_time)
+    )
 
 
 def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
@@ -158,7 +178,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     relaxation_time : float
         tau [s].
     """
-    if not 0 < equilibrium < instantaneous:
+    if not 0 < number("equilibrium modulus", equilibrium) < number("instantaneous modulus", instantaneous):
         raise ValueError(
             f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
             f"not to {equilibrium} Pa"
@@ -168,7 +188,46 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
 
 def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
     """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s]."""
-    return Viscoelastic(float(equilibrium), tuple(map(float, moduli)), tuple(map(float, times)))
+    lists = [np.asarray(real(values, name)) for name, values in (("moduli", moduli), ("times", times))]
+    if any(values.ndim != 1 for values in lists):
+        raise ValueError(
+            "moduli and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
+            f"not {shown(moduli)} and {shown(times)}"
+        )
+    E, tau = (tuple(values.tolist()) for values in lists)
+    return Viscoelastic(number("equilibrium modulus", equilibrium), E, tau)
+
+
+def checked_material(material: Viscoelastic) -> Viscoelastic:
+    """Return a viscoelastic material, or say that this is none."""
+    if not isinstance(material, Viscoelastic):
+        raise ValueError(
+            "a viscoelastic material is wanted, such as standard_solid(equilibrium, instantaneous, relaxation_time), "
+            f"not {shown(material)}"
+        )
+    return material
+
+
+def ordered(times: Array, loads: Array) -> None:
+    """Refuse a history whose numbers are not finite, or whose times run backwards."""
+    for name, values in (("times", times), ("loads", loads)):
+        wrong = values[~np.isfinite(values)]
+        if wrong.size:
+            raise ValueError(f"{name} must be finite, not {wrong[0]}")
+    back = np.nonzero(np.diff(times) < 0)[0]
+    if len(back):
+        raise ValueError(
+            f"times must not run backwards, as from {times[back[0]]:g} to {times[back[0] + 1]:g} s"
+        )
+
+
+def _times(time: float | Array) -> Array:
+    t = np.asarray(real(time, "time [s]"))
+    if not (t >= 0).all():
+        raise ValueError(
+            f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: nothing responds before the load"
+        )
+    return t
 
 
 def _zero(balance: Callable[[float], float], low: float, high: float) -> float:

@@ -15,10 +15,11 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.roots import bisect
-from roughcontact.mdr.viscoelastic import Viscoelastic
+from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
+from roughcontact.theory.tools.domain import count, number
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
 
@@ -81,6 +82,7 @@ def depth_history(
     ValueError
         If the history makes no sense, or jumps into a dashpot.
     """
+    checked_material(material)
     t, d = _history(times, depths)
     if not (d > 0).any():
         raise ValueError(f"the body never touches: its largest depth is {d.max():g} m")
@@ -132,6 +134,7 @@ def force_history(
     ValueError
         If the history makes no sense.
     """
+    checked_material(material)
     t, F = _history(times, forces)
     if (F < 0).any() or not F.any():
         raise ValueError(
@@ -206,24 +209,21 @@ def _depth(force: Callable[[float], float], goal: float, start: float, scale: fl
 
 
 def _history(times: Sequence[float] | Array, loads: Sequence[float] | Array) -> tuple[Array, Array]:
-    t, load = np.asarray(times, dtype=np.float64), np.asarray(loads, dtype=np.float64)
+    t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
     if t.ndim != 1 or t.shape != load.shape or not len(t):
         raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
-    if not (np.isfinite(t).all() and np.isfinite(load).all() and (np.diff(t) >= 0).all()):
-        raise ValueError("times and loads must be finite, and times must not run backwards")
+    ordered(t, load)
     return t, load
 
 
 def _foundation(
     profile: Profile, material: Viscoelastic, top: float, springs: int
 ) -> tuple[ViscoelasticFoundation, float]:
-    if not profile.rises:
+    if not checked_profile(profile).rises:
         raise ValueError(
             "on a body whose transform falls somewhere the contact is not one disc at every load"
         )
-    if springs < 1:
-        raise ValueError(f"at least one spring is wanted, not {springs}")
-    width = top / springs
+    width = top / count("springs", springs)
     # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
     places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
     return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius])), width

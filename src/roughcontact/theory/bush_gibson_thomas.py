@@ -21,11 +21,11 @@ from scipy.special import erfc, ndtri_exp
 from roughcontact.theory.hertz.elliptic import elliptic as hertz
 from roughcontact.theory.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.nayak import bandwidth, free_variance
 from roughcontact.theory.summit_integrals import log_integrals
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import positive, require
+from roughcontact.theory.tools.domain import number, positive, require
 
 __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
 
@@ -117,6 +117,7 @@ class Summits:
         require(
             load <= highest * (1 + 1e-12),
             f"at {highest:.4g} Pa the flat reaches the mean plane of the surface: more is no contact of summits",
+            load,
         )
         plane = np.full(np.shape(load), np.inf)
         target = np.log(load[load > 0] / self._force_scale)
@@ -154,9 +155,9 @@ class Summits:
 
     def _plane(self, separation: float | Array) -> Array:
         """Return the height of the flat above the mean plane of the surface, in sqrt(m0)."""
-        s = np.asarray(separation, dtype=np.float64)
+        s = number(separation, "the separation [m]")
         require(
-            s >= 0, "a separation must not be negative: the flat would pass the mean plane of the surface"
+            s >= 0, "a separation must not be negative: the flat would pass the mean plane of the surface", s
         )
         return np.asarray(np.minimum(s / self.scale, INFINITY))
 
@@ -180,7 +181,7 @@ def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulu
     comes near it only at contact fractions far below any real one: with Nayak's parameter 100, the area at 1 % is half
     of it.
     """
-    slope = math.sqrt(positive(moments.m2, "the moment m2"))
+    slope = math.sqrt(moment(moments, "m2"))
     ratio = positive(pressure, "the pressure [Pa]", zero=True) / positive(modulus, "the reduced modulus [Pa]")
     return np.asarray(math.sqrt(math.pi) / slope * ratio)
 
@@ -191,7 +192,7 @@ def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modu
     The contact area is then half of what lies above the flat. Within a few per cent from s = 3 sqrt(m0) on if Nayak's
     parameter is near 2, much later for wide spectra.
     """
-    m0, m2 = (float(positive(getattr(moments, name), f"the moment {name}")) for name in ("m0", "m2"))
+    m0, m2 = moment(moments, "m0"), moment(moments, "m2")
     height = np.asarray(separation, dtype=np.float64) / math.sqrt(2 * m0)
     return np.asarray(
         float(positive(modulus, "the reduced modulus [Pa]")) * math.sqrt(m2 / math.pi) * erfc(height) / 4

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require, scalar
 
 __all__ = ["SlippingSphere"]
 
@@ -31,12 +31,12 @@ class SlippingSphere:
     friction : float
         Coefficient of friction mu [-].
     ratio : float
-        E*/G* [-], see `mindlin.ratio`.
+        E*/G* [-], see `mindlin.ratio`: 1 to 1.5, and not below 0.75 for negative Poisson's ratios.
 
     Raises
     ------
     ValueError
-        If a number is not positive and finite.
+        If a number is not positive and finite, or no solids have the ratio.
     """
 
     force: float
@@ -47,7 +47,13 @@ class SlippingSphere:
 
     def __post_init__(self) -> None:
         for name in ("force", "radius", "modulus", "friction", "ratio"):
-            positive(getattr(self, name), f"the {name}")
+            positive(scalar(getattr(self, name), f"the {name}"), f"the {name}")
+        # Poisson's ratio goes from -1 to 1/2; the last digits are left to the rounding of `pair_ratio`.
+        require(
+            0.75 * (1 - 1e-12) <= self.ratio <= 1.5 * (1 + 1e-12),
+            "the ratio E*/G* of a round contact lies from 1 to 1.5, or from 0.75 with negative Poisson's ratios: "
+            f"mindlin.ratio(poisson_ratio) gives it; not {self.ratio}",
+        )
 
     @property
     def contact_radius(self) -> float:

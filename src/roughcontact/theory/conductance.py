@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, number, positive, require, shown
 
 __all__ = [
     "electrical",
@@ -50,7 +50,7 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
     ValueError
         If a number is negative, or both bodies are superconductors: then nothing limits the current.
     """
-    first, second = _not_negative(resistivities, "a resistivity [ohm m]")
+    first, second = _both(resistivities, "a resistivity [ohm m]")
     require(first + second > 0, "between two bodies without resistivity the conductance has no limit")
     return np.asarray(_lengths(stiffness, modulus) * 2 / (first + second))
 
@@ -80,7 +80,7 @@ def stiffness_from_thermal(conductance: float | Array, modulus: float, conductiv
 
 def harmonic_mean(conductivities: Pair) -> float:
     """Return the conductivity of two bodies in series, ``2/(1/lambda1 + 1/lambda2)`` [W/(m K)]."""
-    given = _not_negative(conductivities, "a conductivity [W/(m K)]")
+    given = _both(conductivities, "a conductivity [W/(m K)]")
     require(
         np.isfinite(given).any(), "between two bodies of infinite conductivity the conductance has no limit"
     )
@@ -155,6 +155,13 @@ def _inverse(
 
 def _not_negative(values: npt.ArrayLike, what: str) -> Array:
     """Return numbers from 0 to infinity: full contact is infinitely stiff, and there are insulators."""
-    given = np.asarray(values, dtype=np.float64)
-    require(given >= 0, f"{what} must not be negative or missing, not {values!r}")
+    given = np.asarray(number(values, what))
+    require(given >= 0, f"{what} must not be negative or missing", given)
+    return given
+
+
+def _both(values: Pair, what: str) -> Array:
+    """Return the numbers of both bodies."""
+    given = _not_negative(values, what)
+    require(given.shape == (2,), f"{what} of each of both bodies is wanted, not {shown(values)}")
     return given

@@ -96,7 +96,7 @@ def small_force(
         If the depth exceeds 2 h0: all springs touch.
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
-    require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force")
+    require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force", d)
     value: Array = 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
     return value
 

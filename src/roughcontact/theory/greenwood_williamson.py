@@ -20,7 +20,7 @@ from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import positive, require
+from roughcontact.theory.tools.domain import number, positive, require, scalar, shown
 
 __all__ = ["Asperity", "Population", "law", "population"]
 
@@ -52,14 +52,14 @@ class Asperity:
     def __post_init__(self) -> None:
         positive(self.coefficient, "the coefficient of an asperity")
         positive(self.modulus, "the reduced modulus [Pa]")
-        require(
-            1 <= self.exponent <= 11, f"an asperity's exponent must lie from 1 to 11, not {self.exponent}"
-        )
+        n = scalar(self.exponent, "the exponent of an asperity")
+        require(1 <= n <= 11, f"an asperity's exponent must lie from 1 to 11, not {n}")
 
     @classmethod
     def hertz(cls, radius: float, modulus: float) -> Asperity:
         """Return a sphere of the given radius [m] on a body of reduced modulus [Pa]."""
-        return cls(4 / 3 * modulus * math.sqrt(positive(radius, "the radius [m]")), 1.5, modulus)
+        reduced = float(positive(modulus, "the reduced modulus [Pa]"))
+        return cls(4 / 3 * reduced * math.sqrt(positive(radius, "the radius [m]")), 1.5, reduced)
 
     @property
     def area_coefficient(self) -> float:
@@ -83,6 +83,11 @@ class Population:
         Mean of their heights above the mean plane of the surface [m]. Separations are counted from that plane.
     distribution : {"gaussian", "exponential"}
         Of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at `mean_height - std`.
+
+    Raises
+    ------
+    ValueError
+        If the asperity is none, or a number is out of range.
     """
 
     asperity: Asperity
@@ -92,11 +97,16 @@ class Population:
     distribution: Distribution = "gaussian"
 
     def __post_init__(self) -> None:
+        if not isinstance(self.asperity, Asperity):
+            raise ValueError(
+                f"an Asperity is wanted, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}"
+            )
         positive(self.density, "the density of asperities [1/m^2]")
         positive(self.std, "the standard deviation of asperity heights [m]")
-        require(math.isfinite(self.mean_height), f"mean_height must be finite [m], not {self.mean_height}")
+        mean = scalar(self.mean_height, "mean_height [m]")
+        require(math.isfinite(mean), f"mean_height must be finite [m], not {mean}")
         require(
-            self.distribution in DISTRIBUTIONS,
+            isinstance(self.distribution, str) and self.distribution in DISTRIBUTIONS,
             f"distribution must be one of {sorted(DISTRIBUTIONS)}, not {self.distribution!r}",
         )
 
@@ -107,8 +117,8 @@ class Population:
 
     @property
     def lowest(self) -> float:
-        """The smallest separation that the flat may have [m]: that of the lowest exponential height."""
-        return self.origin if self.distribution == "exponential" else -math.inf
+        """The smallest separation that the flat may have [m]: 0, or that of the lowest exponential height."""
+        return max(0.0, self.origin) if self.distribution == "exponential" else 0.0
 
     @property
     def scale(self) -> float:
@@ -121,7 +131,8 @@ class Population:
         Raises
         ------
         ValueError
-            For exponential heights, if the flat lies below the lowest asperity.
+            If the separation is below `lowest`: the flat would pass the mean plane of the surface, or touch every
+            asperity of exponential heights, and there the theory says nothing.
         """
         return self._above(separation, self.asperity.coefficient, self.asperity.exponent)
 
@@ -151,23 +162,27 @@ class Population:
         Raises
         ------
         ValueError
-            If a pressure is negative. For exponential heights also if it pushes the flat below the lowest asperity.
+            If a pressure is negative, or pushes the flat below `lowest`.
         """
         load = positive(pressure, "the pressure [Pa]", zero=True)
+        highest = float(self.pressure(self.lowest))
+        require(load <= highest * (1 + ROUNDING), f"at {highest:.4g} Pa the flat {self._end()}", load)
         n, plane = self.asperity.exponent, np.full(np.shape(load), np.inf)
         scale = self.density * self.asperity.coefficient * self.std**n
         plane[load > 0] = self._plane(np.log(load[load > 0] / scale))
-        return np.asarray(self.origin + self.std * plane)
+        return np.maximum(self.origin + self.std * plane, self.lowest)
+
+    def _end(self) -> str:
+        """Say what ends the theory."""
+        if self.lowest > 0:
+            return "touches every asperity, and lower the exponential law does not hold"
+        return "reaches the mean plane of the surface: more is no contact of asperities"
 
     def _plane(self, log_moment: Array) -> Array:
         """Return the standardised height t of the flat at which ln F_n(t) has a value, n the asperity's exponent."""
         n, log_at = self.asperity.exponent, DISTRIBUTIONS[self.distribution]
         if self.distribution == "exponential":
-            plane = gammaln(n + 1) - log_moment
-            require(
-                plane > -ROUNDING, "this pressure pushes the flat below the lowest of the exponential heights"
-            )
-            return np.asarray(np.maximum(plane, 0.0))
+            return np.asarray(gammaln(n + 1) - log_moment)
 
         def log_load(plane: Array) -> tuple[Array, Array]:
             value = log_at(n, plane)
@@ -180,7 +195,13 @@ class Population:
 
     def _above(self, separation: float | Array, coefficient: float, order: float) -> Array:
         """Return the mean per area of ``coefficient * excess**order`` over the asperities above the flat."""
-        plane = (np.asarray(separation, dtype=np.float64) - self.origin) / self.std
+        height = number(separation, "the separation [m]")
+        require(
+            height >= self.lowest - ROUNDING * self.std,
+            f"a separation must be at least {self.lowest:.4g} m, where the flat {self._end()}",
+            height,
+        )
+        plane = (height - self.origin) / self.std
         if self.distribution == "exponential":
             plane = np.where(np.abs(plane) < ROUNDING, 0.0, plane)
         moment = np.exp(DISTRIBUTIONS[self.distribution](order, plane))

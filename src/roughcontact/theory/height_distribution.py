@@ -187,7 +187,7 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
         beta, above -1: below, the density has no integral.
     """
     beta = np.asarray(density_exponent, dtype=np.float64)[()]
-    require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise")
+    require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
     value: Array = (beta + 1) / (beta + 2)
     return value
 
@@ -221,7 +221,7 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
         Number N of waves, at least 1.
     """
     n = positive(modes, "modes")
-    require(n >= 1, "modes must be at least 1")
+    require(n >= 1, "modes must be at least 1", n)
     value: Array = (np.log2(n) - 1) / 2
     return value
 

@@ -5,8 +5,9 @@ displacement is mu E*/G* times what the depth has gained, and the region that st
 (Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27 (1998)). Exact on a line and
 for Poisson's ratio 0; else slip is taken to go along the force, and the ratio E*/G* for that of a disc.
 
-F stays constant while Q rises from zero. `loading` is a law that predicts ``"depth"``; for a computed curve,
-``LoadingLaw("computed", "", {"depth": lambda f: np.interp(f, curve.force, curve.depth)})``.
+F stays constant while Q rises from zero. `loading` is a law that predicts ``"depth"`` or ``"stiffness"``, or a computed
+curve: it is interpolated by monotone cubics in the logarithms from its lowest to its highest force, has the depth 0
+without force, and is refused elsewhere.
 """
 
 from __future__ import annotations
@@ -15,20 +16,27 @@ import numpy as np
 from scipy.integrate import quad
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.computed import ComputedCurve, as_law
+from roughcontact.theory.tools.domain import Array, positive, require, scalar
 
 __all__ = ["cycle_loss", "displacement", "stiffness"]
 
 
 def displacement(
-    loading: LoadingLaw, force: float, tangential: float | Array, *, friction: float, ratio: float
+    loading: LoadingLaw | ComputedCurve,
+    force: float,
+    tangential: float | Array,
+    *,
+    friction: float,
+    ratio: float,
 ) -> Array:
     """Return the tangential displacement [m], ``mu (E*/G*) [d(F) - d(F - Q/mu)]``.
 
     Parameters
     ----------
-    loading : LoadingLaw
-        That predicts the depth d of the frictionless contact.
+    loading : LoadingLaw or computed curve
+        Depth d of the frictionless contact as a function of the force: a law that predicts it, or a curve with
+        arrays ``force``, ``depth`` and ``stiffness``, such as a `Curve` or an `IndentationCurve`.
     force : float
         Normal force F [N].
     tangential : float or array
@@ -41,47 +49,66 @@ def displacement(
     Raises
     ------
     ValueError
-        If the law knows no depth, a number is out of range, or Q above mu F.
+        If the law knows no depth, or not at F and F - Q/mu, a number is out of range, or Q above mu F.
     """
-    held = _held(force, tangential, friction)
-    gained = loading.predict("depth", positive(force, "the force [N]")) - loading.predict("depth", held)
+    law, held = as_law(loading), _held(force, tangential, friction)
+    gained = _known(law, "depth", positive(force, "the force [N]")) - _known(law, "depth", held)
     return np.asarray(friction * positive(ratio, "the ratio E*/G*") * gained)
 
 
 def stiffness(
-    loading: LoadingLaw, force: float, tangential: float | Array, *, friction: float, ratio: float
+    loading: LoadingLaw | ComputedCurve,
+    force: float,
+    tangential: float | Array,
+    *,
+    friction: float,
+    ratio: float,
 ) -> Array:
     """Return dQ/d displacement [N/m], ``(G*/E*) k(F - Q/mu)``, of a law that predicts the stiffness k.
 
     Parameters as of `displacement`.
     """
     held = _held(force, tangential, friction)
-    return np.asarray(loading.predict("stiffness", held) / positive(ratio, "the ratio E*/G*"))
+    return np.asarray(_known(as_law(loading), "stiffness", held) / positive(ratio, "the ratio E*/G*"))
 
 
 def cycle_loss(
-    loading: LoadingLaw, force: float, amplitude: float, *, friction: float, ratio: float
+    loading: LoadingLaw | ComputedCurve, force: float, amplitude: float, *, friction: float, ratio: float
 ) -> float:
     """Return the work [J] that friction takes in a cycle between +Q1 and -Q1 [N].
 
     ``W = 4 Q1 D(Q1) - 8 int_0^Q1 D dQ``, D the displacement as Q rises from zero: the branches of a cycle are
     copies of that curve at twice the scale (Masing's rule). Parameters as of `displacement`.
     """
+    law = as_law(loading)
 
     def rise(tangential: float) -> float:
-        return float(displacement(loading, force, tangential, friction=friction, ratio=ratio))
+        return float(displacement(law, force, tangential, friction=friction, ratio=ratio))
 
+    positive(scalar(amplitude, "the amplitude [N]"), "the amplitude [N]", zero=True)
     area, _ = quad(rise, 0, amplitude, epsabs=0, epsrel=1e-10, limit=200)
     return 4 * amplitude * rise(amplitude) - 8 * area
 
 
 def _held(force: float, tangential: float | Array, friction: float) -> Array:
     """Return the force F - Q/mu [N] whose contact sticks."""
+    pressed = float(positive(scalar(force, "the force [N]"), "the force [N]"))
     pulled = positive(tangential, "the tangential force [N]", zero=True) / positive(
         friction, "the friction coefficient"
     )
     require(
-        pulled <= positive(force, "the force [N]"),
-        f"a tangential force above mu F = {friction * force:g} N is not to be had: the contact slides",
+        pulled <= pressed,
+        f"a tangential force above mu F = {friction * pressed:g} N is not to be had: the contact slides",
     )
-    return np.asarray(force - pulled)
+    return np.asarray(pressed - pulled)
+
+
+def _known(law: LoadingLaw, quantity: str, force: Array) -> Array:
+    """Return a quantity at forces [N], and refuse those at which the law does not know it."""
+    values = law.predict(quantity, force)
+    require(
+        ~np.isnan(values),
+        f"{law.name} has no {quantity} at every force from F - Q/mu to F: take a smaller Q, or a curve of more points",
+        force,
+    )
+    return values

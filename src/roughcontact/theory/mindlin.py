@@ -13,11 +13,9 @@ from __future__ import annotations
 import math
 from typing import Literal, Protocol
 
-import numpy as np
-
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, number, positive, require, scalar, shown
 
 __all__ = [
     "ElasticSolid",
@@ -55,9 +53,9 @@ def ratio(poisson_ratio: float) -> float:
     ValueError
         If Poisson's ratio is not above -1 and at most 1/2.
     """
-    allowed = -1 < poisson_ratio <= 0.5
-    require(allowed, f"Poisson's ratio must be above -1 and at most 0.5, not {poisson_ratio}")
-    return (2 - poisson_ratio) / (2 * (1 - poisson_ratio))
+    nu = scalar(poisson_ratio, "Poisson's ratio")
+    require(-1 < nu <= 0.5, f"Poisson's ratio must be above -1 and at most 0.5, not {nu}")
+    return (2 - nu) / (2 * (1 - nu))
 
 
 def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float:
@@ -66,9 +64,12 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     Raises
     ------
     ValueError
-        If both are rigid.
+        If both are rigid, or one is no solid.
     """
     bodies = (first,) if second is None else (first, second)
+    for body in bodies:
+        if not (hasattr(body, "shear_modulus") and hasattr(body, "poisson_ratio")):
+            raise ValueError(f"a solid with shear_modulus and poisson_ratio is wanted, not {shown(body)}")
     sideways = sum((2 - body.poisson_ratio) / (4 * body.shear_modulus) for body in bodies)
     inwards = sum((1 - body.poisson_ratio) / (2 * body.shear_modulus) for body in bodies)
     require(inwards > 0, "two rigid bodies have no stiffness: give one of them a finite shear modulus")
@@ -77,9 +78,9 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
 
 def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
     """Return k_t [N/m] of a contact without slip from its normal stiffness k [N/m] (thesis, eqs 4.5 and 7.5)."""
-    k = np.asarray(stiffness, dtype=np.float64)
+    k = number(stiffness, "the stiffness [N/m]")
     # Infinite in full contact.
-    require(k >= 0, f"a stiffness must not be negative [N/m], not {stiffness}")
+    require(k >= 0, "a stiffness must not be negative [N/m]", k)
     return k / positive(ratio, "the ratio E*/G*")
 
 
@@ -187,8 +188,9 @@ def fractal_gross_slip(
 
 def _exponent(hurst: float) -> float:
     """Return 1/(H+1)."""
+    h = scalar(hurst, "hurst")
     require(
-        0 < hurst <= pohrt_popov.SMOOTH,
-        f"a Hurst exponent above 0 and at most 2 is wanted, where k ~ F^(1/(H+1)), not {hurst}",
+        0 < h <= pohrt_popov.SMOOTH,
+        f"a Hurst exponent above 0 and at most 2 is wanted, where k ~ F^(1/(H+1)), not {h}",
     )
-    return 1 / (hurst + 1)
+    return 1 / (h + 1)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Literal, Protocol
 
-__all__ = ["ProfileMoments"]
+from roughcontact.theory.tools.domain import positive, shown
+
+__all__ = ["ProfileMoments", "moment"]
 
 
 class ProfileMoments(Protocol):
@@ -24,3 +26,19 @@ class ProfileMoments(Protocol):
     def m4(self) -> float:
         """Mean square curvature of a profile [1/m^2]."""
         ...
+
+
+def moment(moments: ProfileMoments, name: Literal["m0", "m2", "m4"], note: str = "") -> float:
+    """Return one of the moments; a `note` on it goes into the message.
+
+    Raises
+    ------
+    ValueError
+        If these are no moments, or this one is not positive and finite.
+    """
+    if not hasattr(moments, name):
+        raise ValueError(
+            f"the moments m0, m2 and m4 of a surface are wanted, such as rc.surface_moments(surface) and "
+            f"spectrum.moments() return them, not {shown(moments)}"
+        )
+    return float(positive(getattr(moments, name), f"the moment {name}{note}"))

@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import log_ndtr
 
-from roughcontact.theory.moments import ProfileMoments
-from roughcontact.theory.tools.domain import positive, require
+from roughcontact.theory.moments import ProfileMoments, moment
+from roughcontact.theory.tools.domain import require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 
@@ -55,9 +55,7 @@ def bandwidth(moments: ProfileMoments) -> float:
         If a moment is zero or infinite, or alpha below 3/2: then the moments are not those of an isotropic
         Gaussian surface (those of a line, or of a surface with a lay, may be lower).
     """
-    m0, m2, m4 = (
-        float(positive(getattr(moments, name), f"the moment {name}")) for name in ("m0", "m2", "m4")
-    )
+    m0, m2, m4 = moment(moments, "m0"), moment(moments, "m2"), moment(moments, "m4")
     alpha = m0 * m4 / m2**2
     # One part in 10^9 is left to the rounding of moments that were summed.
     require(

@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.tools.domain import positive
 
 __all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class PlasticityIndex:
     """An index with the limits its authors gave it.
 
@@ -41,6 +41,13 @@ class PlasticityIndex:
             return "elastic"
         return "plastic" if self.value > self.plastic_above else "mixed"
 
+    def __repr__(self) -> str:
+        """Say the index, what it predicts, and by which limits."""
+        limits = f"elastic below {self.elastic_below:.3g}"
+        if math.isfinite(self.plastic_above):
+            limits += f", plastic above {self.plastic_above:.3g}"
+        return f"PlasticityIndex({self.value:.4g}, {self.regime}: {limits})"
+
 
 def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> PlasticityIndex:
     """Return ``E* g/sigma_0`` of a surface with rms slope g = sqrt(2 m2); elastic below 2/3 (thesis, eq. 4.17).
@@ -59,9 +66,7 @@ def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> Pla
     The thesis names Greenwood and Williamson, whose own index is `asperity_index`; one of slopes is Mikic's (Int. J.
     Heat Mass Transfer 17, 205 (1974)). On a Gaussian surface their ratio is a function of Nayak's parameter.
     """
-    slope = math.sqrt(
-        2 * float(positive(moments.m2, "the moment m2 (it is infinite without a shortest wave)"))
-    )
+    slope = math.sqrt(2 * moment(moments, "m2", " (it is infinite without a shortest wave)"))
     return PlasticityIndex(slope * _ratio(modulus, hardness), 2 / 3, math.inf)
 
 

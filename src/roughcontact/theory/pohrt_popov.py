@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, number, positive, require
 
 __all__ = [
     "FORCE_LIMIT",
@@ -209,6 +209,7 @@ def scale_free_stiffness(
     require(
         np.asarray(hurst) <= SMOOTH,
         "hurst must not exceed 2: one smooth crest carries the load, and it knows the size",
+        hurst,
     )
     value: Array = e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
     return value
@@ -247,15 +248,15 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
 
 
 def _hurst(hurst: npt.ArrayLike) -> Array:
-    h = np.asarray(hurst, dtype=np.float64)
+    h = number(hurst, "hurst")
     require(
         h > 0,
         "hurst must exceed 0: at 0 and below the shortest waves decide, and no exponent is independent of the "
         "resolution; see height_distribution and gaussian_heights",
+        h,
     )
-    require(h <= 3, "hurst must not exceed 3: no curve was compared with the law there")
-    plain: Array = h[()]
-    return plain
+    require(h <= 3, "hurst must not exceed 3: no curve was compared with the law there", h)
+    return h
 
 
 def _below_saturation(dimensionless_stiffness: Array) -> Array:

@@ -145,7 +145,7 @@ def crossover_force(
     """
     h, zeta = _roughness(hurst, prefactor)
     require(
-        h < 2, "hurst must be below 2: at 2 roughness and sphere follow the same power law and never cross"
+        h < 2, "hurst must be below 2: at 2 roughness and sphere follow the same power law and never cross", h
     )
     r, e = positive(radius, "radius [m]"), positive(modulus, "modulus [Pa]")
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
@@ -168,7 +168,7 @@ def law(radius: float, hurst: float, rms: float, length: float, modulus: float) 
         Up to the force at which the disc of contact is as wide as the roughness' square, k = E* L.
     """
     body = {"radius": radius, "hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
-    highest = float(force(modulus * length, **body))
+    highest = float(force(positive(modulus, "modulus [Pa]") * positive(length, "length [m]"), **body))
     # Powers p of r, and the depths by each term alone: d = sum D a^p, F = sum 2 E* p/(p + 1) D a^(p + 1).
     terms = ((2.0, 1 / radius), (hurst, float(coefficient(hurst, rms, length) * kappa(hurst))))
 
@@ -202,6 +202,7 @@ def _roughness(hurst: npt.ArrayLike, prefactor: npt.ArrayLike | None) -> tuple[A
     require(
         np.asarray(hurst) <= pohrt_popov.SMOOTH,
         "hurst must not exceed 2: the roughness is then one smooth crest, and no indenter r^H",
+        hurst,
     )
     zeta = natural if prefactor is None else positive(prefactor, "prefactor")
     return np.asarray(hurst, dtype=np.float64)[()], zeta

@@ -18,7 +18,7 @@ import numpy as np
 
 from roughcontact.theory.conductance import Pair, harmonic_mean
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import Array, positive, require
 
 __all__ = [
@@ -83,7 +83,7 @@ def cell_resistance(
 
 def mean_absolute_slope(moments: ProfileMoments) -> float:
     """Return m, the mean of |dz/dx| of a profile of a Gaussian surface [-]: ``sqrt(2 m2/pi)``."""
-    return math.sqrt(2 * positive(moments.m2, "the mean square slope m2") / math.pi)
+    return math.sqrt(2 * moment(moments, "m2", ", the mean square slope") / math.pi)
 
 
 def plastic_conductance(
@@ -170,7 +170,7 @@ def _asperity_pressure(modulus: float, moments: ProfileMoments) -> float:
 
 
 def _scale(conductivities: Pair, moments: ProfileMoments) -> float:
-    rms = math.sqrt(positive(moments.m0, "the mean square height m0 [m^2]"))
+    rms = math.sqrt(moment(moments, "m0", ", the mean square height [m^2]"))
     return harmonic_mean(conductivities) * mean_absolute_slope(moments) / rms
 
 

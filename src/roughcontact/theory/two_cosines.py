@@ -126,11 +126,14 @@ class Hierarchy:
             self.ratio > 1, f"ratio must exceed 1: each wave is shorter than the one before, not {self.ratio}"
         )
         require(
-            self.hurst > 0, "hurst must exceed 0: shorter waves would be as high as longer ones (eq. 4.48)"
+            self.hurst > 0,
+            "hurst must exceed 0: shorter waves would be as high as longer ones (eq. 4.48)",
+            self.hurst,
         )
         require(
             self.hurst < 2,
             "hurst must be below 2: shorter waves would be too flat to matter (eqs 4.50, 4.51)",
+            self.hurst,
         )
 
     def amplitudes(self, count: int) -> Array:
@@ -163,10 +166,13 @@ def _given(
     d, h2 = positive(depth, "depth [m]", zero=True), positive(short_amplitude, "short_amplitude [m]")
     h1, q1 = positive(long_wave[0], "amplitude [m]"), positive(long_wave[1], "wavenumber [rad/m]")
     require(
-        d <= 2 * h2, "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more"
+        d <= 2 * h2,
+        "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more",
+        d,
     )
     require(
         2 * d <= h1,
         "depth must not exceed h1/2: contact would reach q1 |x| = 1, where the long wave is no parabola",
+        d,
     )
     return d / (2 * h2), h1, q1, h2, positive(modulus, "modulus [Pa]")

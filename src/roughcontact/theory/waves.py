@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.theory.spectra import MeasuredSpectrum, RadialSpectrum
-from roughcontact.theory.tools.domain import Array
+from roughcontact.theory.tools.domain import Array, shown
 from roughcontact.theory.tools.panels import gauss, graded, running
 
 __all__ = ["Spectrum", "Waves"]
@@ -97,8 +97,8 @@ class Waves:
         if callable(spectrum):
             return cls.of_spectrum(spectrum)
         raise ValueError(
-            f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is wanted, not {spectrum!r}; "
-            "for a surface with a lay take Waves.of_heights"
+            f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is wanted, not {shown(spectrum)}; of a "
+            "surface take rc.power_spectrum(surface), of one with a lay Waves.of_heights(heights, spacing)"
         )
 
     @classmethod

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
-from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.domain import Array, number, pair
 from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["EllipticContact", "elliptic"]
@@ -62,13 +62,13 @@ class EllipticContact:
     def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Return the pressure [Pa] at a point [m]; 0 outside the contact."""
         a, b = self.semi_axes
-        u, v = np.asarray(x, np.float64) / a, np.asarray(y, np.float64) / b
+        u, v = number(x, "x [m]") / a, number(y, "y [m]") / b
         value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
         return value
 
     def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a point [m], inside and outside."""
-        xx, yy = np.asarray(x, np.float64) ** 2, np.asarray(y, np.float64) ** 2
+        xx, yy = number(x, "x [m]") ** 2, number(y, "y [m]") ** 2
         aa, bb = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
         # The ellipse through the point that has the foci of the contact: x^2/(a^2+s) + y^2/(b^2+s) = 1.
         half, rest = (xx + yy - aa - bb) / 2, xx * bb + yy * aa - aa * bb
@@ -115,7 +115,7 @@ def elliptic(
 
     No difference of complete elliptic integrals is taken, so nothing is lost near a circle or near a line.
     """
-    rx, ry = (positive(radius, "radii [m]") for radius in radii)
+    rx, ry = pair(radii, "radii [m]")
     # The squares of the semi-axes over their product, which is that of the third base quantity.
     aa = _aspect(rx / ry)
     bb = 1 / aa

@@ -113,7 +113,8 @@ def point(
 
     Notes
     -----
-    Exact for a paraboloid on a half-space. For a sphere it wants ``contact_radius`` much smaller than ``radius``.
+    Exact for a paraboloid on a half-space of small strains, which nothing here checks: for a sphere it wants
+    ``contact_radius`` much smaller than ``radius``, and a contact radius beyond R is a number without a body.
     """
     given = {
         "modulus": modulus,

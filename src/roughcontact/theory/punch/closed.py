@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprf
 
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, number, pair, positive, require
 
 __all__ = [
     "disc",
@@ -84,7 +84,7 @@ def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLik
     -----
     Written as pi E*/R_F(0, a^2, b^2) with Carlson's integral, which is accurate for any a and b.
     """
-    a, b = (positive(axis, "semi_axes [m]") for axis in semi_axes)
+    a, b = pair(semi_axes, "semi_axes [m]")
     value: Array = np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
     return value
 
@@ -108,9 +108,9 @@ def ellipse_pressure(
     x, y : float or array
         Where, from the centre [m].
     """
-    a, b = (positive(axis, "semi_axes [m]") for axis in semi_axes)
+    a, b = pair(semi_axes, "semi_axes [m]")
     f = positive(force, "force [N]", zero=True)
-    inside = 1 - (np.asarray(x, np.float64) / a) ** 2 - (np.asarray(y, np.float64) / b) ** 2
+    inside = 1 - (number(x, "x [m]") / a) ** 2 - (number(y, "y [m]") / b) ** 2
     return _edged(f / (2 * np.pi * a * b), inside)
 
 
@@ -153,7 +153,7 @@ def strip_pressure(force: npt.ArrayLike, half_width: npt.ArrayLike, position: np
     position : float or array
         Distance x from the middle, of either sign [m].
     """
-    x, a = np.asarray(position, dtype=np.float64), positive(half_width, "half_width [m]")
+    x, a = number(position, "position [m]"), positive(half_width, "half_width [m]")
     f = positive(force, "force [N/m]", zero=True)
     return _edged(f / (np.pi * a), 1 - (x / a) ** 2)
 

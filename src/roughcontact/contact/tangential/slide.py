@@ -1,0 +1,151 @@
+"""The front door: pull at a pressed contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.status import ConvergenceError, Status
+from roughcontact.contact.tangential.coulomb import lengths
+from roughcontact.contact.tangential.newton import SlipNewton
+from roughcontact.contact.tangential.problem import (
+    Bodies,
+    Load,
+    Pull,
+    Shift,
+    SlipProblem,
+    continued,
+    load_of,
+    make_problem,
+)
+from roughcontact.contact.tangential.solution import TangentialSolution
+from roughcontact.contact.tangential.step import Slipped, Step
+from roughcontact.halfspace.shear import ShearOperator
+from roughcontact.threads import one_blas_thread
+
+__all__ = ["advance", "slide"]
+
+Array = npt.NDArray[np.float64]
+
+
+def slide(
+    solution: Solution,
+    bodies: Bodies,
+    *,
+    friction: float,
+    force: Load | None = None,
+    displacement: Load | None = None,
+    initial: TangentialSolution | None = None,
+    along: Sequence[float] | None = None,
+    operator: ShearOperator | None = None,
+    tolerance: float = 1e-8,
+) -> TangentialSolution:
+    """Pull at a pressed contact whose pressure is held, and return what sticks and what slips, with a certificate.
+
+    Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
+    opposed to the traction at its end: exact where slip does not turn within the step, as from rest along a line, or
+    back along it, for nu = 0; where it may turn, take more steps. (Cattaneo 1938, Mindlin 1949 for a sphere;
+    Ciavarella 1998, Jaeger 1998 for any shape; thesis, chapter 7.)
+
+    Parameters
+    ----------
+    solution : Solution
+        The pressed contact, of a surface of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        Those it was pressed with; a single one against a rigid body. That normal and tangential displacements of
+        unlike bodies couple is left out; the solution says so in its notes.
+    friction : float
+        Coefficient of friction mu.
+    force, displacement : float or pair of floats
+        Exactly one: tangential force [N], at most mu times the normal one, or displacement of body 2 against body 1
+        since the start [m]; as (x, y), or one number along x (along `along`, if given).
+    initial : TangentialSolution, optional
+        The state to go on from, of the same contact with the same friction; `along` and `operator` are then as they
+        were. Without one the contact is at rest and free of traction.
+    along : pair of floats, optional
+        Let traction act in this direction (x, y) only, as the closed forms do, and leave out what moves the surfaces
+        across it. Without, it may turn.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid of the contact.
+    tolerance : float
+        Largest residual.
+
+    Returns
+    -------
+    TangentialSolution
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense; the message names the value and the remedy.
+    ConvergenceError
+        If the tolerance was missed. It carries the solution.
+    """
+    make = make_problem if initial is None else partial(continued, initial.problem)
+    problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
+    load = load_of(problem.along, force=force, displacement=displacement)
+    problem.check(load)
+    answer = advance(problem, load, initial)
+    if not answer.status.converged:
+        raise ConvergenceError(answer)  # type: ignore[arg-type]  # it has all that the error tells
+    return answer
+
+
+def advance(
+    problem: SlipProblem, load: Pull | Shift, initial: TangentialSolution | None = None
+) -> TangentialSolution:
+    """Return the state under a load, from an initial one or from rest; its status says whether it is good."""
+    interface, shape = problem.interface, (2, *problem.pressed.pressure.shape)
+    traction, slip = (
+        (np.zeros(shape), np.zeros(shape)) if initial is None else (initial.traction, initial.slip)
+    )
+    start, slipped = interface.take(traction), interface.take(slip)
+    moved = slipped if initial is None else slipped + (interface.basis @ initial.displacement)[:, None]
+    value = interface.basis @ np.array([load.x, load.y])
+    step = Step(
+        interface,
+        problem.limit,
+        start,
+        slipped,
+        force=value if isinstance(load, Pull) else None,
+        shift=value if isinstance(load, Shift) else None,
+        scale=float(lengths(moved).max()),
+        tolerance=problem.tolerance,
+    )
+    with one_blas_thread():
+        found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
+    now = found.displacement - found.shift[:, None]
+    fields = [interface.embed(found.traction), interface.embed(now)]
+    for field in fields:
+        field.flags.writeable = False
+    return TangentialSolution(
+        problem,
+        load,
+        fields[0],
+        interface.basis.T @ found.shift,
+        fields[1],
+        -float(np.vdot(found.traction, now - slipped)) * interface.area,
+        found.status,
+        found.residual,
+        found.steps,
+    )
+
+
+def _slid(step: Step, force: Array) -> Slipped:
+    """Return the state of sliding: all the traction that friction holds, along the force.
+
+    The bodies move on along it, which turns the slip of every cell into that direction: what counts is that none slips
+    backwards.
+    """
+    direction = force / np.sqrt(force @ force)
+    q = step.limit * direction[:, None]
+    u = step.interface.apply(q)
+    level = u - step.slip
+    along = direction @ level
+    shift = level.mean(axis=1)
+    shift += (along.max() - direction @ shift) * direction
+    return Slipped(q, u, shift, 0.0, 1, Status.CONVERGED)

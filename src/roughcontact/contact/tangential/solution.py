@@ -1,0 +1,147 @@
+"""The answer of a step of tangential loading, and everything that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.status import Status
+from roughcontact.contact.tangential.coulomb import at_limit
+from roughcontact.contact.tangential.problem import Pull, Shift, SlipProblem
+from roughcontact.contact.tangential.stiffness import TangentialStiffness, frozen_shear
+from roughcontact.halfspace.shear import dundurs_parameter
+from roughcontact.material import Solid
+
+__all__ = ["TangentialSolution"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TangentialSolution:
+    """A traction, the displacement of the bodies, and a certificate; the rest is computed when asked for.
+
+    Fields have shape ``(2, ny, nx)``: x component, then y component. Traction, force and displacement are those
+    that body 2 forces upon body 1.
+
+    Attributes
+    ----------
+    problem : SlipProblem
+    load : Pull or Shift
+        What was prescribed.
+    traction : array, shape (2, ny, nx)
+        Tangential traction [Pa], zero outside the contact.
+    displacement : array, shape (2,)
+        Displacement of body 2 against body 1, far from the contact, since the start [m]. Where the bodies slide under
+        a given force it is the least at which every cell has slipped forward.
+    slip : array, shape (2, ny, nx)
+        How far surface 1 has slipped over surface 2 since the start [m]; zero, to the residual, where they have stuck
+        throughout, and outside the contact, where it means nothing.
+    dissipated : float
+        Energy that friction took in this step [J].
+    status : Status
+        How the solve ended; it claims nothing that was not earned.
+    residual : float
+        Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, on a product of
+        the exact operator with this traction. Where the bodies slide under a given force only slip along it counts:
+        as they go on, all of it turns that way.
+    steps : int
+        Products with the operator that the solve took.
+    """
+
+    problem: SlipProblem
+    load: Pull | Shift
+    traction: Array
+    displacement: Array
+    slip: Array
+    dissipated: float
+    status: Status
+    residual: float
+    steps: int
+
+    @property
+    def force(self) -> Array:
+        """Tangential force [N], shape (2,)."""
+        return np.asarray(self._on_cells(self.traction).sum(axis=1) * self.problem.interface.area)
+
+    @cached_property
+    def slipping(self) -> Mask:
+        """Mask of the cells in contact whose traction is all that friction holds."""
+        mask = np.zeros(self.problem.interface.contact.shape, dtype=bool)
+        traction = self.problem.interface.take(self.traction)
+        mask[self.problem.interface.contact] = at_limit(traction, self.problem.limit)
+        return mask
+
+    @property
+    def sticking(self) -> Mask:
+        """Mask of the cells in contact that hold."""
+        return self.problem.interface.contact & ~self.slipping
+
+    @property
+    def stick_area(self) -> float:
+        """Area of the cells that hold [m^2]."""
+        return float(self.sticking.sum() * self.problem.interface.area)
+
+    @property
+    def slip_area(self) -> float:
+        """Area of the cells that slip [m^2]."""
+        return float(self.slipping.sum() * self.problem.interface.area)
+
+    @property
+    def sliding(self) -> bool:
+        """Whether every cell slips."""
+        return not self.sticking.any()
+
+    @cached_property
+    def elastic_energy(self) -> float:
+        """Elastic energy of the tangential displacement [J]: half the traction times it."""
+        traction = self._on_cells(self.traction)
+        displaced = self._on_cells(self.slip) + self.displacement[:, None]
+        return 0.5 * float(np.vdot(traction, displaced)) * self.problem.interface.area
+
+    @cached_property
+    def frozen(self) -> TangentialStiffness:
+        """The response of the cells that hold, displaced as one, while the traction of the others stays as it is."""
+        return frozen_shear(self.problem.operator, self.sticking)
+
+    @property
+    def stiffness(self) -> Array:
+        """Tangential stiffness dQ/d(displacement) of the cells that hold [N/m], shape (2, 2)."""
+        return self.frozen.matrix
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        notes = []
+        if not self.status.converged:
+            notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
+        if not self.problem.pressed.status.converged:
+            notes.append("The pressure itself missed its tolerance.")
+        bodies = self.problem.bodies
+        beta = dundurs_parameter(*((bodies,) if isinstance(bodies, Solid) else bodies))
+        if abs(beta) > UNLIKE:
+            notes.append(
+                f"The bodies are unlike (Dundurs's parameter {beta:.2g}): that traction changes the pressure, and "
+                "pressure shears the surfaces, is left out."
+            )
+        if self.sliding:
+            notes.append("Every cell slips: the bodies slide.")
+        return tuple(notes)
+
+    def __repr__(self) -> str:
+        """Say what was found, not the fields."""
+        (qx, qy), (x, y) = self.force, self.displacement
+        slips, cells = int(self.slipping.sum()), int(self.problem.interface.contact.sum())
+        return (
+            f"TangentialSolution({self.status.value}, force ({qx:.4g}, {qy:.4g}) N, displacement ({x:.4g}, {y:.4g}) m, "
+            f"{slips} of {cells} cells slip, residual {self.residual:.1e})"
+        )
+
+    def _on_cells(self, field: Array) -> Array:
+        return field[:, self.problem.interface.contact]

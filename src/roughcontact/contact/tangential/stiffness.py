@@ -1,0 +1,134 @@
+"""The tangential stiffness of a contact region that sticks: its force per unit displacement."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.tangential.free import Freedom, corrected
+from roughcontact.contact.tangential.interface import Interface
+from roughcontact.contact.tangential.problem import Bodies, shear_body
+from roughcontact.grid import Grid
+from roughcontact.halfspace.shear import ShearOperator
+from roughcontact.threads import one_blas_thread
+
+__all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
+MAX_STEPS = 5000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TangentialStiffness:
+    """The response of a region that sticks and is displaced as one.
+
+    Attributes
+    ----------
+    matrix : array, shape (2, 2)
+        Force along x and y [N] per displacement along x and y [m]; symmetric. Zero for an empty region, infinite on the
+        diagonal for the whole of a periodic grid.
+    residual : float
+        Largest error of the unit displacements.
+    """
+
+    matrix: Array
+    residual: float
+
+    @property
+    def principal(self) -> tuple[Array, Array]:
+        """The two principal stiffnesses [N/m], the smaller first, and their directions (x, y), one a row."""
+        if not np.isfinite(self.matrix).all():
+            return np.diag(self.matrix), np.eye(2)
+        values, vectors = np.linalg.eigh(self.matrix)
+        return values, vectors.T
+
+
+def tangential_stiffness(
+    region: Mask,
+    grid: Grid,
+    bodies: Bodies,
+    *,
+    operator: ShearOperator | None = None,
+    tolerance: float = TOLERANCE,
+) -> TangentialStiffness:
+    """Return the stiffness of a given contact region against tangential displacement, if no cell slips.
+
+    Of a disc it is 2 G* a in every direction (Mindlin 1949; thesis, eq. 4.5), and so E*/G* times less than the normal
+    stiffness. Of other regions it depends on the direction: along the longer side of a rectangle it is smaller.
+
+    Parameters
+    ----------
+    region : bool array, shape ``grid.shape``
+        The cells in contact, for instance ``solution.contact``.
+    grid : Grid
+        Of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        One solid: against a rigid body. That normal and tangential displacements of unlike bodies couple is left out.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid.
+    tolerance : float
+        Largest error of the unit displacement on the region.
+
+    Raises
+    ------
+    ValueError
+        If the region does not fit the grid, or the grid has not two axes.
+    RuntimeError
+        If the tolerance was not reached.
+    """
+    body = shear_body(grid, bodies, operator)
+    cells = np.asarray(region, dtype=bool)
+    if cells.shape != grid.shape:
+        raise ValueError(f"a region of shape {cells.shape} does not fit the grid of shape {grid.shape}")
+    frozen = frozen_shear(body, cells, tolerance=tolerance)
+    if not frozen.residual <= tolerance:
+        raise RuntimeError(
+            f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
+        )
+    return frozen
+
+
+def frozen_shear(
+    operator: ShearOperator, region: Mask, *, tolerance: float = TOLERANCE
+) -> TangentialStiffness:
+    """Return what `tangential_stiffness` does, with whatever residual was reached."""
+    if not region.any():
+        return TangentialStiffness(np.zeros((2, 2)), 0.0)
+    interface = Interface.of(operator, region)
+    if interface.floating:
+        return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
+    with one_blas_thread():
+        answers = [_displaced(interface, unit, tolerance) for unit in np.eye(2)]
+    # By what the errors are to the tractions, the matrix is good to the product of two errors, beside the diagonal too.
+    matrix = np.array(
+        [
+            [traction[of].sum() + np.vdot(other, error) for of, (other, _) in enumerate(answers)]
+            for traction, error in answers
+        ]
+    )
+    residual = max(float(np.abs(error).max()) for _, error in answers)
+    return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
+
+
+def _displaced(interface: Interface, unit: Array, tolerance: float) -> tuple[Array, Array]:
+    """Return the traction that displaces all cells by `unit`, and its errors on a product of its own."""
+    count = int(interface.region.sum())
+    sticks = Freedom(np.zeros((2, count)), np.zeros(count), held=False)
+    wanted = np.repeat(unit[:, None], count, axis=1)
+    traction, error, worst, steps = np.zeros((2, count)), wanted, 1.0, 0
+    while worst > tolerance and steps < MAX_STEPS:
+        found = corrected(
+            interface, sticks, error, reduction=0.1 * tolerance / worst, max_steps=MAX_STEPS - steps
+        )
+        traction = traction + found.traction
+        error = wanted - interface.apply(traction)
+        before, worst, steps = worst, float(np.abs(error).max()), steps + found.steps + 1
+        if worst > 0.9 * before:  # rounding allows no more
+            break
+    return traction, error

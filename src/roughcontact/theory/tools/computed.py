@@ -1,0 +1,89 @@
+"""A computed loading curve as a law of the force, interpolated between its points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.tools.domain import Array, number, shown
+
+__all__ = ["ComputedCurve", "as_law"]
+
+ROUNDING = 1e-12  # the end points must not fall out of their range by the rounding of a difference of forces
+
+
+class ComputedCurve(Protocol):
+    """A loading curve in points; `roughcontact.Curve` and the `IndentationCurve` of `roughcontact.mdr` are such."""
+
+    @property
+    def force(self) -> Array:
+        """Normal forces [N], shape (n,), increasing."""
+        ...
+
+    @property
+    def depth(self) -> Array:
+        """Indentation depths [m], shape (n,)."""
+        ...
+
+    @property
+    def stiffness(self) -> Array:
+        """Contact stiffnesses [N/m], shape (n,)."""
+        ...
+
+
+def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
+    """Return a law as it is, and a computed curve as the law that goes through its points.
+
+    Depth and stiffness are monotone cubics in the logarithms, so that a power law stays one, between the lowest and the
+    highest point that are positive and finite. Without force the depth is 0. Elsewhere they are NaN: unknown.
+
+    Raises
+    ------
+    ValueError
+        If it is neither, or the curve has not at least two points of increasing force.
+    """
+    if isinstance(loading, LoadingLaw):
+        return loading
+    missing = [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]
+    if missing:
+        raise ValueError(
+            "a LoadingLaw, or a computed curve with force, depth and stiffness, is wanted, not "
+            f"{shown(loading)} without {', '.join(missing)}"
+        )
+    force, depth, stiffness = (
+        np.atleast_1d(number(values, what))
+        for values, what in (
+            (loading.force, "the forces of the curve [N]"),
+            (loading.depth, "the depths of the curve [m]"),
+            (loading.stiffness, "the stiffnesses of the curve [N/m]"),
+        )
+    )
+    by_force, rigidity = _through(force, depth), _through(force, stiffness)
+    return LoadingLaw(
+        "the computed curve",
+        "",
+        {"depth": lambda f: np.where(f == 0, 0.0, by_force(f)), "stiffness": rigidity},
+        (0.0, float(force.max(initial=0.0)) * (1 + ROUNDING)),
+    )
+
+
+def _through(force: Array, values: Array) -> Callable[[Array], Array]:
+    right = (force > 0) & (values > 0) & np.isfinite(force) & np.isfinite(values)
+    x, y = force[right], values[right]
+    if len(x) < 2 or not (np.diff(x) > 0).all():
+        raise ValueError(
+            f"a computed curve wants at least two points of strictly increasing force, not {len(x)} "
+            f"between {x.min(initial=np.inf):g} and {x.max(initial=0):g} N"
+        )
+    cubic = PchipInterpolator(np.log(x), np.log(y), extrapolate=False)
+    low, high = x[0] * (1 - ROUNDING), x[-1] * (1 + ROUNDING)
+
+    def at(f: Array) -> Array:
+        inside = (f >= low) & (f <= high)
+        return np.where(inside, np.exp(cubic(np.log(np.clip(f, x[0], x[-1])))), np.nan)
+
+    return at
