@@ -46,8 +46,9 @@ class HurstFit:
     short_wavelength : float or None
         Waves shorter than this [m] are outside the law.
     misfit : float
-        Mean square of the deviations in units of their expected scatter: near 1 where the law holds.
-        The standard error says nothing about a law that does not hold.
+        Mean square of the deviations in units of their expected scatter: near 1 where the law holds, for
+        a windowed spectrum about 0.6, since neighbouring bins share waves.
+        The standard error says nothing about a law that does not hold, but for that of `fit_structure`.
     band : tuple of float
         Wavenumbers [rad/m] that the fit has seen; for a structure function 2 pi over its lags.
     """

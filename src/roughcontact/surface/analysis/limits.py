@@ -124,8 +124,9 @@ def _cost(band: PowerSpectrum, limits: Limits) -> float:
         other = likeliest(x[after], band, after)
         ends = (law.level - law.exponent * bent[-1], other.level - other.exponent * x[after][0])
         cost += other.cost + _jump(*ends)
-    # In the gap every bin has a level of its own.
-    cost += float(band.freedom[gap] @ (1 + np.log(np.maximum(band.density[gap], 1e-300))))
+    # In the gap every bin has a level of its own; one without power is better counted to what lies beyond.
+    least = float(band.density[band.density > 0].min())
+    cost += float(band.freedom[gap] @ (1 + np.log(np.maximum(band.density[gap], least))))
     numbers = 2 * (limits.bend > 0) + 3 * (limits.first > 0) + 4 * (x[after].size > 0) + x[gap].size
     return cost + 0.5 * numbers * math.log(float(band.freedom.sum()))
 
@@ -133,13 +134,14 @@ def _cost(band: PowerSpectrum, limits: Limits) -> float:
 def _parts(band: PowerSpectrum, limits: Limits) -> tuple[slice, slice, slice]:
     """Return the bins of the law, those next to its short limit and those beyond.
 
-    A window spreads a step: by its main lobe into the law, by its side lobes further out.
+    A limit need not lie between two bins: the last bin of the law may hold waves of both its sides, and would
+    bend it. A window, moreover, spreads a step: by its main lobe into the law, by its side lobes further out.
     """
     q = band.wavenumber
-    if limits.last == q.size or band.smear == 0:
+    if limits.last == q.size:
         return slice(limits.first, limits.last), slice(0, 0), slice(limits.last, None)
     step, width = math.sqrt(q[limits.last - 1] * q[limits.last]), math.sqrt(band.smear)
-    before = max(int(np.searchsorted(q, step - 3.5 * width)), limits.first + 4)
+    before = max(int(np.searchsorted(q, step - 3.5 * width)) - 1, limits.first + 3)
     beyond = min(int(np.searchsorted(q, step + 9 * width)), q.size - 3)
     return slice(limits.first, before), slice(before, beyond), slice(beyond, None)
 
@@ -178,9 +180,12 @@ def sharpened(band: PowerSpectrum, slope: Slope, centre: float, edge: float, ris
 
 
 def clear_bins(band: PowerSpectrum, limits: Limits, edges: tuple[float, ...]) -> slice:
-    """Return the bins of the law that no limit reaches through the window, at least four."""
+    """Return the bins of the law that no limit reaches, inside a bin (see `_parts`) or through the window.
+
+    They are four at least.
+    """
     q, guard = band.wavenumber, 3.5 * math.sqrt(band.smear)
     low, high = edges
-    first = 0 if math.isnan(low) else int(np.searchsorted(q, low + guard))
-    last = q.size if math.isnan(high) else int(np.searchsorted(q, high - guard))
+    first = 0 if math.isnan(low) else int(np.searchsorted(q, low + guard)) + 1
+    last = q.size if math.isnan(high) else int(np.searchsorted(q, high - guard)) - 1
     return slice(first, last) if last - first >= 4 else slice(limits.first, limits.last)

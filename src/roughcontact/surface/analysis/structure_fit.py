@@ -11,9 +11,10 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
+from scipy.special import chdtri
 
-from roughcontact.surface.analysis.correlation import structure_profile
 from roughcontact.surface.analysis.hurst import HurstFit
+from roughcontact.surface.analysis.tapered_structure import tapered_structure
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 
@@ -27,6 +28,8 @@ ANGLES, WAVES = 12, 1500
 LONGEST = 200
 # The share of S that the quadrature and the model may err by, added to the covariance.
 ROUNDING = 1e-5
+# A misfit that chance exceeds this rarely is taken for a law that does not hold.
+RARE = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,8 +71,9 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
 
     ``S(r) = 2 int C2D (1 - cos q.r) d2q`` over all waves that the grid can hold, at lags along both axes.
     The points of a structure function are far from independent: they are fitted by generalised least squares
-    with the covariance of a Gaussian surface of the fitted law, from which the standard error of H follows; where the
-    misfit exceeds 1 it grows by the root of it. Without a limit, trends of the second and fourth order in
+    with the covariance of a Gaussian surface of the fitted law, from which the standard error of H follows; a
+    misfit beyond chance (one case of a thousand) raises it by the root of the misfit. On free axes pairs close to
+    an end count less, see `tapered_structure`. Without a limit, trends of the second and fourth order in
     the lag, which waves longer than the surface make, are left free; always so is the power of the
     Nyquist waves. Missing points are ignored; many of them make the standard error too small.
 
@@ -81,8 +85,8 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     limit : {"none", "rolloff", "cutoff"}
         How the law ends toward long waves.
     lags : array of int, optional
-        Lags in whole cells; by default from 1 to an eighth of the shorter side, or to a third where
-        a limit is to be found, and to 200 at most.
+        Lags in whole cells, up to half of a free side; by default from 1 to an eighth of the shorter side, or
+        to a third where a limit is to be found, but to 8 at least and to 200 at most.
 
     Returns
     -------
@@ -92,7 +96,7 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     Raises
     ------
     ValueError
-        If the surface is a line, too small, or flat, or an option is unknown.
+        If the surface is a line, too small, or flat, an option is unknown, or a lag too long.
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 32:
@@ -102,16 +106,20 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     steps = _default(min(grid.shape), limit) if lags is None else np.asarray(lags)
     if steps.size < 5:
         raise ValueError(f"a fit needs five lags at least, not {steps.size}")
-    along_x, along_y = (structure_profile(surface, axis, steps) for axis in ("x", "y"))
-    data = np.concatenate([along_x.value, along_y.value])
+    (along_x, share_x), (along_y, share_y) = (tapered_structure(surface, axis, steps) for axis in ("x", "y"))
+    data = np.concatenate([along_x, along_y])
     if not (data > 0).all():
         raise ValueError("the structure function is zero at some lag: the surface is flat")
-    distance = np.concatenate([along_x.lag, along_y.lag])
+    dy, dx = grid.spacing
+    distance = np.concatenate([steps * dx, steps * dy])
     is_y = np.arange(data.size) >= steps.size
     band = _quadrature(grid.spacing, max(grid.lengths), distance, is_y)
     # With a limit inside the surface there are no longer waves.
     trends = _trends(distance, is_y)[:, : 4 if limit == "none" else 0]
-    area = float(surface.measured.mean()) * grid.area
+    # The area that two lags share: the weights of the two axes are independent of each other.
+    area = np.full((data.size, data.size), float(surface.measured.mean()) * grid.area)
+    area[~is_y[:, None] & ~is_y] *= share_x
+    area[is_y[:, None] & is_y] *= share_y
     with one_blas_thread():
         parameters, error, misfit = _fit(band, data, trends, area, limit)
     reference = float(np.log(2 * np.pi / distance.max()))
@@ -131,7 +139,7 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
 
 
 def _default(size: int, limit: Limit) -> npt.NDArray[np.int64]:
-    high = min(LONGEST, size // (8 if limit == "none" else 3))
+    high = min(LONGEST, max(8, size // (8 if limit == "none" else 3)))
     return np.unique(np.geomspace(1, high, 22).round().astype(np.int64))
 
 
@@ -188,7 +196,7 @@ def _start(structure: Callable[[Array], Array], band: _Band, data: Array, limit:
     return best
 
 
-def _fit(band: _Band, data: Array, trends: Array, area: float, limit: Limit) -> tuple[Array, float, float]:
+def _fit(band: _Band, data: Array, trends: Array, area: Array, limit: Limit) -> tuple[Array, float, float]:
     """Return ln C2D(q = 1), H and the logarithm of the limit; the error of H; and the mean square misfit."""
     free = 3 if limit != "none" else 2
 
@@ -200,6 +208,7 @@ def _fit(band: _Band, data: Array, trends: Array, area: float, limit: Limit) -> 
     low = np.array([-np.inf, -0.9, float(band.ln_q.min())])
     high = np.array([np.inf, 3.0, float(band.ln_q.max()) - 1])
     error = misfit = math.nan
+    freedom = 1
     for _ in range(5):  # the covariance follows the fit
         scale = structure(parameters)
         slack, covariance = _covariance(band, parameters, scale, trends, area, limit)
@@ -216,10 +225,12 @@ def _fit(band: _Band, data: Array, trends: Array, area: float, limit: Limit) -> 
         parameters = np.concatenate([found.x, parameters[free:]])
         jacobian = np.asarray(found.jac)
         error = math.sqrt(float(np.linalg.pinv(jacobian.T @ jacobian)[1, 1]))
-        misfit = 2 * float(found.cost) / max(data.size - free - slack, 1)
+        freedom = max(data.size - free - slack, 1)
+        misfit = 2 * float(found.cost) / freedom
         if moved < 1e-6:
             break
-    return parameters, error * math.sqrt(max(misfit, 1.0)), misfit
+    chance = float(chdtri(freedom, RARE)) / freedom
+    return parameters, error * math.sqrt(misfit if misfit > chance else 1.0), misfit
 
 
 def _whitened(
@@ -230,7 +241,7 @@ def _whitened(
 
 
 def _covariance(
-    band: _Band, parameters: Array, scale: Array, trends: Array, area: float, limit: Limit
+    band: _Band, parameters: Array, scale: Array, trends: Array, area: Array, limit: Limit
 ) -> tuple[int, Array]:
     """Return how many trends are left free, and the covariance of S over `scale`."""
     density = band.law(parameters[0], parameters[1], parameters[2], limit)
