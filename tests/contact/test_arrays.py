@@ -230,3 +230,10 @@ def test_pictures_and_theories_fetch_what_they_need(library, rough):
     assert len(pressure_distribution_figure(there, {"Persson": density}).axes) == 1
     with pytest.raises(ValueError, match="NumPy's memory"):
         rc.loading_laws(there.problem.surface, 1.0, "gw")
+
+
+def test_a_surface_is_prepared_on_the_host(library, rough):
+    there = elsewhere(rough, library)
+    for prepare in (lambda s: s.levelled("plane"), lambda s: s.filtered(short=0.1), lambda s: s.flipped("x")):
+        with pytest.raises(ValueError, match="prepare the surface first"):
+            prepare(there)

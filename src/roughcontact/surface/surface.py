@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from functools import wraps
+from typing import ClassVar, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +24,25 @@ from roughcontact.surface.tip import scanned
 __all__ = ["Surface"]
 
 Array = npt.NDArray[np.float64]
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def on_host_only(method: Callable[Concatenate[Surface, P], R]) -> Callable[Concatenate[Surface, P], R]:
+    """Return a method that refuses heights which NumPy could not work on where they live."""
+
+    @wraps(method)
+    def checked(self: Surface, /, *args: P.args, **kwargs: P.kwargs) -> R:
+        if not is_numpy(self.heights):
+            raise ValueError(
+                f"{method.__name__} is for heights in NumPy's memory, not a {type(self.heights).__name__}: prepare the "
+                "surface first, then put its heights on the device"
+            )
+        return method(self, *args, **kwargs)
+
+    return checked
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,15 +178,15 @@ class Surface:
         return math.sqrt(float(xp.sum(deviation**2)) / count)
 
     # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
-    levelled = levelled
-    without_form = without_form
-    filtered = filtered
-    cropped = cropped
-    downsampled = downsampled
-    averaged = averaged
-    filled = filled
-    tapered = tapered
-    scanned = scanned
-    transposed = transposed
-    flipped = flipped
-    rotated = rotated
+    levelled = on_host_only(levelled)
+    without_form = on_host_only(without_form)
+    filtered = on_host_only(filtered)
+    cropped = on_host_only(cropped)
+    downsampled = on_host_only(downsampled)
+    averaged = on_host_only(averaged)
+    filled = on_host_only(filled)
+    tapered = on_host_only(tapered)
+    scanned = on_host_only(scanned)
+    transposed = on_host_only(transposed)
+    flipped = on_host_only(flipped)
+    rotated = on_host_only(rotated)
