@@ -301,7 +301,7 @@ TAIL = """
 Remarks
 
 * A smooth contact converges with the square of the cell in force and depth, a sharp one with the cell itself: half
-  a cell along its edge is missing. `k (1 - 0.345/n)` describes the square to four digits.
+  a cell along its edge is missing. Of the square about 0.345/n is missing.
 * The square's limit is 1.152298(1) E* L, and with it that of every full contact. The 1.1419 E* L that the thesis
   takes for the largest stiffness (eq. 4.14, from a shape factor of 1.012) is 0.9 % too small: 64 cells a side pass it.
 * The equilateral triangle has no closed form; the value beside it is `roughcontact.theory.punch.TRIANGLE`, good to its

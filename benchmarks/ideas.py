@@ -55,12 +55,12 @@ def pooled_by_mean(separation, factors):
     return blocks.mean(axis=tuple(range(1, blocks.ndim, 2)))
 
 
-def measure(surface, force, kept, pooled=cascade.pooled):
+def measure(surface, force, kept, pooled=cascade.pooled, solver=None):
     extras = Without(rc.half_space(surface.grid, 1.0), kept)
     before, cascade.pooled = cascade.pooled, pooled
     try:
         start = time.process_time()
-        solution = rc.press(surface, 1.0, force=force, operator=extras)
+        solution = rc.press(surface, 1.0, force=force, operator=extras, solver=solver)
         return f"{solution.steps:4d} {time.process_time() - start:7.3f} s"
     finally:
         cascade.pooled = before
@@ -74,6 +74,7 @@ def main(n):
         "no window": (everything[1:],),
         "no list": (("positive", "coarsened", "approximate_inverse"),),
         "means": (everything, pooled_by_mean),
+        "single": (everything, cascade.pooled, rc.ActiveSet(single=True)),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
     for name, surface, force in cases(n):

@@ -40,8 +40,8 @@ DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved tha
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    With `single` regions are solved in single precision and their errors found in double precision, which certifies;
-    it pays where single precision is much faster, on most graphics processors.
+    With `single` regions are solved in single precision, their errors found in double precision, which certifies:
+    more products, each of them cheaper (benchmarks/ideas.py).
 
     Regions of up to `dense_limit` cells are solved by a factorisation, larger ones by conjugate gradients,
     just as far as the present guess of the region deserves. For the half-space the influence matrix is an

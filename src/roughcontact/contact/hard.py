@@ -31,12 +31,13 @@ def press_hard(operator: Operator, separation: Array, terms: Terms, elastic: Arr
     projected method may run in circles. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
+    if terms.depth is not None:
+        return solver.run(operator, separation, terms, elastic)
     xp, beyond = namespace(elastic), elastic - terms.hardness
     excess = xp.where(beyond > 0, beyond, 0.0)
-    mostly_elastic = Measure(operator.weights).total(excess) < FLOWING * terms.control.value
-    if terms.depth is not None or mostly_elastic:
+    if Measure(operator.weights).total(excess) < FLOWING * terms.control.value:
         state = solver.run(operator, separation, terms, elastic)
-        if state.status.converged or terms.depth is not None:
+        if state.status.converged:
             return state
     pressure, steps = _by_depth(operator, separation, terms, solver)
     state = solver.run(operator, separation, terms, pressure)

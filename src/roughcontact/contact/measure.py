@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,11 @@ class Measure:
     """Sums over cells weighted by their area; operators are symmetric under this inner product."""
 
     weights: float | Array
+    _placed: Placed | None = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        placed = Placed(self.weights) if isinstance(self.weights, np.ndarray) else None
+        object.__setattr__(self, "_placed", placed)
 
     def total(self, field: Array | Mask) -> float:
         """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
@@ -55,9 +60,9 @@ class Measure:
 
     def _beside(self, field: Any) -> Any:
         """Return the weights where the field lives."""
-        if isinstance(self.weights, np.ndarray) and not is_numpy(field):
-            return Placed(self.weights).beside(_number(field))
-        return self.weights
+        return (
+            self.weights if self._placed is None or is_numpy(field) else self._placed.beside(_number(field))
+        )
 
 
 def _number(field: Any) -> Any:

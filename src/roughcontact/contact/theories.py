@@ -12,12 +12,11 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
+from roughcontact.grid import Grid
 from roughcontact.halfspace.build import half_space
 from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum
-from roughcontact.surface.analysis.spectrum_moments import spectrum_moments
-from roughcontact.surface.moments import surface_moments
 from roughcontact.surface.surface import Surface
 from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import LoadingLaw
@@ -69,13 +68,15 @@ def loading_laws(
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
         raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
-    whole = surface.filled() if surface.missing else surface  # a spectrum wants every point
     known = {"modulus": value, "area": surface.grid.area} | knowns
-    for need in {
-        need for name in wanted if name in laws.LAWS for need in laws.LAWS[name].needs
-    } - known.keys():
-        known |= _told_by(whole, need)
-    return [_on_its_body(laws.named(name, **known), surface, value) for name in wanted]
+    needs = {need for name in wanted if name in laws.LAWS for need in laws.LAWS[name].needs} - known.keys()
+    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
+        known.setdefault("spectrum", _waves(surface))
+    if "rms" in needs:
+        known["rms"] = surface.rms
+    if "hurst" in needs:
+        known["hurst"] = hurst_exponent(_whole(surface)).hurst
+    return _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
 
 
 def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
@@ -92,41 +93,44 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
     surface = solution.on_host().problem.surface
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise ValueError("Persson's theory is about surfaces on a grid of two axes")
-    whole = surface.filled() if surface.missing else surface
-    waves = Waves.of(_told_by(whole, "spectrum")["spectrum"])
+    waves = _waves(surface)
     nominal = solution.force / surface.grid.area
     return lambda stress: persson.pressure_density(stress, nominal, solution.problem.modulus, waves)
 
 
-def _told_by(surface: Surface, need: str) -> dict[str, Any]:
-    """Return what the surface tells about one of the facts that theories need."""
-    periodic = all(surface.grid.periodic)
-    if need == "spectrum":
-        if periodic:
-            dy, dx = surface.grid.spacing
-            return {"spectrum": Waves.of_heights(surface.heights, (dy, dx))}
-        return {"spectrum": power_spectrum(surface)}
-    if need == "moments":
-        return {
-            "moments": surface_moments(surface) if periodic else spectrum_moments(power_spectrum(surface))
-        }
-    if need == "rms":
-        return {"rms": surface.rms}
-    if need == "hurst":
-        return {"hurst": hurst_exponent(surface).hurst}
-    return {}
+def _whole(surface: Surface) -> Surface:
+    """Return the surface with a height at every point: a spectrum wants every one."""
+    return surface.filled() if surface.missing else surface
 
 
-def _on_its_body(law: LoadingLaw, surface: Surface, modulus: float) -> LoadingLaw:
-    """Return a law that speaks of the stiffness against the approach, if it speaks of any."""
-    if "stiffness" in law.quantities or "interfacial_stiffness" not in law.quantities:
-        return law
-    grid = surface.grid
+def _waves(surface: Surface) -> Waves:
+    """Return the very waves of a periodic surface, of a free one its spectrum in the band to be relied upon."""
+    whole = _whole(surface)
+    if all(whole.grid.periodic):
+        dy, dx = whole.grid.spacing
+        return Waves.of_heights(whole.heights, (dy, dx))
+    return Waves.of(power_spectrum(whole))
+
+
+def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[LoadingLaw]:
+    """Return laws that speak of the stiffness against the approach, those of them that speak of any."""
+    of_interface = [
+        "stiffness" not in law.quantities and "interfacial_stiffness" in law.quantities for law in found
+    ]
+    if not any(of_interface):
+        return found
     if all(grid.periodic):
-        more = {"stiffness": law.quantities["interfacial_stiffness"]}
-        return replace(law, quantities=dict(law.quantities) | more)
-    sunk = float(
-        half_space(grid, modulus).apply(np.ones(grid.shape)).mean()
-    )  # under a unit pressure everywhere
-    deflection = sunk * modulus / math.sqrt(grid.area)
-    return interaction.finite_body(law, modulus, grid.area, deflection=deflection)
+
+        def standing(law: LoadingLaw) -> LoadingLaw:
+            return replace(
+                law, quantities={**law.quantities, "stiffness": law.quantities["interfacial_stiffness"]}
+            )
+
+    else:
+        # Mean displacement under a unit pressure everywhere, E* = 1, over the length.
+        deflection = float(half_space(grid, 1.0).apply(np.ones(grid.shape)).mean()) / math.sqrt(grid.area)
+
+        def standing(law: LoadingLaw) -> LoadingLaw:
+            return interaction.finite_body(law, modulus, grid.area, deflection=deflection)
+
+    return [standing(law) if alone else law for law, alone in zip(found, of_interface, strict=True)]
