@@ -12,10 +12,11 @@ import numpy.typing as npt
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.contact.variables import VARIABLES, unit_of
 from roughcontact.halfspace.geometry import Geometry
+from roughcontact.plot.points import Column, draw_points
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.theories import draw_laws
 from roughcontact.plot.ticks import readable_ticks
-from roughcontact.plot.units import Scale, scale
+from roughcontact.plot.units import Scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -98,38 +99,11 @@ def _forces(curve: Curve) -> tuple[float, float]:
 
 def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
     """Draw one quantity of the curve against force; return the scales of both axes."""
-    force, values = curve.force, np.asarray(getattr(curve, name))
-    x, y = (
-        scale(float(np.max(v, initial=0.0, where=np.isfinite(v))), unit_of(n, curve.geometry))
-        for n, v in (("force", force), (name, values))
+    force, column = (
+        Column(np.asarray(getattr(curve, n)), VARIABLES[n].label, unit_of(n, curve.geometry))
+        for n in ("force", name)
     )
-    axes.set(xscale="log", yscale="log")
-    # A logarithmic axis has no place for zero, and none for infinity.
-    shown = np.isfinite(values) & (values > 0) & (force > 0)
-    resolved = np.asarray(curve.resolved)
-    size = 4.5 if force.size <= 60 else 3.0
-    for chosen, fill, text in ((resolved, _POINTS, "resolved"), (~resolved, "white", "not resolved")):
-        points = shown & chosen
-        if points.any():
-            axes.plot(
-                force[points] * x.factor,
-                values[points] * y.factor,
-                "o",
-                markersize=size,
-                color=_POINTS,
-                markerfacecolor=fill,
-                label=text,
-                zorder=3,
-            )
-    for axis, numbers in ((axes.xaxis, force[shown]), (axes.yaxis, values[shown])):
-        if numbers.size:
-            readable_ticks(axis, float(numbers.max() / numbers.min()))
-    axes.set_xlabel(f"{VARIABLES['force'].label} [{x.unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"{VARIABLES[name].label} [{y.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK, which="both")
-    axes.grid(True, which="major", color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
-    return x, y
+    return draw_points(axes, force, column, np.asarray(curve.resolved), _POINTS)
 
 
 def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scale]) -> None:
