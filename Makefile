@@ -18,6 +18,8 @@ BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
+# PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
+TORCH ?= torch==2.13.0+cpu
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
@@ -63,6 +65,7 @@ $(ENV)/.ready-to-read: $(ENV)/.ready
 $(ENV)/.ready-to-test: $(ENV)/.ready
 	@echo "Installing what the tests need ..."
 	@$(BIN)/python $(INSTALL) -e ".[formats,test,lint]"
+	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this

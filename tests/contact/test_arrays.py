@@ -1,7 +1,7 @@
 """Arrays of other libraries: what goes in comes out, and nothing goes through NumPy on the way.
 
 `array_api_strict` knows nothing but the array API standard, and its second device refuses every way to NumPy.
-PyTorch's tests run where it is installed.
+PyTorch's tests run where it is installed; `make test` installs its CPU build where pip finds one.
 """
 
 import importlib.util
