@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.contact.by_patches import GAIN, patch_on, press_by_patches
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.hard import press_hard
 from roughcontact.contact.iterative import press_region
@@ -22,6 +23,7 @@ from roughcontact.contact.status import Status
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.halfspace.patches import PatchOperator
 
 __all__ = ["ActiveSet"]
 
@@ -31,8 +33,7 @@ Mask = npt.NDArray[np.bool_]
 
 LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
 SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
-
-
+STUCK = 3  # rounds without progress after which patches are no longer trusted
 DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved that is but a guess
 
 
@@ -76,6 +77,7 @@ class ActiveSet:
         u, fresh, steps = operator.apply(p), True, 1
         tangent: Tangent | None = None
         best, idle = np.inf, 0
+        patch: PatchOperator | None = None
         guessed = True
         while True:
             d = measure.mean(u + separation, p > 0) if given is None else given
@@ -123,20 +125,27 @@ class ActiveSet:
                 if not bool(xp.all(region == (p > 0))):
                     # A region that still changes deserves no more than a part.
                     goal = max(goal, min(DEPTH_OF_SOLVE * r, 1e-2))
-                limit = scale * goal
-                relaxed = press_region(
-                    operator,
-                    separation,
-                    control,
-                    region,
-                    p,
-                    u,
-                    limit=limit,
-                    max_steps=self.max_steps - steps,
-                    single=self.single,
-                )
+                limit, left = scale * goal, self.max_steps - steps
+                patch = patch_on(operator, region | (p > 0), patch) if idle < STUCK else None
+                if patch is None:
+                    relaxed = press_region(
+                        operator,
+                        separation,
+                        control,
+                        region,
+                        p,
+                        u,
+                        limit=limit,
+                        max_steps=left,
+                        single=self.single,
+                    )
+                else:
+                    limit = max(limit, scale * GAIN * r)
+                    relaxed = press_by_patches(
+                        patch, operator, separation, control, region, p, u, limit=limit, max_steps=left
+                    )
                 p, u, tangent = relaxed.pressure, relaxed.displacement, None
-                fresh, steps = False, steps + relaxed.steps
+                fresh, steps = patch is not None, steps + relaxed.steps
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, p)
         return replace(rest, steps=rest.steps + steps)
 

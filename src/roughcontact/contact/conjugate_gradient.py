@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.operator import Invertible, Operator
+from roughcontact.halfspace.operator import Invertible, Linear
 
 __all__ = ["Relaxed", "relax"]
 
@@ -30,7 +30,7 @@ class Relaxed:
 
 
 def relax(
-    operator: Operator,
+    operator: Linear,
     region: Mask,
     separation: Array,
     pressure: Array,
@@ -44,7 +44,7 @@ def relax(
 
     Parameters
     ----------
-    operator : Operator
+    operator : Linear
     region : bool array
         Cells that carry pressure.
     separation : array
@@ -101,7 +101,7 @@ def relax(
 
 
 def _preconditioner(
-    operator: Operator, region: Mask, measure: Measure, ones: Array | None
+    operator: Linear, region: Mask, measure: Measure, ones: Array | None
 ) -> Callable[[Array], Array]:
     """Return a map from errors [m] to directions of pressure [Pa] on the region.
 

@@ -12,7 +12,7 @@ from roughcontact.contact.conjugate_gradient import Relaxed, relax
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Control, Force
 from roughcontact.contact.refinement import relax_in_single
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Linear
 
 __all__ = ["press_region"]
 
@@ -21,7 +21,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 def press_region(
-    operator: Operator,
+    operator: Linear,
     separation: Array,
     control: Control,
     region: Mask,
@@ -63,7 +63,7 @@ def press_region(
                 kept = xp.where(region, xp.ones_like(p), 0.0)
             kept *= control.value / measure.total(kept)
         if bool(xp.any(kept != p)):
-            u, steps = operator.apply(kept), steps + 1
+            u, steps = u + operator.apply(kept - p), steps + 1
         solve = relax_in_single if single else relax
         found = solve(
             operator, region, separation, kept, u, depth=depth, limit=limit, max_steps=max_steps - steps

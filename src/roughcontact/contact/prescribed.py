@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, namespace
+from roughcontact.contact.by_patches import GAIN, patch_on, relax_by_patches
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
@@ -141,31 +142,53 @@ def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, float, int]:
     """Return pressure, largest error [m] on a fresh product, and the number of products."""
-    steps, xp = 0, namespace(wanted)
+    steps = 0
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
     displacement = operator.apply(start)
     steps += 1
-    for _ in range(3):  # once as a rule: the image is tracked, and checked by a fresh product
-        found = relax(
-            operator,
-            region,
-            -wanted,
-            start,
-            displacement,
-            depth=0.0,
-            limit=0.5 * limit,
-            max_steps=max_steps - steps,
-        )
-        steps += found.steps
-        start = found.pressure
-        if found.steps:
-            displacement = operator.apply(start)
-            steps += 1
-        error = float(xp.max(xp.where(region, xp.abs(displacement - wanted), 0.0)))
-        if error <= limit or steps >= max_steps:
-            break
+    patch = patch_on(operator, region)
+    error = _error(displacement, wanted, region)
+    while steps < max_steps and error > limit:
+        before = error
+        if patch is None:
+            found = relax(
+                operator,
+                region,
+                -wanted,
+                start,
+                displacement,
+                depth=0.0,
+                limit=0.5 * limit,
+                max_steps=max_steps - steps,
+            )
+            # The image is tracked, and checked by a fresh product.
+            start, displacement = found.pressure, operator.apply(found.pressure)
+            steps += found.steps + 1
+        else:
+            found = relax_by_patches(
+                patch,
+                operator,
+                region,
+                -wanted,
+                start,
+                displacement,
+                limit=max(0.5 * limit, GAIN * error),
+                max_steps=max_steps - steps,
+            )
+            start, displacement, steps = found.pressure, found.displacement, steps + found.steps
+        error = _error(displacement, wanted, region)
+        if not error < before / 2:
+            if patch is None:
+                break
+            patch = None  # they have done what they could
     return start, error, steps
+
+
+def _error(displacement: Array, wanted: Array, region: Mask) -> float:
+    """Return the largest error on the region [m]."""
+    xp = namespace(wanted)
+    return float(xp.max(xp.where(region, xp.abs(displacement - wanted), 0.0)))
 
 
 def _first(

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from roughcontact.arrays import namespace
 from roughcontact.contact.conjugate_gradient import Relaxed, relax
 from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Linear
 
 __all__ = ["relax_in_single"]
 
@@ -20,7 +20,7 @@ GAIN = 1e-4
 
 
 def relax_in_single(
-    operator: Operator,
+    operator: Linear,
     region: Mask,
     separation: Array,
     pressure: Array,

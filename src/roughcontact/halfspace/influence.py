@@ -61,7 +61,7 @@ class Love:
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""
-        return self.modulus / 2 * _definite(_wavenumbers(shape, self.spacing))
+        return self.modulus / 2 * definite(wavenumbers(shape, self.spacing))
 
     def coarsened(self, grid: Grid) -> Love:
         """Return the same body on the cells of `grid`."""
@@ -92,7 +92,7 @@ class Strip:
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself."""
-        return self.modulus / 2 * _definite(_wavenumbers(shape, self.spacing))
+        return self.modulus / 2 * definite(wavenumbers(shape, self.spacing))
 
     def coarsened(self, grid: Grid) -> Strip:
         """Return the same body on the cells of `grid`."""
@@ -111,7 +111,7 @@ class Periodic:
 
     def multiplier(self) -> Array:
         """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
-        return periodic_multiplier(_wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
+        return periodic_multiplier(wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
@@ -127,7 +127,7 @@ class Periodic:
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]."""
-        return self.modulus / 2 * _definite(_wavenumbers(shape, self.grid.spacing))
+        return self.modulus / 2 * definite(wavenumbers(shape, self.grid.spacing))
 
     def coarsened(self, grid: Grid) -> None:
         """Return None: the cells of `grid`, which lie in a window, need not divide the period."""
@@ -194,13 +194,13 @@ class Tables:
         return None if coarse is None else Tables(coarse, grid.shape)
 
 
-def _wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
+def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     return np.asarray(np.hypot(qy[:, None], qx))
 
 
-def _definite(wavenumber: Array) -> Array:
+def definite(wavenumber: Array) -> Array:
     """Give the mean the wavenumber of half the longest wave: an inverse without it would miss the mean for good."""
     waves = wavenumber[wavenumber > 0]
     wavenumber[0, 0] = 0.5 * waves.min() if waves.size else 1.0

@@ -13,6 +13,7 @@ from roughcontact.halfspace.geometry import Geometry
 __all__ = [
     "Coarsenable",
     "Invertible",
+    "Linear",
     "Listable",
     "Operator",
     "exact_of",
@@ -22,6 +23,19 @@ __all__ = [
 ]
 
 Array = npt.NDArray[np.float64]
+
+
+class Linear(Protocol):
+    """What conjugate gradients take: a linear map, symmetric under its weights."""
+
+    @property
+    def weights(self) -> float | Array:
+        """Force of a unit pressure on each cell [m^2]."""
+        ...
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa]."""
+        ...
 
 
 @runtime_checkable

@@ -12,6 +12,7 @@ from roughcontact.arrays import Placed, convolve, even_multiplier, fast_even_len
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Love, Periodic, Strip, Tables
+from roughcontact.halfspace.patches import Patches
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -57,6 +58,13 @@ class FreeOperator:
     @cached_property
     def _multiplier(self) -> Placed:
         return Placed(even_multiplier(self.influence.table(self.grid.shape), self._padded))
+
+    @cached_property
+    def patches(self) -> Patches | None:
+        """What works on the tiles of a region of this half-space; None for another body."""
+        kernel = self.influence.influence
+        patches = Patches(kernel, self.grid) if isinstance(kernel, Love) else None
+        return patches if patches is not None and patches.possible else None
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -109,6 +117,12 @@ class PeriodicOperator:
     def modulus(self) -> float | None:
         """Reduced modulus E* [Pa] of a half-space; None of another body."""
         return self.influence.modulus if isinstance(self.influence, Periodic) else None
+
+    @cached_property
+    def patches(self) -> Patches | None:
+        """What works on the tiles of a region; None where they do not fit the period."""
+        patches = Patches(self.influence, self.grid)
+        return patches if patches.possible else None
 
     @cached_property
     def _tables(self) -> Tables:

@@ -1,0 +1,99 @@
+"""Tiles: small squares of cells that hold a region of a plane, so that work follows the region."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, overload
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["SIDE", "Tiles"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+Mask = npt.NDArray[np.bool_]
+
+SIDE = 8  # cells: larger tiles are emptier, smaller ones make matrices that are too small to be fast
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tiles:
+    """The tiles of a plane in which a region has cells; fields on them have shape ``(n, SIDE * SIDE)``.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Cells of the plane.
+    rows, columns : int arrays, shape (n,)
+        Where the tiles are, counted in tiles.
+    cells : int array, shape (n, SIDE * SIDE)
+        Flat index of each cell in the plane; -1 of one beyond its edge.
+    """
+
+    shape: tuple[int, int]
+    rows: Cells
+    columns: Cells
+    cells: Cells
+
+    @classmethod
+    def of(cls, region: Mask) -> Tiles:
+        """Return the tiles of a region of shape (ny, nx)."""
+        ny, nx = region.shape
+        down, across = count(ny), count(nx)
+        padded = np.zeros((down * SIDE, across * SIDE), dtype=bool)
+        padded[:ny, :nx] = region
+        rows, columns = np.nonzero(padded.reshape(down, SIDE, across, SIDE).any(axis=(1, 3)))
+        inside = np.arange(SIDE)
+        y, x = rows[:, None] * SIDE + inside, columns[:, None] * SIDE + inside
+        cells = y[:, :, None] * nx + x[:, None, :]
+        beyond = (y >= ny)[:, :, None] | (x >= nx)[:, None, :]
+        cells[beyond] = -1
+        return cls((ny, nx), rows, columns, cells.reshape(len(rows), SIDE * SIDE))
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @overload
+    def gather(self, field: Mask) -> Mask: ...
+    @overload
+    def gather(self, field: Array) -> Array: ...
+    def gather(self, field: Any) -> Any:
+        """Return the values of a field of the plane on the tiles, zero beyond the edge."""
+        return np.where(self.cells >= 0, field.ravel()[self.cells], field.dtype.type(0))
+
+    def scatter(self, values: Array) -> Array:
+        """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
+        field = np.zeros(self.shape, dtype=values.dtype)
+        inside = self.cells >= 0
+        field.ravel()[self.cells[inside]] = values[inside]
+        return field
+
+    def hold(self, region: Mask) -> bool:
+        """Whether every cell of a region lies on a tile."""
+        inside = self.cells[self.cells >= 0]
+        return int(np.count_nonzero(region)) == int(np.count_nonzero(region.ravel()[inside]))
+
+    def neighbours(self, reach: int, periodic: bool) -> list[tuple[tuple[int, int], Cells, Cells]]:
+        """Return the pairs of tiles at most `reach` tiles apart along either axis.
+
+        Each entry is an offset of tiles, the tiles that have a neighbour there, and those neighbours.
+        """
+        down, across = (count(n) for n in self.shape)
+        room = 0 if periodic else reach
+        where = np.full((down + 2 * room, across + 2 * room), -1)
+        where[self.rows + room, self.columns + room] = np.arange(len(self))
+        pairs = []
+        for dy in range(-reach, reach + 1):
+            for dx in range(-reach, reach + 1):
+                y, x = self.rows + room + dy, self.columns + room + dx
+                found = where[y % down, x % across] if periodic else where[y, x]
+                here = np.flatnonzero(found >= 0)
+                if len(here):
+                    pairs.append(((dy, dx), here, found[here]))
+        return pairs
+
+
+def count(cells: int) -> int:
+    """Return how many tiles a side of so many cells takes."""
+    return -(-cells // SIDE)
