@@ -34,7 +34,7 @@ def plain(operator):
 
 @pytest.fixture(params=["free", "free, any shape", "periodic"])
 def rough(request):
-    shape = (170, 147) if request.param == "free, any shape" else (160, 160)
+    shape = (230, 187) if request.param == "free, any shape" else (160, 160)
     grid = rc.Grid(shape, (1e-3, 1e-3), request.param == "periodic")
     return rc.self_affine(grid, hurst=0.8, rms=1e-3, rng=np.random.default_rng(5))
 
