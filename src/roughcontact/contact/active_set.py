@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.by_patches import GAIN, patch_on, press_by_patches
+from roughcontact.contact.by_patches import GAIN, factorised, patch_on, press_by_patches
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.hard import press_hard
 from roughcontact.contact.iterative import press_region
@@ -71,7 +71,8 @@ class ActiveSet:
         own = judge.self_influence
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         xp = namespace(separation)
-        dense_limit = self.dense_limit if is_numpy(separation) else 0  # factorisations are made on the host
+        # Factorisations are made on the host.
+        dense_limit = factorised(operator, self.dense_limit) if is_numpy(separation) else 0
         given = terms.depth
         p = start_pressure(measure, separation, control, initial, own)
         u, fresh, steps = operator.apply(p), True, 1

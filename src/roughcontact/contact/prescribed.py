@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, namespace
-from roughcontact.contact.by_patches import GAIN, patch_on, relax_by_patches
+from roughcontact.contact.by_patches import GAIN, factorised, patch_on, relax_by_patches
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
@@ -197,7 +197,7 @@ def _first(
     """Return a first pressure: the answer itself for few cells, else that of cells of twice the size."""
     xp = namespace(wanted)
     pressure = xp.zeros_like(wanted)
-    if is_numpy(region) and np.count_nonzero(region) <= DENSE_LIMIT:
+    if is_numpy(region) and np.count_nonzero(region) <= factorised(operator, DENSE_LIMIT):
         cells = np.flatnonzero(region)
         with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
             pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
