@@ -239,7 +239,7 @@ class TestRefusals:
 
     @pytest.mark.parametrize("loads", [{"force": 0.0}, {"depth": -1e-6}, {"force": math.nan}, {"depth": 0.0}])
     def test_positive_loads(self, loads):
-        with pytest.raises(ValueError, match="must be positive"):
+        with pytest.raises(ValueError, match=r"must be positive|force must be a number, not nan"):
             theory.press(random_summits(), **loads)
 
     def test_arrays(self):

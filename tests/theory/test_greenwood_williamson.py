@@ -177,7 +177,9 @@ class TestRefusals:
 
     @pytest.mark.parametrize("exponent", [0.9, 11.5, math.nan])
     def test_asperities(self, exponent):
-        with pytest.raises(ValueError, match="exponent must lie from 1 to 11"):
+        with pytest.raises(
+            ValueError, match=r"exponent must lie from 1 to 11|exponent must be a number, not nan"
+        ):
             gw.Asperity(1.0, exponent, MODULUS)
 
     def test_pressures(self):

@@ -19,7 +19,8 @@ import numpy.typing as npt
 
 from roughcontact.theory.asperity_balance import balance, independent_depth
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import positive, require
+from roughcontact.theory.tools.domain import number, positive, require
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["Asperities", "AsperityContact", "law", "press"]
 
@@ -56,8 +57,9 @@ class Asperities:
     modulus: float
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         for name in ("x", "y", "height", "radius"):
-            given = np.array(getattr(self, name), dtype=np.float64, ndmin=1)
+            given = np.array(number(getattr(self, name), f"{name} [m]"), ndmin=1)
             require(np.isfinite(given), f"{name} must be finite [m]")
             require(
                 given.ndim == 1 and given.size > 0 and given.size == np.size(self.x),
@@ -152,6 +154,7 @@ class AsperityContact:
         return int((~apart).any(axis=1).sum())
 
 
+@numeric
 def press(
     asperities: Asperities,
     *,

@@ -10,7 +10,8 @@ from scipy.special import binom, gammaln, j0
 
 from roughcontact.theory import cosine
 from roughcontact.theory.height_distribution import HeightDistribution
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, positive, require, scalar
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["beat_wave"]
 
@@ -22,6 +23,7 @@ FAR = {2: 3e4, 3: 1e4, 4: 3e3}
 FAR_OF_MANY = 1e3
 
 
+@numeric
 def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     """Return the distribution of the heights of several waves with independent phases.
 
@@ -46,8 +48,9 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     Fourier series of the bounded heights, whose coefficients are J0^N. One wave is closed (thesis, eq. 4.33). The
     error is below 2e-6 for up to eight waves; for more, the fraction is small where it is computed to 1e-15 of one.
     """
-    require(modes == int(modes) and modes >= 1, f"modes must be a positive whole number, not {modes}")
-    n, h0 = int(modes), float(positive(amplitude, "amplitude [m]"))
+    given = scalar(modes, "modes")
+    require(given >= 1 and given % 1 == 0, f"modes must be a positive whole number, not {modes}")
+    n, h0 = int(given), float(positive(amplitude, "amplitude [m]"))
     name = f"{n} waves of independent phases" if n > 1 else "One cosine"
     if n == 1:
         return HeightDistribution(

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.punch.polygon import square
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["CELL", "KING", "WINDOW", "cell", "king_saturation", "resolved", "saturation", "spring", "window"]
 
@@ -20,6 +21,7 @@ WINDOW = 20.0
 KING = 1.012
 
 
+@numeric
 def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
     """Return the stiffness of a single cell in contact, 0.891107 E* spacing [N/m] (thesis, eq. 4.16).
 
@@ -35,6 +37,7 @@ def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
     return CELL * positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
 
+@numeric
 def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
     """Return the stiffness of a single spring of the method of dimensionality reduction, E* spacing [N/m].
 
@@ -48,6 +51,7 @@ def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
     return positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
 
+@numeric
 def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     """Return the stiffness that no contact inside a square exceeds, 1.152298 E* L [N/m] (thesis, eqs 4.7 and 4.14).
 
@@ -61,6 +65,7 @@ def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     return square(modulus, length)
 
 
+@numeric
 def king_saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     """Return the saturation as the thesis prints it, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L [N/m] (eqs 4.7 and 4.14).
 
@@ -77,6 +82,7 @@ def king_saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     return 2 * KING / math.sqrt(math.pi) * scale
 
 
+@numeric
 def window(
     modulus: npt.ArrayLike, length: npt.ArrayLike, spacing: npt.ArrayLike, *, cells: float = WINDOW
 ) -> tuple[Array, Array]:
@@ -113,6 +119,7 @@ def window(
     return lowest, highest
 
 
+@numeric
 def resolved(
     stiffness: npt.ArrayLike,
     modulus: npt.ArrayLike,

@@ -26,6 +26,7 @@ from roughcontact.theory.nayak import bandwidth, free_variance
 from roughcontact.theory.summit_integrals import log_integrals
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import number, positive, require
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
 
@@ -61,6 +62,7 @@ class Summits:
     elliptic: bool = True
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         positive(self.modulus, "the reduced modulus [Pa]")
         free_variance(self.nayak)
 
@@ -174,6 +176,7 @@ def _area_factor(ratio: Array) -> Array:
     )
 
 
+@numeric
 def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulus: float) -> Array:
     """Return the contact fraction in the limit of no load, ``A/A0 = sqrt(pi/m2) p/E*`` [-].
 
@@ -186,6 +189,7 @@ def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulu
     return np.asarray(math.sqrt(math.pi) / slope * ratio)
 
 
+@numeric
 def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modulus: float) -> Array:
     """Return the pressure in the limit of high separation s, ``E* sqrt(m2/pi) erfc(s/sqrt(2 m0))/4`` [Pa].
 
@@ -199,6 +203,7 @@ def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modu
     )
 
 
+@numeric
 def law(moments: ProfileMoments, modulus: float, area: float, *, elliptic: bool = True) -> LoadingLaw:
     """Return the theory for a surface with these moments, as functions of the force.
 

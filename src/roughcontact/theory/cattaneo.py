@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.theory.tools.domain import Array, positive, require, scalar
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SlippingSphere"]
 
@@ -75,10 +76,12 @@ class SlippingSphere:
         """Displacement at Q = mu P [m], beyond which nothing holds."""
         return self.friction * self.ratio * self.depth
 
+    @numeric
     def stick_radius(self, tangential: float | Array) -> Array:
         """Return the radius c = a (1 - Q/(mu P))^(1/3) of the disc that sticks [m] under Q [N]."""
         return np.asarray(self.contact_radius * (1 - self._part(tangential)) ** (1 / 3))
 
+    @numeric
     def traction(self, distance: float | Array, tangential: float) -> Array:
         """Return the traction q [Pa] at a distance from the centre [m]."""
         r, a = positive(distance, "the distance [m]", zero=True), self.contact_radius
@@ -87,6 +90,7 @@ class SlippingSphere:
         full, held = (np.sqrt(np.maximum(edge**2 - r**2, 0)) / a for edge in (a, c))
         return np.asarray(self.friction * self.peak_pressure * (full - held))
 
+    @numeric
     def displacement(self, tangential: float | Array) -> Array:
         """Return the tangential displacement [m] as Q [N] rises from zero."""
         f = self._part(tangential)
@@ -94,15 +98,18 @@ class SlippingSphere:
         # 1 - y^2, exact for small f = 1 - y^3
         return np.asarray(self.gross_slip * f * (1 + y) / (1 + y + y**2))
 
+    @numeric
     def reversed_displacement(self, tangential: float | Array, turned: float) -> Array:
         """Return the displacement [m] as Q [N] falls after it had risen to `turned` [N], down to -`turned`."""
         fall = (turned - np.asarray(tangential, dtype=np.float64)) / 2
         return np.asarray(self.displacement(turned) - 2 * self.displacement(fall))
 
+    @numeric
     def stiffness(self, tangential: float | Array) -> Array:
         """Return dQ/d displacement = 2 G* c [N/m] as Q [N] rises from zero."""
         return np.asarray(2 * self.modulus / self.ratio * self.stick_radius(tangential))
 
+    @numeric
     def cycle_loss(self, amplitude: float | Array) -> Array:
         """Return the work [J] that friction takes in a cycle between +Q and -Q [N]."""
         f = self._part(amplitude)

@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, number, positive, require, shown
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "electrical",
@@ -33,6 +34,7 @@ __all__ = [
 Pair = tuple[float, float]
 
 
+@numeric
 def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) -> Array:
     """Return the electrical conductance Lambda_e [S] (thesis, eq. 4.2).
 
@@ -55,11 +57,13 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
     return np.asarray(_lengths(stiffness, modulus) * 2 / (first + second))
 
 
+@numeric
 def stiffness_from_electrical(conductance: float | Array, modulus: float, resistivities: Pair) -> Array:
     """Return the stiffness k [N/m] of the contact with an electrical conductance [S] (thesis, eq. 4.2)."""
     return _inverse(electrical, conductance, modulus, resistivities)
 
 
+@numeric
 def thermal(stiffness: float | Array, modulus: float, conductivities: Pair) -> Array:
     """Return the thermal conductance Lambda_t [W/K], ``k/E*`` times the harmonic mean (thesis, eq. 4.4 corrected).
 
@@ -73,6 +77,7 @@ def thermal(stiffness: float | Array, modulus: float, conductivities: Pair) -> A
     return np.asarray(_lengths(stiffness, modulus) * harmonic_mean(conductivities))
 
 
+@numeric
 def stiffness_from_thermal(conductance: float | Array, modulus: float, conductivities: Pair) -> Array:
     """Return the stiffness k [N/m] of the contact with a thermal conductance [W/K] (thesis, eq. 4.4 corrected)."""
     return _inverse(thermal, conductance, modulus, conductivities)
@@ -94,6 +99,7 @@ def resistance(conductance: float | Array) -> Array:
         return np.asarray(1 / _not_negative(conductance, "a conductance"))
 
 
+@numeric
 def law(
     mechanical: LoadingLaw,
     modulus: float,

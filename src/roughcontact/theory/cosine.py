@@ -13,10 +13,12 @@ from scipy.special import spherical_jn
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.tools.inverse import bisect
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["depth", "force", "law", "small_force", "stiffness"]
 
 
+@numeric
 def force(
     depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -42,6 +44,7 @@ def force(
     return value
 
 
+@numeric
 def stiffness(
     depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -56,6 +59,7 @@ def stiffness(
     return scale / np.pi * _angle(d / (2 * h0))
 
 
+@numeric
 def depth(
     force: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -78,6 +82,7 @@ def depth(
     return value
 
 
+@numeric
 def small_force(
     depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -101,6 +106,7 @@ def small_force(
     return value
 
 
+@numeric
 def law(amplitude: float, length: float, modulus: float) -> LoadingLaw:
     """Return stiffness and depth of one cosine wave as functions of force (thesis, eq. 4.33, corrected).
 

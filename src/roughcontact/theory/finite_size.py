@@ -25,6 +25,7 @@ from roughcontact.theory import persson_separation as separation
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = ["Cell", "law"]
@@ -57,6 +58,7 @@ class Cell:
     prefactor: float | None = None
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         require(
             0 < self.hurst <= pohrt_popov.SMOOTH,
             f"the power law of a cell is known for Hurst exponents above 0 and at most 2, not {self.hurst}: "
@@ -71,12 +73,14 @@ class Cell:
         """Prefactor of the power law [-]."""
         return float(pohrt_popov.prefactor(self.hurst)) if self.prefactor is None else self.prefactor
 
+    @numeric
     def stiffness(self, force: float | Array, modulus: float) -> Array:
         """Return the stiffness [N/m] if the cell carries the whole `force` [N]; `modulus` is E* [Pa]."""
         scale = positive(modulus, "the modulus [Pa]") * self.length
         ratio = positive(force, "the force [N]", zero=True) / (scale * self.rms)
         return np.asarray(scale * self.zeta * ratio ** (1 / (self.hurst + 1)))
 
+    @numeric
     def crossover_force(self, modulus: float, decay: float) -> float:
         """Return the force [N] at which the cell is as stiff as F/u0, ``E* h l (zeta u0/h)^((H+1)/H)``.
 
@@ -94,6 +98,7 @@ class Cell:
         return scale * math.pow(meeting, (self.hurst + 1) / self.hurst)
 
 
+@numeric
 def law(
     cell: Cell, spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separation.GAMMA
 ) -> LoadingLaw:
@@ -123,7 +128,7 @@ def law(
 
     def stiffness(force: Array) -> Array:
         many = nominal * separation.stiffness(force / nominal, modulus, waves, gamma=gamma)
-        return np.maximum(cell.stiffness(force, modulus), many)
+        return np.asarray(np.maximum(cell.stiffness(force, modulus), many))
 
     stiffness(np.array([0.0]))  # bad numbers show themselves here, not in the first prediction
     return LoadingLaw(

@@ -18,6 +18,7 @@ from scipy.special import ndtr
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive
 from roughcontact.theory.tools.inverse import bisect
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["exponent", "force", "law", "stiffness"]
 
@@ -25,6 +26,7 @@ __all__ = ["exponent", "force", "law", "stiffness"]
 HIGHEST = 38.0
 
 
+@numeric
 def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
     """Return the force when the flat body stands at a level above the mean height [N].
 
@@ -43,6 +45,7 @@ def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modul
     return _scale(length, modulus) * positive(rms, "rms [m]") * _force(t)
 
 
+@numeric
 def stiffness(
     force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -58,6 +61,7 @@ def stiffness(
     return _scale(length, modulus) * ndtr(-_level(force, rms, length, modulus))
 
 
+@numeric
 def exponent(
     force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -74,6 +78,7 @@ def exponent(
     return value
 
 
+@numeric
 def law(rms: float, length: float, modulus: float) -> LoadingLaw:
     """Return the stiffness as a function of force.
 

@@ -21,6 +21,7 @@ from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import number, positive, require, scalar, shown
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["Asperity", "Population", "law", "population"]
 
@@ -50,12 +51,14 @@ class Asperity:
     modulus: float
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         positive(self.coefficient, "the coefficient of an asperity")
         positive(self.modulus, "the reduced modulus [Pa]")
         n = scalar(self.exponent, "the exponent of an asperity")
         require(1 <= n <= 11, f"an asperity's exponent must lie from 1 to 11, not {n}")
 
     @classmethod
+    @numeric
     def hertz(cls, radius: float, modulus: float) -> Asperity:
         """Return a sphere of the given radius [m] on a body of reduced modulus [Pa]."""
         reduced = float(positive(modulus, "the reduced modulus [Pa]"))
@@ -97,6 +100,7 @@ class Population:
     distribution: Distribution = "gaussian"
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         if not isinstance(self.asperity, Asperity):
             raise ValueError(
                 f"an Asperity is wanted, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}"
@@ -208,6 +212,7 @@ class Population:
         return np.asarray(self.density * coefficient * self.std**order * moment)
 
 
+@numeric
 def population(
     moments: ProfileMoments, modulus: float, *, distribution: Distribution = "gaussian"
 ) -> Population:
@@ -227,6 +232,7 @@ def population(
     return Population(sphere, mean.density, mean.std, mean.mean_height, distribution)
 
 
+@numeric
 def law(
     moments: ProfileMoments, modulus: float, area: float, *, distribution: Distribution = "gaussian"
 ) -> LoadingLaw:

@@ -21,6 +21,7 @@ from scipy.interpolate import PPoly
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.tools.inverse import bisect
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "HeightDistribution",
@@ -59,16 +60,19 @@ class HeightDistribution:
     excess: Callable[[Array], Array]
     source: str = "thesis, eq. 4.59"
 
+    @numeric
     def force(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
         """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59)."""
         u = positive(depth, "depth [m]", zero=True)
         return _scale(length, modulus) * self.excess(u)
 
+    @numeric
     def stiffness(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
         """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61)."""
         u = positive(depth, "depth [m]", zero=True)
         return _scale(length, modulus) * self.fraction(u)
 
+    @numeric
     def depth(self, force: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
         """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`."""
         wanted = positive(force, "force [N]", zero=True) / _scale(length, modulus)
@@ -81,6 +85,7 @@ class HeightDistribution:
         value: Array = np.where(loaded, bisect(self.excess, wanted, low, high), 0.0)[()]
         return value
 
+    @numeric
     def law(self, length: float, modulus: float) -> LoadingLaw:
         """Return stiffness and depth as functions of force: the exact k(F) of these heights on springs.
 
@@ -178,6 +183,7 @@ def from_samples(
     return HeightDistribution(name, fraction, excess)
 
 
+@numeric
 def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     """Return alpha = (beta + 1)/(beta + 2) of k ~ F^alpha for Phi ~ z^beta (thesis, eqs 4.60 to 4.63) [-].
 
@@ -192,6 +198,7 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     return value
 
 
+@numeric
 def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
     """Return beta = (2 alpha - 1)/(1 - alpha) of Phi ~ z^beta for k ~ F^alpha (thesis, eq. 4.64) [-].
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, number, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
 
 
+@numeric
 def spot_resistance(radius: float | Array, resistivities: tuple[float, float]) -> Array:
     """Return the constriction resistance of a round spot between two half-spaces [ohm], (rho1 + rho2)/(4a).
 
@@ -55,7 +57,7 @@ def contact_length(radii: Array, positions: Array) -> float:
         If a radius is not positive, or two spots overlap: then their shapes matter, and a computation is wanted
         (`roughcontact.contact_stiffness`).
     """
-    a, centre = np.asarray(radii, dtype=np.float64), np.asarray(positions, dtype=np.float64)
+    a, centre = np.asarray(number(radii, "radii [m]")), np.asarray(number(positions, "positions [m]"))
     if a.ndim != 1 or a.size == 0 or centre.shape != (a.size, 2):
         raise ValueError(f"spots need radii (n,) and positions (n, 2), not {a.shape} and {centre.shape}")
     if not (np.isfinite(a).all() and (a > 0).all() and np.isfinite(centre).all()):
@@ -74,6 +76,7 @@ def contact_length(radii: Array, positions: Array) -> float:
     return 1 / (1 / (2 * total) + mutual / (np.pi * total**2))
 
 
+@numeric
 def holm_radius(stiffness: float | Array, modulus: float) -> Array:
     """Return the radius [m] of the one round spot with this stiffness, and so with its conductance: k/(2 E*).
 
@@ -82,6 +85,7 @@ def holm_radius(stiffness: float | Array, modulus: float) -> Array:
     return positive(stiffness, "the stiffness [N/m]", zero=True) / (2 * positive(modulus, "the modulus [Pa]"))
 
 
+@numeric
 def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     """Return Holm's radius of a cluster [m]: ``1/k = 1/k_local + 1/(2 E* radius)``.
 
@@ -106,4 +110,9 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
 
 def _resistivity(resistivities: tuple[float, float]) -> float:
     """Return the mean of both [ohm m]."""
-    return float(np.mean(positive(resistivities, "the resistivity [ohm m]", zero=True)))
+    both = positive(resistivities, "the resistivity [ohm m]", zero=True)
+    require(
+        np.shape(both) == (2,),
+        f"the resistivity [ohm m] of each of both bodies is wanted, not {resistivities}",
+    )
+    return float(np.mean(both))

@@ -25,6 +25,7 @@ from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.partial_moments import Distribution
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SQUARE", "finite_body", "law", "mean_gap"]
 
@@ -35,6 +36,7 @@ SQUARE = 4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)
 SOURCE = "Ciavarella, Greenwood and Paggi, Wear 265, 729 (2008)"
 
 
+@numeric
 def mean_gap(
     plane: float | Array, interface: Interface, modulus: float, area: float, *, deflection: float = SQUARE
 ) -> Array:
@@ -81,6 +83,7 @@ def mean_gap(
     return concave_root(before_load, height, np.maximum(height, lowest), scale=interface.scale)
 
 
+@numeric
 def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: float = SQUARE) -> LoadingLaw:
     """Return a theory of the interface with the compliance of the body under a finite nominal contact.
 
@@ -122,6 +125,7 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     return replace(law, name=f"{law.name} on a finite body", quantities=more)
 
 
+@numeric
 def law(
     moments: ProfileMoments,
     modulus: float,

@@ -18,10 +18,12 @@ from scipy.integrate import quad
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.computed import ComputedCurve, as_law
 from roughcontact.theory.tools.domain import Array, positive, require, scalar
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["cycle_loss", "displacement", "stiffness"]
 
 
+@numeric
 def displacement(
     loading: LoadingLaw | ComputedCurve,
     force: float,
@@ -56,6 +58,7 @@ def displacement(
     return np.asarray(friction * positive(ratio, "the ratio E*/G*") * gained)
 
 
+@numeric
 def stiffness(
     loading: LoadingLaw | ComputedCurve,
     force: float,
@@ -72,6 +75,7 @@ def stiffness(
     return np.asarray(_known(as_law(loading), "stiffness", held) / positive(ratio, "the ratio E*/G*"))
 
 
+@numeric
 def cycle_loss(
     loading: LoadingLaw | ComputedCurve, force: float, amplitude: float, *, friction: float, ratio: float
 ) -> float:

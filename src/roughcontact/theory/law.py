@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.domain import number
+
 __all__ = ["LoadingLaw"]
 
 Array = npt.NDArray[np.float64]
@@ -43,13 +45,13 @@ class LoadingLaw:
         Raises
         ------
         ValueError
-            If the theory says nothing about the quantity.
+            If the theory says nothing about the quantity, or a force is no number.
         """
         if quantity not in self.quantities:
             raise ValueError(
                 f"{self.name} says nothing about {quantity!r}, only about {sorted(self.quantities)}"
             )
-        given = np.atleast_1d(np.asarray(force, dtype=np.float64))
+        given = np.atleast_1d(number(force, "force [N]"))
         inside = (given >= self.domain[0]) & (given <= self.domain[1])
         values = np.full(given.shape, np.nan)
         if inside.any():

@@ -16,6 +16,7 @@ from typing import Literal, Protocol
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, number, positive, require, scalar, shown
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "ElasticSolid",
@@ -76,6 +77,7 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     return sideways / inwards
 
 
+@numeric
 def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
     """Return k_t [N/m] of a contact without slip from its normal stiffness k [N/m] (thesis, eqs 4.5 and 7.5)."""
     k = number(stiffness, "the stiffness [N/m]")
@@ -84,6 +86,7 @@ def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
     return k / positive(ratio, "the ratio E*/G*")
 
 
+@numeric
 def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
     """Return the tangential stiffness ``"tangential_stiffness"`` [N/m] that belongs to the stiffness of another law.
 
@@ -107,6 +110,7 @@ def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
     )
 
 
+@numeric
 def gross_slip(depth: float | Array, friction: float, ratio: float) -> Array:
     """Return the tangential displacement [m] at which a contact begins to slip as a whole, ``mu (E*/G*) d``.
 
@@ -125,6 +129,7 @@ def gross_slip(depth: float | Array, friction: float, ratio: float) -> Array:
     return mu * positive(ratio, "the ratio E*/G*") * positive(depth, "the depth [m]", zero=True)
 
 
+@numeric
 def slip_constant(
     theta: float,
     hurst: float,
@@ -161,6 +166,7 @@ def slip_constant(
     return math.pow(size, alpha) / (float(zeta) * (1 - alpha))
 
 
+@numeric
 def fractal_gross_slip(
     force: float | Array, modulus: float, hurst: float, constant: float, *, friction: float, ratio: float
 ) -> Array:

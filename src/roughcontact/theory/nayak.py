@@ -15,6 +15,7 @@ from scipy.special import log_ndtr
 
 from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 
@@ -94,14 +95,17 @@ def summits(moments: ProfileMoments) -> SummitStatistics:
     )
 
 
-def summit_density(height: Array, mean: Array, deviator: Array, alpha: float) -> Array:
+@numeric
+def summit_density(
+    height: float | Array, mean: float | Array, deviator: float | Array, alpha: float
+) -> Array:
     """Return the density D(s, t, r) of summits over height and curvatures; its integral is ``1/(3 sqrt(3))``.
 
     Parameters
     ----------
-    height : array
+    height : float or array
         s, above the mean plane.
-    mean, deviator : array
+    mean, deviator : float or array
         t and r: the principal curvatures are ``t + r`` and ``t - r``, and a summit has ``t > r >= 0``.
     alpha : float
         Nayak's parameter, above 3/2, see `free_variance`.
@@ -118,14 +122,15 @@ def summit_density(height: Array, mean: Array, deviator: Array, alpha: float) ->
     return np.where((t > r) & (r >= 0), scale * (t**2 - r**2) * r * np.exp(-exponent), 0.0)
 
 
-def geometric_density(height: Array, curvature: Array, alpha: float) -> Array:
+@numeric
+def geometric_density(height: float | Array, curvature: float | Array, alpha: float) -> Array:
     """Return the density D(s, g) of summits over height and the geometric mean ``g = sqrt(k1 k2)`` of curvatures.
 
     Parameters
     ----------
-    height : array
+    height : float or array
         s, above the mean plane.
-    curvature : array
+    curvature : float or array
         g, not negative.
     alpha : float
         Nayak's parameter, above 3/2, see `free_variance`.
@@ -144,6 +149,7 @@ def geometric_density(height: Array, curvature: Array, alpha: float) -> Array:
     return np.where(g > 0, scale * g**3 * np.exp(exponent), 0.0)
 
 
+@numeric
 def free_variance(alpha: float) -> float:
     """Return the variance of a summit's height at given curvatures, ``1 - 3/(2 alpha)``, in m0.
 

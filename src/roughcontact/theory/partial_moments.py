@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import special
 
+from roughcontact.theory.tools.numeric import numeric
+
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
 
 Array = npt.NDArray[np.float64]
@@ -20,6 +22,7 @@ LOW = 1.5  # below, two Kummer functions cancel little; above, 96 nodes of Lague
 NODES = 96
 
 
+@numeric
 def log_gaussian(order: float, plane: float | Array) -> Array:
     """Return ln F_n(t) of heights with zero mean and unit standard deviation.
 
@@ -55,6 +58,7 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     return value
 
 
+@numeric
 def log_exponential(order: float, plane: float | Array) -> Array:
     """Return ln F_n(t) of the heights ``phi(x) = exp(-x)``, x > 0: ``ln Gamma(n + 1) - t``.
 

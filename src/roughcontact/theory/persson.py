@@ -21,6 +21,7 @@ from roughcontact.theory import persson_separation as separation
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
 AREA_SLOPE = math.sqrt(8 / math.pi)  # A/A0 = AREA_SLOPE p/(E* g) at small pressure
 
 
+@numeric
 def contact_fraction(pressure: float | Array, modulus: float, surface: ProfileMoments | Spectrum) -> Array:
     """Return the real contact area over the nominal one, A/A0 = erf(sqrt2 p/(E* g)) [-].
 
@@ -57,6 +59,7 @@ def contact_fraction(pressure: float | Array, modulus: float, surface: ProfileMo
     return np.asarray(erf(_pressure(pressure) / (math.sqrt(2) * pressure_spread(modulus, surface))))
 
 
+@numeric
 def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> tuple[Array, Array]:
     """Return wavenumbers q [rad/m] and the contact fraction when only waves up to q are seen [-].
 
@@ -67,6 +70,7 @@ def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> t
     return waves.wavenumber, np.asarray(erf(_pressure(pressure) / (math.sqrt(2) * spread)))
 
 
+@numeric
 def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoments | Spectrum) -> Array:
     """Return the nominal pressure [Pa] at which a fraction of the nominal area is in contact, from 0 to below 1."""
     part = np.asarray(fraction, dtype=np.float64)
@@ -75,6 +79,7 @@ def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoment
     return np.asarray(math.sqrt(2) * pressure_spread(modulus, surface) * erfinv(part))
 
 
+@numeric
 def pressure_spread(modulus: float, surface: ProfileMoments | Spectrum) -> float:
     """Return the standard deviation of the pressure in full contact, E* g/2 [Pa]."""
     slope = math.sqrt(2 * (surface.m2 if hasattr(surface, "m2") else Waves.of(surface).m2))
@@ -84,6 +89,7 @@ def pressure_spread(modulus: float, surface: ProfileMoments | Spectrum) -> float
     return float(positive(modulus, "the modulus [Pa]")) * slope / 2
 
 
+@numeric
 def pressure_density(
     stress: float | Array, pressure: float | Array, modulus: float, surface: ProfileMoments | Spectrum
 ) -> Array:
@@ -105,6 +111,7 @@ def pressure_density(
     return np.asarray(-towards * np.expm1(-2 * s * p / spread**2) / (math.sqrt(2 * math.pi) * spread))
 
 
+@numeric
 def fraction_above(
     stress: float | Array, pressure: float | Array, modulus: float, surface: ProfileMoments | Spectrum
 ) -> Array:
@@ -114,6 +121,7 @@ def fraction_above(
     return np.asarray((erfc((s - p) / scale) - erfc((s + p) / scale)) / 2)
 
 
+@numeric
 def law(spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separation.GAMMA) -> LoadingLaw:
     """Return Persson's theory of a nominally flat surface, as functions of the force.
 

@@ -22,6 +22,7 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.special import beta, erf, exp1
 
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = [
@@ -38,6 +39,7 @@ GAMMA = 0.45
 ERF_SQUARED_TAIL = 0.40712493463432379  # int_0^inf erf(x)^2 exp(-x^2) dx/x
 
 
+@numeric
 def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA) -> Array:
     """Return the mean gap u [m] over the nominal area; infinite without load, as a Gaussian surface has no top.
 
@@ -65,6 +67,7 @@ def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gam
     return _over_waves(pressure, modulus, spectrum, lambda x: _tail(x, share))
 
 
+@numeric
 def stiffness(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA) -> Array:
     """Return the stiffness of the interface per nominal area, K/A0 = -dp/du = p/l(p) [Pa/m].
 
@@ -77,6 +80,7 @@ def stiffness(pressure: float | Array, modulus: float, spectrum: Spectrum, *, ga
         return np.asarray(np.asarray(pressure) / length)
 
 
+@numeric
 def elastic_energy(
     pressure: float | Array, modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA
 ) -> Array:
@@ -95,6 +99,7 @@ def elastic_energy(
     return _over_waves(pressure, modulus, waves, squeezed)
 
 
+@numeric
 def decay_length(spectrum: Spectrum, *, gamma: float = GAMMA) -> float:
     """Return u0 [m], of p = p_c exp(-u/u0) and K = A0 p/u0 at small loads (thesis, eqs 3.15 and 3.16).
 
@@ -104,6 +109,7 @@ def decay_length(spectrum: Spectrum, *, gamma: float = GAMMA) -> float:
     return _checked(gamma) * float(_over_waves(0.0, 1.0, spectrum, np.ones_like))
 
 
+@numeric
 def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA) -> float:
     """Return p_c [Pa], of p = p_c exp(-u/u0) at small loads.
 
@@ -117,6 +123,7 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
     return modulus * math.exp(weighted / decay_length(waves, gamma=gamma))
 
 
+@numeric
 def self_affine_decay(hurst: float) -> float:
     """Return u0/(gamma h) of a self-affine surface with a longest and no shortest wave [-], h its rms height.
 

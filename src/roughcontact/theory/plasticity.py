@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.tools.domain import positive
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
 
@@ -49,6 +50,7 @@ class PlasticityIndex:
         return f"PlasticityIndex({self.value:.4g}, {self.regime}: {limits})"
 
 
+@numeric
 def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> PlasticityIndex:
     """Return ``E* g/sigma_0`` of a surface with rms slope g = sqrt(2 m2); elastic below 2/3 (thesis, eq. 4.17).
 
@@ -70,6 +72,7 @@ def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> Pla
     return PlasticityIndex(slope * _ratio(modulus, hardness), 2 / 3, math.inf)
 
 
+@numeric
 def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> PlasticityIndex:
     """Return ``(E*/sigma_0) sqrt(s/R)`` of the summits; elastic below 0.6, plastic above 1.
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
 from roughcontact.theory.tools.domain import Array, number, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "FORCE_LIMIT",
@@ -70,6 +71,7 @@ def prefactor(hurst: npt.ArrayLike) -> Array:
     return 1.7 * exponent(hurst)
 
 
+@numeric
 def stiffness(
     force: npt.ArrayLike,
     hurst: npt.ArrayLike,
@@ -102,6 +104,7 @@ def stiffness(
     return stiffness_scale * _below_saturation(zeta * f**alpha)
 
 
+@numeric
 def force(
     stiffness: npt.ArrayLike,
     hurst: npt.ArrayLike,
@@ -124,6 +127,7 @@ def force(
     return value
 
 
+@numeric
 def depth(
     force: npt.ArrayLike,
     hurst: npt.ArrayLike,
@@ -145,6 +149,7 @@ def depth(
     return value
 
 
+@numeric
 def force_at_depth(
     depth: npt.ArrayLike,
     hurst: npt.ArrayLike,
@@ -170,6 +175,7 @@ def force_at_depth(
     return force_scale * f
 
 
+@numeric
 def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     """Return Theta = h L^-H, which a self-affine surface keeps when it is cut to another size [m^(1-H)] (eq. 7.1).
 
@@ -183,6 +189,7 @@ def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Ar
     return value
 
 
+@numeric
 def scale_free_stiffness(
     force: npt.ArrayLike, hurst: npt.ArrayLike, theta: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> Array:
@@ -215,6 +222,7 @@ def scale_free_stiffness(
     return value
 
 
+@numeric
 def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     """Return stiffness, depth and elastic energy as functions of force (thesis, eqs 4.74 and 5.1).
 

@@ -11,6 +11,7 @@ from scipy.special import gammaln, hyp2f1
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["PowerLawContact", "contact", "kappa", "law"]
@@ -94,6 +95,7 @@ class PowerLawContact:
         return value
 
 
+@numeric
 def contact(
     modulus: npt.ArrayLike | None = None,
     *,
@@ -145,6 +147,7 @@ def contact(
     return PowerLawContact(exponent=n, **solve(quantities, known))
 
 
+@numeric
 def law(exponent: float, coefficient: float, modulus: float) -> LoadingLaw:
     """Return stiffness, depth, contact area and elastic energy of z = Q r^n as functions of force (thesis, eq. 5.3).
 

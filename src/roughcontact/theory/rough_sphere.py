@@ -15,6 +15,7 @@ from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.power_law_indenter import kappa
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 
@@ -22,6 +23,7 @@ __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 STEPS = 12
 
 
+@numeric
 def coefficient(
     hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, *, prefactor: npt.ArrayLike | None = None
 ) -> Array:
@@ -51,6 +53,7 @@ def coefficient(
     return value
 
 
+@numeric
 def force(
     stiffness: npt.ArrayLike,
     *,
@@ -87,6 +90,7 @@ def force(
     return value
 
 
+@numeric
 def stiffness(
     force: npt.ArrayLike,
     *,
@@ -120,6 +124,7 @@ def stiffness(
     return value
 
 
+@numeric
 def crossover_force(
     radius: npt.ArrayLike,
     hurst: npt.ArrayLike,
@@ -154,6 +159,7 @@ def crossover_force(
     return value
 
 
+@numeric
 def law(radius: float, hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     """Return stiffness, depth and elastic energy of a rough sphere as functions of force (thesis, eqs 5.7 to 5.9).
 

@@ -12,6 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import count as whole
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["SteppedIndenter"]
 
@@ -49,6 +51,7 @@ class SteppedIndenter:
     hurst: float
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         positive(self.radius, "radius [m]")
         positive(self.height, "height [m]")
         require(
@@ -61,12 +64,14 @@ class SteppedIndenter:
 
     def radii(self, count: int) -> Array:
         """Return r_n of the first `count` discs [m] (thesis, eq. 4.20)."""
-        value: Array = self.radius * self.ratio ** np.arange(count, dtype=np.float64)
+        value: Array = self.radius * self.ratio ** np.arange(whole("count", count), dtype=np.float64)
         return value
 
     def heights(self, count: int) -> Array:
         """Return h_n of the first `count` discs [m] (thesis, eq. 4.21)."""
-        value: Array = self.height * self.ratio ** (self.hurst * np.arange(count, dtype=np.float64))
+        value: Array = self.height * self.ratio ** (
+            self.hurst * np.arange(whole("count", count), dtype=np.float64)
+        )
         return value
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
@@ -85,6 +90,7 @@ class SteppedIndenter:
         k: Array = 2 * positive(modulus, "modulus [Pa]") * self.radii(count)
         return np.cumsum(k * self.heights(count)), k
 
+    @numeric
     def stiffness(self, force: npt.ArrayLike, count: int, modulus: npt.ArrayLike) -> Array:
         """Return the stiffness at a force [N/m]: a staircase (thesis, fig. 17).
 

@@ -20,6 +20,7 @@ from roughcontact.theory.conductance import Pair, harmonic_mean
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "cell_resistance",
@@ -58,6 +59,7 @@ def constriction(ratio: float | Array, form: Literal["power", "tube"] = "power")
     return np.asarray(one + eps * (first + square * (third + square * (fifth + square * seventh))))
 
 
+@numeric
 def cell_resistance(
     radius: float | Array,
     cell_radius: float | Array,
@@ -86,6 +88,7 @@ def mean_absolute_slope(moments: ProfileMoments) -> float:
     return math.sqrt(2 * moment(moments, "m2", ", the mean square slope") / math.pi)
 
 
+@numeric
 def plastic_conductance(
     pressure: float | Array, hardness: float, conductivities: Pair, moments: ProfileMoments
 ) -> Array:
@@ -112,6 +115,7 @@ def plastic_conductance(
     return 1.25 * _scale(conductivities, moments) * _small(fraction, "the hardness") ** 0.95
 
 
+@numeric
 def elastic_conductance(
     pressure: float | Array, modulus: float, conductivities: Pair, moments: ProfileMoments
 ) -> Array:
@@ -130,6 +134,7 @@ def elastic_conductance(
     return 1.55 * _scale(conductivities, moments) * _small(fraction, "E* m/sqrt2") ** 0.94
 
 
+@numeric
 def plastic_law(moments: ProfileMoments, hardness: float, conductivities: Pair, area: float) -> LoadingLaw:
     """Return `plastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K]."""
     top = float(
@@ -148,6 +153,7 @@ def plastic_law(moments: ProfileMoments, hardness: float, conductivities: Pair, 
     )
 
 
+@numeric
 def elastic_law(moments: ProfileMoments, modulus: float, conductivities: Pair, area: float) -> LoadingLaw:
     """Return `elastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K]."""
     top = float(FIT_LIMIT * _asperity_pressure(modulus, moments) * positive(area, "the nominal area [m^2]"))

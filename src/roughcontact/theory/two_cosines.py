@@ -13,7 +13,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1
 
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, pair, positive, require
+from roughcontact.theory.tools.domain import count as whole
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["FLAT_FORCE", "FLAT_STIFFNESS", "Hierarchy", "flat", "force", "stiffness"]
 
@@ -23,6 +25,7 @@ FLAT_FORCE = 64 / (9 * np.pi)
 FLAT_STIFFNESS = 8 / np.pi
 
 
+@numeric
 def force(
     depth: npt.ArrayLike,
     long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
@@ -57,6 +60,7 @@ def force(
     return value
 
 
+@numeric
 def stiffness(
     depth: npt.ArrayLike,
     long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
@@ -75,6 +79,7 @@ def stiffness(
     return value
 
 
+@numeric
 def flat(
     long_wave: tuple[npt.ArrayLike, npt.ArrayLike], short_amplitude: npt.ArrayLike, modulus: npt.ArrayLike
 ) -> tuple[Array, Array]:
@@ -120,6 +125,7 @@ class Hierarchy:
     hurst: float
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         positive(self.amplitude, "amplitude [m]")
         positive(self.wavenumber, "wavenumber [rad/m]")
         require(
@@ -138,12 +144,14 @@ class Hierarchy:
 
     def amplitudes(self, count: int) -> Array:
         """Return h_n of the first `count` waves [m] (thesis, eq. 4.44)."""
-        value: Array = self.amplitude * self.ratio ** (-self.hurst * np.arange(count, dtype=np.float64))
+        value: Array = self.amplitude * self.ratio ** (
+            -self.hurst * np.arange(whole("count", count), dtype=np.float64)
+        )
         return value
 
     def wavenumbers(self, count: int) -> Array:
         """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43)."""
-        value: Array = self.wavenumber * self.ratio ** np.arange(count, dtype=np.float64)
+        value: Array = self.wavenumber * self.ratio ** np.arange(whole("count", count), dtype=np.float64)
         return value
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
@@ -151,7 +159,11 @@ class Hierarchy:
 
         Thesis, eqs 4.45 and 4.46, corrected. The points lie on a line of slope 1/(H+1) (eq. 4.47).
         """
-        e, h, q = positive(modulus, "modulus [Pa]"), self.amplitudes(count + 1), self.wavenumbers(count)
+        e, h, q = (
+            positive(modulus, "modulus [Pa]"),
+            self.amplitudes(whole("count", count) + 1),
+            self.wavenumbers(count),
+        )
         scale = e / q * np.sqrt(h[1:] / h[:-1])
         return FLAT_FORCE * scale * h[1:], FLAT_STIFFNESS * scale
 
@@ -164,7 +176,7 @@ def _given(
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Return s = d/(2 h2), h1, q1, h2 and E*."""
     d, h2 = positive(depth, "depth [m]", zero=True), positive(short_amplitude, "short_amplitude [m]")
-    h1, q1 = positive(long_wave[0], "amplitude [m]"), positive(long_wave[1], "wavenumber [rad/m]")
+    h1, q1 = pair(long_wave, "amplitude [m] and wavenumber [rad/m] of the long_wave")
     require(
         d <= 2 * h2,
         "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more",

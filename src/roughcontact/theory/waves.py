@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.theory.spectra import MeasuredSpectrum, RadialSpectrum
-from roughcontact.theory.tools.domain import Array, shown
+from roughcontact.theory.tools.domain import Array, number, pair, shown
 from roughcontact.theory.tools.panels import gauss, graded, running
 
 __all__ = ["Spectrum", "Waves"]
@@ -191,12 +191,12 @@ class Waves:
         ValueError
             If the heights are no map, hold holes or are flat.
         """
-        z = np.asarray(heights, dtype=np.float64)
+        z = np.asarray(number(heights, "heights [m]"))
         if z.ndim != 2:
             raise ValueError(f"heights must have two axes, not {z.ndim}")
         if not np.isfinite(z).all():
             raise ValueError("heights hold points that were not measured: fill them first")
-        (ny, nx), (dy, dx) = z.shape, spacing
+        (ny, nx), (dy, dx) = z.shape, map(float, pair(spacing, "the spacing (dy, dx) [m]"))
         power = np.abs(scipy.fft.rfft2(z - z.mean()) / z.size) ** 2
         # Every column stands for q and -q, but the first and, of an even number, the last.
         power[:, 1 : (nx + 1) // 2] *= 2
@@ -219,7 +219,10 @@ class Waves:
         ValueError
             If wavenumbers do not increase from above zero, or a power is not positive.
         """
-        q, m = np.asarray(wavenumber, dtype=np.float64), np.asarray(power, dtype=np.float64)
+        q, m = (
+            np.asarray(number(x, what))
+            for x, what in ((wavenumber, "wavenumber [rad/m]"), (power, "power [m^2]"))
+        )
         if not (q.ndim == 1 and q.shape == m.shape and q.size and q[0] > 0 and (np.diff(q) > 0).all()):
             raise ValueError("bands need increasing, positive wavenumbers and one power each")
         if not (np.isfinite(m).all() and (m > 0).all()):

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
 from roughcontact.theory.tools.domain import Array, number, pair
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["EllipticContact", "elliptic"]
@@ -59,6 +60,7 @@ class EllipticContact:
         """Work done by the force, 2/5 F d [J]."""
         return 2 / 5 * self.force * self.depth
 
+    @numeric
     def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Return the pressure [Pa] at a point [m]; 0 outside the contact."""
         a, b = self.semi_axes
@@ -66,6 +68,7 @@ class EllipticContact:
         value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
         return value
 
+    @numeric
     def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a point [m], inside and outside."""
         xx, yy = number(x, "x [m]") ** 2, number(y, "y [m]") ** 2

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from scipy.special import lambertw
 
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["LineContact", "line"]
@@ -63,6 +64,7 @@ class LineContact:
         """dF'/dd per length, pi E*/(2 ln(2L/a)): that of a flat strip of the same width [N/m^2]."""
         return np.pi * self.modulus / (2 * self._logarithm())
 
+    @numeric
     def pressure(self, position: npt.ArrayLike) -> Array:
         """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact."""
         x = np.asarray(position, dtype=np.float64)
@@ -70,6 +72,7 @@ class LineContact:
         value: Array = self.modulus / (2 * self.radius) * half_chord
         return value
 
+    @numeric
     def displacement(self, position: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside."""
         x = np.abs(np.asarray(position, dtype=np.float64))

@@ -11,6 +11,7 @@ from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
 
 __all__ = ["PointContact", "law", "point"]
@@ -129,6 +130,7 @@ def point(
     return PointContact(**solve(QUANTITIES, known))
 
 
+@numeric
 def law(radius: float, modulus: float) -> LoadingLaw:
     """Return Hertz' stiffness, depth, contact area and elastic energy as functions of force (thesis, eq. 5.4).
 

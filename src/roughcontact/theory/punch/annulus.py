@@ -7,6 +7,7 @@ import numpy.typing as npt
 from scipy.special import ellipkm1
 
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["annulus"]
 
@@ -15,6 +16,7 @@ NODES = 48
 THIN_HOLE = 0.02
 
 
+@numeric
 def annulus(modulus: npt.ArrayLike, outer_radius: npt.ArrayLike, inner_radius: npt.ArrayLike) -> Array:
     """Return the stiffness of an annulus [N/m].
 

@@ -7,6 +7,7 @@ import numpy.typing as npt
 from scipy.special import elliprf
 
 from roughcontact.theory.tools.domain import Array, number, pair, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "disc",
@@ -19,6 +20,7 @@ __all__ = [
 ]
 
 
+@numeric
 def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
     """Return the stiffness of a disc, k = 2 E* a [N/m] (thesis, eq. 4.6).
 
@@ -34,6 +36,7 @@ def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
     return 2 * positive(modulus, "modulus [Pa]") * positive(radius, "radius [m]")
 
 
+@numeric
 def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
     """Return the pressure under a disc, F/(2 pi a sqrt(a^2 - r^2)) [Pa] (Boussinesq).
 
@@ -53,6 +56,7 @@ def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.Arr
     return _edged(f / (2 * np.pi * a**2), 1 - (r / a) ** 2)
 
 
+@numeric
 def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
     """Return the displacement of the surface under and around a disc, (2/pi) d asin(a/r) outside [m].
 
@@ -89,6 +93,7 @@ def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLik
     return value
 
 
+@numeric
 def ellipse_pressure(
     force: npt.ArrayLike,
     semi_axes: tuple[npt.ArrayLike, npt.ArrayLike],
@@ -114,6 +119,7 @@ def ellipse_pressure(
     return _edged(f / (2 * np.pi * a * b), inside)
 
 
+@numeric
 def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: npt.ArrayLike) -> Array:
     """Return the stiffness per length of an infinite strip, k' = pi E*/(2 ln(2L/a)) [N/m^2].
 
@@ -141,6 +147,7 @@ def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: n
     return value
 
 
+@numeric
 def strip_pressure(force: npt.ArrayLike, half_width: npt.ArrayLike, position: npt.ArrayLike) -> Array:
     """Return the pressure under a strip, F'/(pi sqrt(a^2 - x^2)) [Pa]; infinite at the edge, 0 outside.
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SQUARE", "TRIANGLE", "Computed", "shape_factor", "square", "triangle"]
 
@@ -43,6 +44,7 @@ TRIANGLE = Computed(
 )
 
 
+@numeric
 def square(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
     """Return the stiffness of a square, k = 1.152298(1) E* L [N/m] (thesis, eqs 4.7 and 4.14, which have 1.1419).
 
@@ -56,6 +58,7 @@ def square(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
     return SQUARE.value * positive(modulus, "modulus [Pa]") * positive(side, "side [m]")
 
 
+@numeric
 def triangle(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
     """Return the stiffness of an equilateral triangle, k = 0.78811(1) E* L [N/m] (beside thesis, fig. 12).
 
@@ -69,6 +72,7 @@ def triangle(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
     return TRIANGLE.value * positive(modulus, "modulus [Pa]") * positive(side, "side [m]")
 
 
+@numeric
 def shape_factor(stiffness: npt.ArrayLike, modulus: npt.ArrayLike, area: npt.ArrayLike) -> Array:
     """Return the stiffness over that of a disc of the same area, k/(2 E* sqrt(A/pi)) [-]; never below 1.
 

@@ -6,10 +6,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["two_discs"]
 
 
+@numeric
 def two_discs(modulus: npt.ArrayLike, radius: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
     """Return the stiffness of two equal discs under one rigid body that does not tilt [N/m] (thesis, fig. 12 b).
 

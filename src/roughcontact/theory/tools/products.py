@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.numeric import fitting
 
 __all__ = ["Product", "checked", "solve"]
 
@@ -81,7 +82,7 @@ def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[s
         If too few or too many are known, those known depend on each other, or their shapes do not fit.
     """
     names = list(known)
-    _fitting(known)
+    fitting({name: np.shape(value) for name, value in known.items()})
     exponents = np.array([products[name].exponents for name in names], dtype=np.float64)
     wanted = len(next(iter(products.values())).exponents)
     if len(names) != wanted:
@@ -96,15 +97,6 @@ def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[s
     inverse = np.asarray(np.linalg.inv(exponents), dtype=np.float64)
     ratios = [known[name] / products[name].factor for name in names]
     return {name: known.get(name, _product(product, inverse, ratios)) for name, product in products.items()}
-
-
-def _fitting(known: Mapping[str, Array]) -> None:
-    shapes = {name: np.shape(value) for name, value in known.items() if np.ndim(value)}
-    try:
-        np.broadcast_shapes(*shapes.values())
-    except ValueError as error:
-        told = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
 
 
 def _product(product: Product, inverse: Array, ratios: list[Array]) -> Array:
