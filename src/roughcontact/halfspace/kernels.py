@@ -1,12 +1,11 @@
-"""Closed forms of the half-space: the displacement under uniformly loaded rectangles, strips and rings."""
+"""Closed forms of the half-space: the displacement under uniformly loaded rectangles and strips."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import hyp2f1
 
-__all__ = ["love", "love_table", "periodic_multiplier", "ring_matrix", "strip"]
+__all__ = ["love", "love_table", "periodic_multiplier", "strip"]
 
 Array = npt.NDArray[np.float64]
 
@@ -98,35 +97,6 @@ def strip(offset: npt.ArrayLike) -> Array:
 
 def _square_log(x: Array) -> Array:
     return np.asarray(x**2 * np.log(np.where(x == 0, 1.0, np.abs(x))))
-
-
-def ring_matrix(edges: Array) -> Array:
-    """Return the mean of the integral of 1/r over each ring, for a unit load on each ring [m].
-
-    Parameters
-    ----------
-    edges : array, shape (n + 1,)
-        Radii of the circles that bound the rings [m].
-
-    Returns
-    -------
-    array, shape (n, n)
-        Entry (j, i): a pressure p on ring i displaces ring j by ``p/(pi E*)`` times it on the mean.
-
-    Notes
-    -----
-    A disc of radius a under a unit pressure displaces the half-space by ``4 a E(r^2/a^2)/(pi E*)`` (thesis, before
-    A.26; E of parameter m). Its integral over a disc of radius b <= a is closed too,
-    ``(8 pi a^3/3) [(1 + m) E(m) - (1 - m) K(m)]`` with ``m = (b/a)^2`` over ``pi E*``; the same as one function,
-    ``2 pi^2 a b^2 2F1(-1/2, 1/2; 2; m)``, keeps its digits for a small disc in a large one. Rings are differences of
-    discs. Means instead of values in the middle make the matrix symmetric under the areas of the rings.
-    """
-    inner, outer = np.minimum.outer(edges, edges), np.maximum.outer(edges, edges)
-    m = np.divide(inner, outer, out=np.zeros_like(inner), where=outer > 0) ** 2
-    discs = 2 * np.pi**2 * outer * inner**2 * hyp2f1(-0.5, 0.5, 2, m)
-    energy = np.diff(np.diff(discs, axis=0), axis=1)
-    areas = np.pi * np.diff(edges) * (edges[1:] + edges[:-1])
-    return np.asarray((energy + energy.T) / 2 / areas[:, None])
 
 
 def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:
