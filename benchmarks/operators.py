@@ -2,6 +2,8 @@
 
 python benchmarks/operators.py [--sizes 256,512,1024,2048] [--lines 4096,65536,1048576] [--repeats 7]
 
+Under pressure on a plane and on a line, and under tangential traction (shear: two components, nu = 0.3).
+
 One thread. A time is the median processor time of a product: what other programs do meanwhile is not in it, nor is the
 first product, for which tables are made. Memory is the most that is allocated at a time, as Python and NumPy tell it,
 from before the operator is made to after its first product. Every measurement runs in a process of its own. The error
@@ -27,23 +29,30 @@ from roughcontact.halfspace import compiled
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.multilevel import MultilevelOperator
 
-SMALL = {"plane": (16, 32, 64), "line": (256, 1024, 4096)}  # for the matrix
-MIDDLE = {"plane": (64, 128, 256), "line": (4096, 16384, 65536)}  # for the moving grid
+# For the matrix, and for the moving grid.
+SMALL = {"plane": (16, 32, 64), "shear": (16, 32, 48), "line": (256, 1024, 4096)}
+MIDDLE = {"plane": (64, 128, 256), "shear": (48, 96, 144), "line": (4096, 16384, 65536)}
 SETTINGS = ((4, 4), (6, 6), (8, 8), (8, 10), (10, 14), (12, 16))
 
 
 def operator(geometry, method, n):
     if geometry == "plane":
         return rc.half_space(rc.Grid((n, n), 1.0), 1.0, method)
+    if geometry == "shear":
+        return rc.shear_half_space(rc.Grid((n, n), 1.0), rc.Solid(1.0, 0.3), method=method)
     if method == "dense":
         return DenseOperator(rc.Grid(n, 1.0), rc.line(rc.Grid(n, 1.0), 1.0).as_matrix())
     return rc.line(rc.Grid(n, 1.0), 1.0, method=method)
 
 
+def shape_of(geometry, n):
+    return {"plane": (n, n), "shear": (2, n, n), "line": (n,)}[geometry]
+
+
 def pressures(shape):
     rng = np.random.default_rng(0)
     edges = np.zeros(shape)
-    for axis in range(len(shape)):
+    for axis in range(-min(2, len(shape)), 0):
         np.moveaxis(edges, axis, 0)[[0, -1]] = 1.0
     slope = sum(np.meshgrid(*(np.linspace(1, 2, n) for n in shape), indexing="ij"))
     scattered = np.where(rng.random(shape) < 0.01, rng.random(shape), 0.0)
@@ -61,9 +70,9 @@ def seconds(function, argument, repeats):
 
 def measure(geometry, method, n, repeats):
     """Print what is found as JSON, in a process of its own."""
-    small = operator(geometry, method, 32 if geometry == "plane" else 600)
-    small.apply(np.ones(small.grid.shape))  # whatever is loaded late is loaded now
-    pressure = np.random.default_rng(0).random((n, n) if geometry == "plane" else n)
+    few = 600 if geometry == "line" else 32
+    operator(geometry, method, few).apply(np.ones(shape_of(geometry, few)))  # to load what is loaded late
+    pressure = np.random.default_rng(0).random(shape_of(geometry, n))
     tracemalloc.start()
     operator(geometry, method, n).apply(pressure)
     found = {"bytes": tracemalloc.get_traced_memory()[1]}
@@ -103,7 +112,7 @@ def table(geometry, sizes, repeats):
             ]
             answer = subprocess.run(arguments, capture_output=True, text=True, check=True).stdout
             found = json.loads(answer)
-            count = n * n if geometry == "plane" else n
+            count = n if geometry == "line" else n * n
             off = f"{found['error']:10.1e}" if "error" in found else "         -"
             print(
                 f"{method:12s}{n:8d}{count:12d}{found['seconds']:14.3e}{found['first']:13.3e}"
@@ -115,7 +124,7 @@ def table(geometry, sizes, repeats):
         exponent = np.polyfit(np.log(cells), np.log(times), 1)[0]
         line = f"{'':12s}grows as the number of cells to the {exponent:.2f}"
         if few:
-            largest = max(sizes) ** (2 if geometry == "plane" else 1)
+            largest = max(sizes) ** (1 if geometry == "line" else 2)
             line += f"; by the square, from {cells[-1]} to {largest}: {times[-1] * (largest / cells[-1]) ** 2:.1e} s"
         print(line)
 
@@ -154,7 +163,8 @@ def main():
         return
     if compiled.compiled_loops() is None:
         print("Numba is not installed: the multilevel sum runs without it")
-    table("plane", [int(n) for n in chosen.sizes.split(",")], chosen.repeats)
+    for geometry in ("plane", "shear"):
+        table(geometry, [int(n) for n in chosen.sizes.split(",")], chosen.repeats)
     table("line", [int(n) for n in chosen.lines.split(",")], chosen.repeats)
     settings(512, chosen.repeats)
 

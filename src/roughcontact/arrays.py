@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,12 +11,16 @@ import scipy.fft
 
 __all__ = [
     "Placed",
+    "beside",
     "convolve",
     "even_multiplier",
     "fast_even_length",
+    "filtered",
+    "inner",
     "is_array",
     "is_numpy",
     "namespace",
+    "numbers",
     "on_host",
     "wants_gradient",
 ]
@@ -67,6 +72,28 @@ def on_host(array: Any) -> Array:
     torch = array_api_compat.is_torch_array(array)
     host = "cpu" if torch else namespace(array).__array_namespace_info__().default_device()
     return np.asarray(array_api_compat.to_device(array, host), dtype=np.float64)
+
+
+def beside(values: Array, array: Any) -> Any:
+    """Return some numbers of the host in the library, on the device and in the precision of `array`."""
+    if isinstance(array, np.ndarray):
+        return values
+    import array_api_compat
+
+    return namespace(array).asarray(values, dtype=array.dtype, device=array_api_compat.device(array))
+
+
+def numbers(array: Any) -> Array:
+    """Return the few entries of an array, such as the sums of its fields, on the host: each is fetched by itself."""
+    if isinstance(array, np.ndarray):
+        return array
+    entries = namespace(array).reshape(array, (-1,))
+    return np.array([float(entries[i]) for i in range(entries.shape[0])]).reshape(tuple(array.shape))
+
+
+def inner(a: Any, b: Any) -> float:
+    """Return the sum of the products of the entries of two arrays."""
+    return float(np.vdot(a, b)) if isinstance(a, np.ndarray) else float(namespace(a).sum(a * b))
 
 
 class Placed:
@@ -138,35 +165,53 @@ def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) 
         Real transform of an even kernel, as `even_multiplier` returns it.
     padded : tuple of int
         Lengths ``(My, Mx)`` of the transforms, at least those of the field.
+    """
+    factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
+    xp, (my, _) = namespace(field), padded
+    upper = my // 2 + 1
+
+    def multiply(spectrum: Any, columns: slice) -> None:
+        spectrum[:upper, :] *= factors[:, columns]
+        spectrum[upper:, :] *= xp.flip(factors[1 : my - upper + 1, columns], axis=0)
+
+    return filtered(field, multiply, padded)
+
+
+def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+    """Return `field`, padded by zeros to `padded`, with its spectrum multiplied, cut back to its own shape.
+
+    Parameters
+    ----------
+    field : array, shape (..., ny, nx)
+        Of any library, or several of them.
+    multiply : function
+        Takes columns of the spectrum, shape ``(..., My, n)``, and which ones of ``Mx//2 + 1`` they are, and multiplies
+        them in place.
+    padded : tuple of int
+        Lengths ``(My, Mx)`` of the transforms, at least those of the field.
 
     Notes
     -----
     Only the rows that hold data are transformed along x, and on the host the padded columns exist for one slab at a
     time.
     """
-    factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
     if is_numpy(field):
-        return _by_slabs(field, factors, padded)
+        return _by_slabs(field, multiply, padded)
     xp = namespace(field)
-    (ny, nx), (my, mx) = field.shape, padded
-    upper = my // 2 + 1
-    spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=1), n=my, axis=0)
-    lower = xp.flip(factors[1 : my - upper + 1, :], axis=0)
-    spectrum = spectrum * xp.concat([factors, lower], axis=0)
-    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=0)[:ny, :], n=mx, axis=1)[:, :nx]  # type: ignore[no-any-return]
+    (*_, ny, nx), (my, mx) = field.shape, padded
+    spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
+    multiply(spectrum, slice(None))
+    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2)[..., :ny, :], n=mx, axis=-1)[..., :nx]  # type: ignore[no-any-return]
 
 
-def _by_slabs(field: Array, multiplier: Array, padded: tuple[int, int]) -> Array:
-    ny, nx = field.shape
+def _by_slabs(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+    *_, ny, nx = field.shape
     my, mx = padded
-    spectrum = scipy.fft.rfft(field, n=mx, axis=1)
-    upper = my // 2 + 1
+    spectrum = scipy.fft.rfft(field, n=mx, axis=-1)
     slab = max(SLAB, CELLS // my)
-    for start in range(0, spectrum.shape[1], slab):
+    for start in range(0, spectrum.shape[-1], slab):
         part = slice(start, start + slab)
-        column = scipy.fft.fft(spectrum[:, part], n=my, axis=0)
-        factor = multiplier[:, part]
-        column[:upper] *= factor
-        column[upper:] *= factor[my - upper : 0 : -1]
-        spectrum[:, part] = scipy.fft.ifft(column, axis=0, overwrite_x=True)[:ny]
-    return np.asarray(scipy.fft.irfft(spectrum, n=mx, axis=1, overwrite_x=True)[:, :nx])
+        column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
+        multiply(column, part)
+        spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
+    return np.asarray(scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True)[..., :nx])

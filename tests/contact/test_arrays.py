@@ -1,62 +1,13 @@
-"""Arrays of other libraries: what goes in comes out, and nothing goes through NumPy on the way.
+"""Arrays of other libraries: what goes in comes out, and nothing goes through NumPy on the way."""
 
-`array_api_strict` knows nothing but the array API standard, and its second device refuses every way to NumPy.
-PyTorch's tests run where it is installed; `make test` installs its CPU build where pip finds one.
-"""
-
-import importlib.util
-
-import array_api_strict
 import numpy as np
 import pytest
 
 import roughcontact as rc
-
-DEVICE = array_api_strict.Device("device1")
-
-
-class Strict:
-    """The standard and nothing else, on a device that is not the host."""
-
-    @staticmethod
-    def put(values, dtype="float64"):
-        return array_api_strict.asarray(values, dtype=getattr(array_api_strict, dtype), device=DEVICE)
-
-    @staticmethod
-    def is_there(array):
-        return isinstance(array, type(Strict.put(0.0))) and array.device == DEVICE
-
-    @staticmethod
-    def get(array):
-        return np.asarray(array_api_strict.asarray(array, device=array_api_strict.Device("CPU_DEVICE")))
+from libraries import LIBRARIES, without_torch
 
 
-class Torch:
-    """PyTorch on the host."""
-
-    @staticmethod
-    def put(values, dtype="float64"):
-        import torch
-
-        return torch.asarray(values, dtype=getattr(torch, dtype))
-
-    @staticmethod
-    def is_there(array):
-        import torch
-
-        return isinstance(array, torch.Tensor)
-
-    @staticmethod
-    def get(array):
-        return array.numpy()
-
-
-without_torch = pytest.mark.skipif(
-    importlib.util.find_spec("torch") is None, reason="PyTorch is not installed"
-)
-
-
-@pytest.fixture(params=[Strict, pytest.param(Torch, marks=without_torch)], ids=lambda kind: kind.__name__)
+@pytest.fixture(params=LIBRARIES, ids=lambda kind: kind.__name__)
 def library(request):
     return request.param
 

@@ -173,7 +173,9 @@ def descend(nodes: Nodes, kernel: Kernel, order: int, near: int) -> tuple[Level,
     parts = np.einsum("aid,bje->abijde", y.weights[..., : y.chosen], x.weights[..., : x.chosen])
     parts = parts.reshape(*lacking.shape, -1)
     system = parts[:, :, distant].reshape(-1, parts.shape[-1])
-    chosen = np.linalg.lstsq(system, lacking[:, :, distant].ravel())[0]
+    # An odd kernel is zero along both axes, and must stay so to the last digit.
+    free, chosen = system.any(axis=0), np.zeros(system.shape[1])
+    chosen[free] = np.linalg.lstsq(system[:, free], lacking[:, :, distant].ravel())[0]
     taps = np.where(distant, 0.0, lacking - parts @ chosen)[:, :, : y.reach + 1, : x.reach + 1]
     taps = np.concatenate([kernel.sign * taps[..., :0:-1], taps], axis=-1)
     transfers = [

@@ -14,7 +14,7 @@ from roughcontact.halfspace.levels import Hierarchy, Kernel
 from roughcontact.halfspace.spectral import FreeOperator
 from roughcontact.halfspace.transfer import Nodes
 
-__all__ = ["MultilevelOperator"]
+__all__ = ["MultilevelOperator", "check_settings"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
@@ -49,13 +49,7 @@ class MultilevelOperator:
     near: int = 10
 
     def __post_init__(self) -> None:
-        if self.order not in range(2, 17, 2):
-            raise ValueError(f"the order of the interpolation must be even, from 2 to 16, not {self.order}")
-        if self.near < self.order - 1:
-            raise ValueError(
-                f"near must be at least {self.order - 1}, one less than the order, not {self.near}: "
-                "else the stencils of pairs that are not near overlap"
-            )
+        check_settings(self.order, self.near)
 
     @property
     def grid(self) -> Grid:
@@ -111,3 +105,14 @@ class MultilevelOperator:
         """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""
         coarse = self.exact.coarsened(grid)
         return None if coarse is None else replace(self, exact=coarse)
+
+
+def check_settings(order: int, near: int) -> None:
+    """Raise a ValueError for an order of interpolation, or a range of exact sums, that will not do."""
+    if order not in range(2, 17, 2):
+        raise ValueError(f"the order of the interpolation must be even, from 2 to 16, not {order}")
+    if near < order - 1:
+        raise ValueError(
+            f"near must be at least {order - 1}, one less than the order, not {near}: "
+            "else the stencils of pairs that are not near overlap"
+        )

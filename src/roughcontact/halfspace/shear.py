@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol, runtime_checkable
+from typing import Literal, Protocol, get_args, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.shear_influence import Cerruti, ShearCompliance, ShearWaves
+from roughcontact.halfspace.shear_moving_grid import MovingGridShear
+from roughcontact.halfspace.shear_multilevel import MultilevelShear
 from roughcontact.halfspace.shear_sums import DenseShear, FreeShear, PeriodicShear
+from roughcontact.halfspace.sums import Sum
 from roughcontact.material import Solid, reduced_modulus
 
 __all__ = ["ShearOperator", "dundurs_parameter", "shear_compliance", "shear_half_space"]
@@ -24,7 +27,7 @@ class ShearOperator(Protocol):
 
     Fields have shape ``(2, ny, nx)``: the component along x, then that along y. Traction is what body 2 exerts on
     body 1. The map is symmetric; on a free grid positive definite, on a periodic one semidefinite, since a constant
-    traction moves nothing.
+    traction moves nothing. One whose sum is not exact has the ``exact`` one, by which answers are certified.
     """
 
     @property
@@ -58,7 +61,11 @@ class ShearOperator(Protocol):
 
 
 def shear_half_space(
-    grid: AnyGrid, first: Solid, second: Solid | None = None, *, method: Literal["fft", "dense"] = "fft"
+    grid: AnyGrid,
+    first: Solid,
+    second: Solid | None = None,
+    *,
+    method: Literal["dense"] | Sum = "fft",
 ) -> ShearOperator:
     """Return two elastic half-spaces under tangential traction (Cerruti's problem) on a grid of two axes.
 
@@ -72,13 +79,16 @@ def shear_half_space(
         Free or periodic along both axes.
     first, second : Solid
         The bodies; without a second one the partner is rigid.
-    method : {"fft", "dense"}
-        Fast Fourier transforms, or the full matrix (32 n^2 bytes for n cells).
+    method : {"fft", "dense", "moving-grid", "multilevel"}
+        How the sum over the n cells is done, as for `half_space`: by fast Fourier transforms; with the full matrix (32
+        n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
+        (inexact by some 1e-6, see `MultilevelShear`; what drives with it is certified by the exact sum).
 
     Raises
     ------
     ValueError
-        If the grid has one axis, is one of rings, or periodic along one axis only; if both bodies are rigid.
+        If the grid has one axis, is one of rings, or periodic along one axis only; if the method is not for it; if both
+        bodies are rigid.
     """
     if not isinstance(grid, Grid) or grid.ndim != 2:
         raise ValueError("tangential traction needs a grid of two axes; lines and rings are not offered")
@@ -90,11 +100,16 @@ def shear_half_space(
         operator = PeriodicShear(grid, ShearWaves(grid, compliance))
     else:
         operator = FreeShear(grid, Cerruti(grid.spacing, compliance))
+    if method == "fft":
+        return operator
     if method == "dense":
         return DenseShear(grid, operator.as_matrix())
-    if method != "fft":
-        raise ValueError(f"method must be 'fft' or 'dense', not {method!r}")
-    return operator
+    if method not in get_args(Sum):
+        names = ", ".join(map(repr, get_args(Sum)))
+        raise ValueError(f"method must be one of {names} or 'dense', not {method!r}")
+    if not isinstance(operator, FreeShear):
+        raise ValueError(f"the method {method!r} is for free grids; a periodic one is summed by 'fft'")
+    return MovingGridShear(operator) if method == "moving-grid" else MultilevelShear(operator)
 
 
 def shear_compliance(first: Solid, second: Solid | None = None) -> ShearCompliance:

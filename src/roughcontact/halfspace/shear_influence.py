@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -11,11 +12,13 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.cerruti import cerruti_table
+from roughcontact.halfspace.cerruti import cerruti, cerruti_table
 
 __all__ = ["Cerruti", "ShearCompliance", "ShearInfluence", "ShearWaves"]
 
 Array = npt.NDArray[np.float64]
+Offsets = npt.NDArray[np.intp]
+Part = Callable[[Offsets, Offsets], Array]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +58,19 @@ class Cerruti:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        x, y, z = cerruti_table(shape, self.spacing)
+        return self._tensor(cerruti_table(shape, self.spacing))
+
+    def parts(self) -> tuple[Part, Part, Part]:
+        """Return xx, yy and xy [m/Pa] as functions of offsets of whole cells, rows and columns from zero up."""
+        dy, dx = self.spacing
+
+        def part(index: int) -> Part:
+            return lambda rows, columns: self._tensor(cerruti(columns * dx, rows * dy, dx, dy))[index]
+
+        return part(0), part(1), part(2)
+
+    def _tensor(self, integrals: Array) -> Array:
+        x, y, z = integrals
         along, across = self.compliance.along / math.pi, self.compliance.across / math.pi
         return np.stack([across * x + along * y, along * x + across * y, (across - along) * z])
 

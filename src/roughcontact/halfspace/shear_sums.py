@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import fast_even_length
+from roughcontact.arrays import Placed, fast_even_length, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.field_transform import padded_lengths
 from roughcontact.halfspace.shear_influence import ShearInfluence, ShearWaves
@@ -45,13 +45,13 @@ class FreeShear:
         return padded_lengths(self.grid.shape)
 
     @cached_property
-    def _multiplier(self) -> Array:
-        return tensor_multiplier(self.influence.table(self.grid.shape), self._padded)
+    def _multiplier(self) -> Placed:
+        return Placed(tensor_multiplier(self.influence.table(self.grid.shape), self._padded))
 
     @cached_property
-    def _inverse(self) -> tuple[Array, tuple[int, int]]:
+    def _inverse(self) -> tuple[Placed, tuple[int, int]]:
         box = (fast_even_length(self.grid.shape[0]), fast_even_length(self.grid.shape[1]))
-        return self.influence.inverse(box), box
+        return Placed(self.influence.inverse(box)), box
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] under `traction` [Pa]."""
@@ -92,8 +92,8 @@ class PeriodicShear:
         return self.grid.cell_area
 
     @cached_property
-    def _multiplier(self) -> Array:
-        return self.influence.multiplier()
+    def _multiplier(self) -> Placed:
+        return Placed(self.influence.multiplier())
 
     @property
     def _lengths(self) -> tuple[int, int]:
@@ -101,15 +101,16 @@ class PeriodicShear:
         return ny, nx
 
     @cached_property
-    def _inverse(self) -> Array:
-        return self.influence.inverse(self._lengths)
+    def _inverse(self) -> Placed:
+        return Placed(self.influence.inverse(self._lengths))
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] under `traction` [Pa]."""
         # The mean moves nothing; taken out first, its rounding moves nothing either.
-        varying = traction - traction.mean(axis=(1, 2), keepdims=True)
-        displacement = convolve_pair(varying, self._multiplier, self._lengths)
-        displacement -= displacement.mean(axis=(1, 2), keepdims=True)
+        xp, multiplier = namespace(traction), self._multiplier.beside(traction)
+        varying = traction - xp.mean(traction, axis=(1, 2), keepdims=True)
+        displacement = convolve_pair(varying, multiplier, self._lengths)
+        displacement -= xp.mean(displacement, axis=(1, 2), keepdims=True)
         return displacement
 
     def approximate_inverse(self, displacement: Array) -> Array:
@@ -140,6 +141,10 @@ class DenseShear:
 
     grid: Grid
     matrix: Array
+    _placed: Placed = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_placed", Placed(self.matrix))
 
     @property
     def weights(self) -> float:
@@ -148,12 +153,14 @@ class DenseShear:
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] under `traction` [Pa]."""
-        return np.asarray((self.matrix @ traction.ravel()).reshape(traction.shape))
+        xp = namespace(traction)
+        product = self._placed.beside(traction) @ xp.reshape(traction, (-1,))
+        return xp.reshape(product, traction.shape)  # type: ignore[no-any-return]
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return the traction [Pa] that each cell alone would need for this `displacement` [m]."""
         own = float(self.matrix[0, 0])
-        return np.asarray(displacement / (own if own > 0 else 1.0))  # the one cell of a period never moves
+        return displacement / (own if own > 0 else 1.0)  # the one cell of a period never moves
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells`, shape ``(2 n, 2 n)``."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
-from roughcontact.arrays import SLAB
+from roughcontact.arrays import Placed, filtered, namespace
 from roughcontact.halfspace.field_transform import parity_multiplier
 
 __all__ = ["convolve_pair", "tensor_multiplier"]
@@ -33,40 +34,30 @@ def tensor_multiplier(table: Array, padded: tuple[int, int]) -> Array:
     return np.stack([xx, yy, -parity_multiplier(table[2], (True, True), padded)])
 
 
-def convolve_pair(pair: Array, multiplier: Array, padded: tuple[int, int]) -> Array:
+def convolve_pair(pair: Array, multiplier: Placed | Array, padded: tuple[int, int]) -> Array:
     """Return the convolution of the fields x and y with a tensor, padded by zeros, cut back to their own shape.
 
     Parameters
     ----------
     pair : array, shape (2, ny, nx)
-    multiplier : array, shape (3, My//2 + 1, Mx//2 + 1)
+        Of any library, on any device, in double or single precision: so is the answer.
+    multiplier : array or Placed array, shape (3, My//2 + 1, Mx//2 + 1)
         As `tensor_multiplier` returns it.
     padded : tuple of int
         Lengths ``(My, Mx)`` of the transforms, at least those of the fields.
-
-    Notes
-    -----
-    As `roughcontact.arrays.convolve`: only rows that hold data are transformed along x, and the padded columns exist
-    for one slab at a time.
     """
-    _, ny, nx = pair.shape
-    my, mx = padded
-    spectrum = scipy.fft.rfft(pair, n=mx, axis=2)
+    factors = multiplier.beside(pair) if isinstance(multiplier, Placed) else multiplier
+    xp, (my, _) = namespace(pair), padded
     upper = my // 2 + 1
-    for start in range(0, spectrum.shape[2], SLAB):
-        part = slice(start, start + SLAB)
-        column = scipy.fft.fft(spectrum[:, :, part], n=my, axis=1)
-        xx, yy, xy = multiplier[:, :, part]
-        _multiply(column[:, :upper], xx, yy, xy)
-        beyond = slice(my - upper, 0, -1)
-        _multiply(column[:, upper:], xx[beyond], yy[beyond], -xy[beyond])
-        spectrum[:, :, part] = scipy.fft.ifft(column, axis=1, overwrite_x=True)[:, :ny]
-    return np.asarray(scipy.fft.irfft(spectrum, n=mx, axis=2, overwrite_x=True)[:, :, :nx])
 
+    def multiply(spectrum: Any, columns: slice) -> None:
+        for rows, sign in ((slice(0, upper), 1), (slice(upper, my), -1)):
+            part = factors[:, :, columns]
+            if sign < 0:
+                part = xp.flip(part[:, 1 : my - upper + 1, :], axis=1)
+            x, y, across = spectrum[0, rows, :], spectrum[1, rows, :], sign * part[2, :, :]
+            along_x = part[0, :, :] * x + across * y
+            spectrum[1, rows, :] = part[1, :, :] * y + across * x
+            spectrum[0, rows, :] = along_x
 
-def _multiply(column: npt.NDArray[np.complex128], xx: Array, yy: Array, xy: Array) -> None:
-    x, y = column[0].copy(), column[1]
-    column[0] *= xx
-    column[0] += xy * y
-    y *= yy
-    y += xy * x
+    return filtered(pair, multiply, padded)
