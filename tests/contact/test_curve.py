@@ -226,3 +226,21 @@ def test_loads_nobody_named():
 def test_a_curve_says_what_it_spans():
     curve = rc.loading_curve(rough(128), 1.0, forces=[1e-6, 7e-4])
     assert repr(curve) == "Curve(1 of 2 points resolved, force 1e-06 to 0.0007 N)"
+
+
+def test_nominal_area_leaves_out_the_hole_in_rings():
+    """Of every geometry it is the area of the grid's cells, as their weights add up."""
+    for edges in (np.linspace(0.0, 1.0, 17), np.linspace(0.5, 1.0, 17), [0.9, 0.95, 1.0]):
+        rings = rc.RadialGrid(edges)
+        curve = rc.loading_curve(rc.RadialProfile(-(rings.radii**2), rings), 1.0, depths=[1e-2])
+        inner, outer = edges[0], edges[-1]
+        assert curve.nominal_area == rings.cell_area.sum()
+        assert curve.nominal_area == pytest.approx(np.pi * (outer**2 - inner**2), rel=1e-14)
+        assert curve.length == pytest.approx(np.sqrt(np.pi) * outer, rel=1e-15)
+    plane, line = rc.Grid((8, 6), (2.0, 1.0)), rc.Grid(8, 2.0)
+    heights = np.random.default_rng(0).standard_normal((8, 6))
+    assert rc.loading_curve(rc.Surface(heights, plane), 1.0, depths=[0.1]).nominal_area == 96.0
+    profile = rc.Surface(heights[:, 0], line)
+    for body in (rc.foundation, rc.line):
+        curve = rc.loading_curve(profile, 1.0, forces=[0.1], operator=body(line, 1.0))
+        assert curve.nominal_area == 16.0

@@ -8,6 +8,7 @@ import json
 import os
 import struct
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -203,11 +204,13 @@ def test_a_full_disk_is_named_with_the_file(tmp_path):
 
 
 def test_an_interrupted_netcdf_leaves_nothing(curve, tmp_path, monkeypatch):
-    def interrupted(self, path, **_):
-        path.write_bytes(b"half")
+    write = Path.write_bytes
+
+    def interrupted(path, data):
+        write(path, data[: len(data) // 2])
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(xarray.Dataset, "to_netcdf", interrupted)
+    monkeypatch.setattr(Path, "write_bytes", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_netcdf(curve, tmp_path / "a.nc")
     assert list(tmp_path.iterdir()) == []

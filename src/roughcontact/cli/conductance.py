@@ -134,7 +134,7 @@ def _read(path: Path) -> xarray.Dataset:
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:
-    from roughcontact.contact.dataset import plain_values
+    from roughcontact.contact.labelled import plain_values
 
     columns = {name: plain_values(answer[name].to_numpy()) for name in names}
     units = {name: answer[name].attrs["units"] for name in names}

@@ -85,7 +85,8 @@ class CurveAnswer:
     @cached_property
     def record(self) -> dict[str, Any]:
         """The answer as plain values."""
-        from roughcontact.contact.dataset import curve_record, plain_values
+        from roughcontact.contact.dataset import curve_record
+        from roughcontact.contact.labelled import plain_values
 
         conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
         record = {

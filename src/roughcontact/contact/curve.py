@@ -56,6 +56,8 @@ class Curve:
     periodic : tuple of bool
     cell_stiffness, saturation : float
         Stiffness of one cell, and of all measured cells in contact [N/m].
+    nominal_area : float
+        Area of all cells [m^2], of rings about a hole without it; length of a line [m].
     geometry : Geometry
         What the cells are. On a line forces, stiffness, areas and energy are per unit length.
     hardness : float
@@ -80,6 +82,7 @@ class Curve:
     periodic: tuple[bool, ...]
     cell_stiffness: float
     saturation: float
+    nominal_area: float
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
 
@@ -96,13 +99,11 @@ class Curve:
 
     @property
     def length(self) -> float:
-        """The length L of the dimensionless numbers [m]: the square root of the nominal area; that of a line."""
-        return length_scale(self.geometry, self.lengths)
+        """The length L of the dimensionless numbers [m].
 
-    @property
-    def nominal_area(self) -> float:
-        """Area of all cells of a surface, of the disc under rings [m^2]; length of a line [m]."""
-        return self.length**2 if self.geometry in (Geometry.SURFACE, Geometry.RING) else self.length
+        The square root of the map's area, and of the disc's within the outermost ring; that of a line.
+        """
+        return length_scale(self.geometry, self.lengths)
 
     @property
     def force_scale(self) -> float:
@@ -247,6 +248,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
         saturation=saturation(problem),
+        nominal_area=problem.grid.area,
         geometry=problem.geometry,
         hardness=problem.hardness,
     )

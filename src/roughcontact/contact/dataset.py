@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.variables import VARIABLES, unit_of
+from roughcontact.contact.labelled import dataset_of, plain_values, sizes, units_of, variable, word, words
 from roughcontact.halfspace.geometry import Geometry
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from roughcontact.contact.conductance import Conductors
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
-    from roughcontact.contact.status import Status
 
 __all__ = [
     "check_conducting",
@@ -46,7 +45,7 @@ _CURVE_POINTS = (
     "stiffness_residual",
     "resolved",
 )
-_CURVE_SCALES = ("modulus", "rms", "saturation", "cell_stiffness")
+_CURVE_SCALES = ("modulus", "rms", "saturation", "cell_stiffness", "nominal_area")
 _SOLUTION_MAPS = ("pressure", "displacement", "gap", "contact")
 _SOLUTION_SCALARS = (
     "force",
@@ -72,14 +71,14 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     along ``axis`` (y, then x). Each carries ``units`` and ``long_name``. On a line the units are per length.
     """
     kind = curve.geometry
-    data = {name: _variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_POINTS}
-    data["status"] = _variable("status", ("load",), _words(curve.status))
-    data["secant_stiffness"] = _variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
-    data |= {name: _variable(name, (), getattr(curve, name), kind) for name in _CURVE_SCALES}
+    data = {name: variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_POINTS}
+    data["status"] = variable("status", ("load",), words(curve.status))
+    data["secant_stiffness"] = variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
+    data |= {name: variable(name, (), getattr(curve, name), kind) for name in _CURVE_SCALES}
     if math.isfinite(curve.hardness):
-        data["hardness"] = _variable("hardness", (), curve.hardness, kind)
-    data |= _sizes(curve.lengths, curve.spacing, curve.periodic)
-    return _dataset(data, {}, "normal contact stiffness of a rough surface against load", kind)
+        data["hardness"] = variable("hardness", (), curve.hardness, kind)
+    data |= sizes(curve.lengths, curve.spacing, curve.periodic)
+    return dataset_of(data, {}, "normal contact stiffness of a rough surface against load", kind)
 
 
 def solution_dataset(solution: Solution) -> xarray.Dataset:
@@ -92,22 +91,22 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     problem, spots = solution.problem, solution.spots
     grid, kind = problem.grid, problem.geometry
     axes = kind.axes
-    data = {name: _variable(name, axes, getattr(solution, name), kind) for name in _SOLUTION_MAPS}
+    data = {name: variable(name, axes, getattr(solution, name), kind) for name in _SOLUTION_MAPS}
     if problem.surface is not None:
-        data["heights"] = _variable("heights", axes, problem.surface.heights)
-    data["spot_label"] = _variable("spot_label", axes, spots.labels)
-    data["spot_area"] = _variable("spot_area", ("spot",), spots.areas, kind)
-    data["spot_load"] = _variable("spot_load", ("spot",), spots.loads, kind)
-    data |= {name: _variable(name, (), getattr(solution, name), kind) for name in _SOLUTION_SCALARS}
-    data["spots"] = _variable("spots", (), spots.count)
-    data["status"] = _variable("status", (), _word(solution.status))
-    data |= {name: _variable(name, (), value, kind) for name, value in _scales(solution).items()}
-    data |= _sizes(grid.lengths, grid.spacing, grid.periodic)
+        data["heights"] = variable("heights", axes, problem.surface.heights)
+    data["spot_label"] = variable("spot_label", axes, spots.labels)
+    data["spot_area"] = variable("spot_area", ("spot",), spots.areas, kind)
+    data["spot_load"] = variable("spot_load", ("spot",), spots.loads, kind)
+    data |= {name: variable(name, (), getattr(solution, name), kind) for name in _SOLUTION_SCALARS}
+    data["spots"] = variable("spots", (), spots.count)
+    data["status"] = variable("status", (), word(solution.status))
+    data |= {name: variable(name, (), value, kind) for name, value in _scales(solution).items()}
+    data |= sizes(grid.lengths, grid.spacing, grid.periodic)
     coordinates = {
-        axis: _variable(axis, (axis,), values) for axis, values in zip(axes, grid.coordinates, strict=True)
+        axis: variable(axis, (axis,), values) for axis, values in zip(axes, grid.coordinates, strict=True)
     }
     coordinates["spot"] = (("spot",), np.arange(1, spots.count + 1), {"long_name": "number of the spot"})
-    dataset = _dataset(data, coordinates, "contact of a rough surface under load", kind)
+    dataset = dataset_of(data, coordinates, "contact of a rough surface under load", kind)
     if solution.notes:
         dataset.attrs["notes"] = "\n".join(solution.notes)
     return dataset
@@ -120,8 +119,8 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     """
     names = (*_CURVE_POINTS, "secant_stiffness", *_CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(curve, name)) for name in names}
-    record["status"] = _words(curve.status)
-    return record | {"geometry": curve.geometry.value, "units": _units(record, curve.geometry)}
+    record["status"] = words(curve.status)
+    return record | {"geometry": curve.geometry.value, "units": units_of(record, curve.geometry)}
 
 
 def solution_record(solution: Solution) -> dict[str, Any]:
@@ -132,13 +131,13 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     grid, kind = solution.problem.grid, solution.problem.geometry
     record = {name: plain_values(getattr(solution, name)) for name in _SOLUTION_SCALARS}
     record["spots"] = int(solution.spots.count)
-    record["status"] = _word(solution.status)
+    record["status"] = word(solution.status)
     record["notes"] = list(solution.notes)
     record |= {name: plain_values(value) for name, value in _scales(solution).items()}
     record |= {
         name: plain_values(getattr(grid, name)) for name in ("shape", "lengths", "spacing", "periodic")
     }
-    return record | {"geometry": kind.value, "units": _units(record, kind)}
+    return record | {"geometry": kind.value, "units": units_of(record, kind)}
 
 
 def with_conductance(
@@ -167,7 +166,7 @@ def with_conductance(
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
     check_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
     found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
-    return dataset.assign({name: _variable(name, ("load",), values) for name, values in found.items()})
+    return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
 
 
 def check_conducting(geometry: Geometry, yielding: bool) -> None:
@@ -205,15 +204,6 @@ def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]
     return dataset.assign(columns)
 
 
-def _variable(
-    name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
-) -> tuple[Any, Any, dict[str, str]]:
-    """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
-    unit = unit_of(name, geometry)
-    attributes = {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
-    return dimensions, np.asarray(values), attributes
-
-
 def _scales(solution: Solution) -> dict[str, float]:
     """Return the numbers by which one loaded state is judged and that it has no attribute for."""
     problem = solution.problem
@@ -224,46 +214,3 @@ def _scales(solution: Solution) -> dict[str, float]:
         "modulus": problem.modulus,
     }
     return scales if problem.surface is None else scales | {"rms": problem.surface.rms}
-
-
-def _sizes(lengths: Any, spacing: Any, periodic: Any) -> dict[str, Any]:
-    """Return the size of the grid, one value for each axis."""
-    values = {"lengths": lengths, "spacing": spacing, "periodic": periodic}
-    return {name: _variable(name, ("axis",), value) for name, value in values.items()}
-
-
-def _dataset(
-    data: dict[str, Any], coordinates: dict[str, Any], title: str, geometry: Geometry
-) -> xarray.Dataset:
-    import xarray
-
-    words = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
-    axis = (("axis",), list(geometry.axes), {"long_name": words})
-    attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
-    return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
-
-
-def _units(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
-    units = {name: unit_of(name, geometry) for name in record if name in VARIABLES}
-    return {name: unit for name, unit in units.items() if unit}
-
-
-def _word(status: Status) -> str:
-    return str(status.value)
-
-
-def _words(statuses: Iterable[Status]) -> list[str]:
-    return [_word(status) for status in statuses]
-
-
-def plain_values(value: Any) -> Any:
-    """Return a number, an array or a sequence as built-in types, with None for what is not finite."""
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    elif isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, list | tuple):
-        return [plain_values(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

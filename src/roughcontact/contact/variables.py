@@ -59,6 +59,29 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "spots": Variable("1", "number of connected contact spots", "contact spots"),
         "dimensionless_force": Variable("1", "force over modulus, length and rms height", "force / (E* L h)"),
         "dimensionless_stiffness": Variable("1", "stiffness over modulus and length", "stiffness / (E* L)"),
+        # tangential loading
+        "tangential_force": Variable(
+            "N", "tangential force that body 2 exerts upon body 1", "tangential force"
+        ),
+        "tangential_displacement": Variable(
+            "m", "tangential displacement of body 2 against body 1 since the start", "tangential displacement"
+        ),
+        "tangential_stiffness": Variable(
+            "N m-1",
+            "tangential force per displacement of the cells that hold, moved as one",
+            "tangential stiffness",
+        ),
+        "stick_area": Variable("m2", "area of the cells in contact that hold", "stick area"),
+        "slip_area": Variable("m2", "area of the cells in contact that slip", "slip area"),
+        "dissipated": Variable("J", "energy that friction took in the step", "dissipated in a step"),
+        "dissipated_energy": Variable(
+            "J", "energy that friction has taken since the start", "dissipated energy"
+        ),
+        "tangential_elastic_energy": Variable(
+            "J", "elastic energy of the tangential displacement", "tangential elastic energy"
+        ),
+        "friction": Variable("1", "coefficient of friction", "friction coefficient"),
+        "capacity": Variable("N", "largest tangential force that friction holds", "capacity"),
         # what it conducts
         "electrical_conductance": Variable("S", "electrical conductance of the contact", "conductance"),
         "electrical_resistance": Variable("ohm", "electrical resistance of the contact", "resistance"),
@@ -84,6 +107,7 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "cell_stiffness": Variable("N m-1", "stiffness with one cell in contact", "one cell"),
         "lengths": Variable("m", "side lengths of the map, cells times spacing", "length"),
         "spacing": Variable("m", "size of a cell", "spacing"),
+        "nominal_area": Variable("m2", "area of all cells", "nominal area"),
         "shape": Variable("1", "number of cells", "cells"),
         "periodic": Variable("", "whether the surface repeats itself", "periodic"),
         # maps
@@ -95,6 +119,9 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "displacement": Variable("m", "normal displacement of the half-space", "displacement"),
         "gap": Variable("m", "gap between the bodies", "gap"),
         "contact": Variable("", "whether the cell is in contact", "contact"),
+        "traction": Variable("Pa", "tangential traction upon body 1", "traction"),
+        "slip": Variable("m", "slip of surface 1 over surface 2 since the start", "slip"),
+        "slipping": Variable("", "whether the cell bears all the traction that friction holds", "slipping"),
         "largest_pressure": Variable("Pa", "largest contact pressure of a cell", "largest pressure"),
         "nominal_pressure": Variable("Pa", "force over the area of the whole map", "nominal pressure"),
         "spot_label": Variable(
@@ -114,6 +141,7 @@ _OF_A_LINE = {
     "saturation": "N m-2",
     "cell_stiffness": "N m-2",
     "contact_area": "m",
+    "nominal_area": "m",
     "spot_area": "m",
     "spot_load": "N m-1",
     "elastic_energy": "J m-1",
@@ -125,6 +153,7 @@ _OF_SPRINGS = {
     "nominal_pressure": "N m-1",
     "hardness": "N m-1",
     "contact_area": "m",
+    "nominal_area": "m",
     "spot_area": "m",
 }
 

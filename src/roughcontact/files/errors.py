@@ -6,7 +6,7 @@ __all__ = ["ReadError", "SurfaceWarning"]
 
 
 class ReadError(ValueError):
-    """A file that cannot be turned into a surface.
+    """A file that cannot be turned into a surface, or into a curve.
 
     Parameters
     ----------

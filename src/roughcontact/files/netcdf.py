@@ -17,7 +17,7 @@ from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.units import is_length, length_factor
 
-__all__ = ["list_netcdf", "read_netcdf"]
+__all__ = ["Variable", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
 _HDF5 = b"\x89HDF\r\n\x1a\n"
@@ -26,7 +26,9 @@ _EVEN = 1e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Variable:
+class Variable:
+    """One variable of an open file: what is said about it, and how to load it."""
+
     dimensions: tuple[str, ...]
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
@@ -64,7 +66,7 @@ def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
     from the attribute ``length`` of the coordinates, or from coordinates with even steps.
     """
-    with _opened(data, file) as (variables, attributes):
+    with opened(data, file) as (variables, attributes):
         found = _channels(variables)
         if channel is None and "heights" in variables:
             channel = "heights"
@@ -89,12 +91,12 @@ def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
 
 def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
     """Return the variables that can be maps or line scans."""
-    with _opened(data, file) as (variables, _):
+    with opened(data, file) as (variables, _):
         return _channels(variables)
 
 
 @contextmanager
-def _opened(data: bytes, file: str) -> Iterator[tuple[dict[str, _Variable], Mapping[str, Any]]]:
+def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mapping[str, Any]]]:
     """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
     try:
         if data.startswith(b"CDF"):
@@ -117,16 +119,16 @@ def _opened(data: bytes, file: str) -> Iterator[tuple[dict[str, _Variable], Mapp
         raise ReadError(file, f"it is damaged ({reason})", _AGAIN) from error
 
 
-def _classic(file: Any) -> dict[str, _Variable]:
+def _classic(file: Any) -> dict[str, Variable]:
     return {
-        name: _Variable(
+        name: Variable(
             tuple(v.dimensions), tuple(v.shape), v.data.dtype, dict(v._attributes), partial(_values, v)
         )
         for name, v in file.variables.items()
     }
 
 
-def _modern(file: Any) -> dict[str, _Variable]:
+def _modern(file: Any) -> dict[str, Variable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
     for name, values in file.items():
@@ -137,7 +139,7 @@ def _modern(file: Any) -> dict[str, _Variable]:
         if values.is_scale and values.ndim == 1:
             axes = [name]
         attributes = {key: value for key, value in values.attrs.items() if not key.isupper()}
-        found[name] = _Variable(tuple(axes), values.shape, values.dtype, attributes, partial(_values, values))
+        found[name] = Variable(tuple(axes), values.shape, values.dtype, attributes, partial(_values, values))
     return found
 
 
@@ -145,7 +147,7 @@ def _values(variable: Any) -> npt.NDArray[Any]:
     return np.array(variable[...])
 
 
-def _channels(variables: Mapping[str, _Variable]) -> tuple[Channel, ...]:
+def _channels(variables: Mapping[str, Variable]) -> tuple[Channel, ...]:
     """Return what can be pressed: maps, and the line scan named ``heights``."""
     maps = {
         name: v
@@ -164,7 +166,7 @@ def _channels(variables: Mapping[str, _Variable]) -> tuple[Channel, ...]:
     )
 
 
-def _checked(variable: _Variable, name: str, file: str) -> npt.NDArray[np.float64]:
+def _checked(variable: Variable, name: str, file: str) -> npt.NDArray[np.float64]:
     values = variable.numbers()
     if values.shape != variable.shape:
         raise ReadError(
@@ -174,7 +176,7 @@ def _checked(variable: _Variable, name: str, file: str) -> npt.NDArray[np.float6
 
 
 def _spacing(
-    variables: Mapping[str, _Variable],
+    variables: Mapping[str, Variable],
     axes: tuple[str, ...],
     shape: tuple[int, ...],
     unit: str | None,
@@ -193,7 +195,7 @@ def _spacing(
     return known if len(known) == len(steps) else None
 
 
-def _step(coordinate: _Variable, axis: str, count: int, unit: str | None, file: str) -> float | None:
+def _step(coordinate: Variable, axis: str, count: int, unit: str | None, file: str) -> float | None:
     """Return the step [m] of a coordinate from its length or its values, which must not contradict each other."""
     unit = coordinate.word("unit", "units") or unit
     if not is_length(unit) or coordinate.shape != (count,) or count < 2:
@@ -219,7 +221,7 @@ def _step(coordinate: _Variable, axis: str, count: int, unit: str | None, file: 
     return abs(float(step)) * length_factor(unit or "")
 
 
-def _periodic(variables: Mapping[str, _Variable], axes: tuple[str, ...]) -> tuple[bool, ...]:
+def _periodic(variables: Mapping[str, Variable], axes: tuple[str, ...]) -> tuple[bool, ...]:
     own = variables.get("periodic")
     if own is not None and own.shape == (len(axes),) and own.dtype.kind in "biu":
         return tuple(bool(value) for value in own.load())

@@ -8,9 +8,13 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
+import numpy.typing as npt
 
+from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.tangential.curve import SlipCurve
+from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.vti import vti_bytes
 from roughcontact.files.write import write_csv, write_netcdf
@@ -20,13 +24,19 @@ from roughcontact.surface.surface import Surface
 
 __all__ = ["require_surface_file", "write"]
 
+Field = npt.NDArray[np.generic]
+# Components by their place, name and sign in a picture whose rows are turned up.
+_UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
+Writable = Surface | Solution | TangentialSolution | Curve | SlipCurve
 
-def write(what: Surface | Solution | Curve, path: str | os.PathLike[str]) -> None:
+
+def write(what: Writable, path: str | os.PathLike[str]) -> None:
     """Write a surface, a solution or a curve; the file appears whole or not at all.
 
     ========  ==================================================================================================
     ``.npz``  a surface: heights, spacing, unit, periodic, history; read back to the last bit
-    ``.nc``   a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit
+    ``.nc``   a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit, a loading
+              curve by `read_curve`
     ``.csv``  a curve: one line a load
     ``.x3p``  a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
               history, for which the format has no place
@@ -38,7 +48,7 @@ def write(what: Surface | Solution | Curve, path: str | os.PathLike[str]) -> Non
 
     Parameters
     ----------
-    what : Surface, Solution or Curve
+    what : Surface, Solution, TangentialSolution, Curve or SlipCurve
     path : str or path
         File to write; one that is there is replaced.
 
@@ -51,17 +61,16 @@ def write(what: Surface | Solution | Curve, path: str | os.PathLike[str]) -> Non
         require_surface_file(path)
         with written_aside(path) as aside:
             _OF_A_SURFACE[_kind(path)](what, aside)
-    elif isinstance(what, Solution):
-        _require_kind(
-            path, "Solution", _OF_A_SOLUTION, "; write solution.problem.surface for its heights alone"
-        )
+    elif isinstance(what, Solution | TangentialSolution):
+        hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
+        _require_kind(path, type(what).__name__, _OF_A_SOLUTION, hint)
         with written_aside(path) as aside:
             _OF_A_SOLUTION[_kind(path)](what, aside)
-    elif isinstance(what, Curve):
-        _require_kind(path, "Curve", _OF_A_CURVE)
+    elif isinstance(what, Curve | SlipCurve):
+        _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[_kind(path)](what.to_dataset(), path)
     else:
-        raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a Solution or a Curve")
+        raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
 
 
 def require_surface_file(path: str | os.PathLike[str]) -> None:
@@ -145,19 +154,27 @@ def _netcdf(surface: Surface, aside: Path) -> None:
     write_netcdf(dataset, aside, provenance(surface))
 
 
-def _solution(solution: Solution, aside: Path) -> None:
+def _solution(solution: Solution | TangentialSolution, aside: Path) -> None:
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_netcdf
 
-    problem = solution.problem
+    problem = _pressed(solution).problem
     write_netcdf(solution.to_dataset(), aside, provenance(problem.surface, modulus=problem.modulus))
 
 
-def _solution_vti(solution: Solution, aside: Path) -> None:
-    aside.write_bytes(vti_bytes(_fields(solution), solution.problem.grid))
+def _solution_vti(solution: Solution | TangentialSolution, aside: Path) -> None:
+    fields = _fields(_pressed(solution))
+    if isinstance(solution, TangentialSolution):
+        fields |= _tangential_fields(solution)
+    aside.write_bytes(vti_bytes(fields, _pressed(solution).problem.grid))
 
 
-def _fields(solution: Solution) -> dict[str, np.typing.NDArray[np.generic]]:
+def _pressed(solution: Solution | TangentialSolution) -> Solution:
+    """Return the state under the normal force alone."""
+    return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
+
+
+def _fields(solution: Solution) -> dict[str, Field]:
     surface = solution.problem.surface
     heights = {} if surface is None else {"heights": surface.heights}
     return heights | {
@@ -168,10 +185,19 @@ def _fields(solution: Solution) -> dict[str, np.typing.NDArray[np.generic]]:
     }
 
 
+def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
+    """Return components by name; with the picture, which is turned up, those along y change their sign."""
+    vectors = {"traction": on_host(solution.traction), "slip": on_host(solution.slip)}
+    parts = {
+        f"{name}_{axis}": sign * field[at] for name, field in vectors.items() for at, axis, sign in _UPRIGHT
+    }
+    return parts | {"slipping": on_host(solution.slipping).astype(bool)}
+
+
 _OF_A_SURFACE: Mapping[str, Callable[[Surface, Path], None]] = MappingProxyType(
     {".npz": _npz, ".nc": _netcdf, ".x3p": _x3p, ".txt": _text, ".npy": _npy, ".vti": _vti}
 )
-_OF_A_SOLUTION: Mapping[str, Callable[[Solution, Path], None]] = MappingProxyType(
+_OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution, Path], None]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

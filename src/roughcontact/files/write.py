@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.files.aside import WriteError, output_folder, written_aside
+from roughcontact.files.netcdf_bytes import netcdf_bytes
 
 if TYPE_CHECKING:
     import xarray
@@ -33,17 +34,8 @@ def write_netcdf(
         If the file cannot be written.
     """
     whole = dataset.assign_attrs(dict(provenance or {}))
-    # Shuffled bytes compress better; level 4 is where more time stops buying size.
-    maps = [name for name, values in whole.variables.items() if values.ndim > 1 and values.size]
-    encoding: dict[Any, dict[str, Any]] = {
-        name: {"zlib": True, "complevel": 4, "shuffle": True} for name in maps
-    }
-    # CF wants a fill value only where something can be missing: coordinates never are.
-    encoding |= {
-        name: {"_FillValue": None} for name, values in whole.coords.items() if values.dtype.kind == "f"
-    }
     with written_aside(path) as aside:
-        whole.to_netcdf(aside, engine="h5netcdf", format="NETCDF4", encoding=encoding)
+        aside.write_bytes(netcdf_bytes(whole))
 
 
 def write_csv(
@@ -58,7 +50,8 @@ def write_csv(
     The first line names the columns. Lines that start with ``#`` follow it: units, scales,
     provenance. Then one line a point, every number with all its digits; truth values are 1 and 0.
     It stands in this order because `numpy.genfromtxt` (``delimiter=",", names=True``) takes names from
-    the first line of a file; `pandas.read_csv` (``comment="#"``) reads it as well.
+    the first line of a file; `pandas.read_csv` (``comment="#"``) reads it as well. A vector with a
+    ``component`` takes one column for each: ``tangential_force_x``, ``tangential_force_y``.
 
     Parameters
     ----------
@@ -83,7 +76,13 @@ def write_csv(
             f"nothing lies along {dimension!r}: choose one of {', '.join(map(str, dataset.sizes))}"
         )
     along = () if dimension is None else (dimension,)
-    columns = {str(name): values for name, values in dataset.data_vars.items() if values.dims == along}
+    columns: dict[str, xarray.DataArray] = {}
+    for name, values in dataset.data_vars.items():
+        if values.dims == along:
+            columns[str(name)] = values
+        elif values.dims == (*along, "component"):
+            parts = values["component"].to_numpy().tolist()
+            columns |= {f"{name}_{part}": values.sel(component=part) for part in parts}
     # Words go last, so that readers of pure numbers can ask for the columns before them.
     names = sorted(columns, key=lambda name: columns[name].dtype.kind in "OUT")
     units = [f"{name} [{columns[name].attrs['units']}]" for name in names if "units" in columns[name].attrs]

@@ -1,0 +1,110 @@
+"""A number with its unit, as people write it, to plain SI: "10 N", "110GPa", "1e-6 m"."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+__all__ = [
+    "CONDUCTIVITY",
+    "FORCE",
+    "LENGTH",
+    "PRESSURE",
+    "RESISTIVITY",
+    "Kind",
+    "parse",
+    "parse_number",
+]
+
+# A number in the way programs write it, then whatever is left as the unit.
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+# A product or quotient of names with small powers; arithmetic beyond it could take for ever.
+_NAME = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d|[²³])?"
+_PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
+_UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
+# Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
+_SMALLEST, _LARGEST = 1e-30, 1e30
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of quantity: its name, its SI unit, and an example for the messages."""
+
+    name: str
+    unit: str
+    example: str
+
+
+FORCE = Kind("a force", "N", "10N")
+LENGTH = Kind("a length", "m", "5um")
+PRESSURE = Kind("a pressure", "Pa", "1MPa")
+RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
+CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
+
+
+def parse(text: str, kind: Kind) -> float:
+    """Return the quantity in `text` in the SI unit of its `kind`; a bare number is SI already.
+
+    Raises
+    ------
+    ValueError
+        If the text is no finite number with a unit of that kind.
+    """
+    expected = f"expected {kind.name} such as {kind.example}"
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        raise ValueError(f"{text!r} does not start with a number; {expected}")
+    if match[2].startswith(","):
+        raise ValueError(f"{text!r} holds a comma: write the decimal point as '.'; {expected}")
+    number, unit = float(match[1]), match[2]
+    value = number if unit in ("", kind.unit) else number * _factor(unit, kind, text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text!r} is not a finite number; {expected}")
+    if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
+        raise ValueError(
+            f"{text!r} is beyond anything of this world: check its exponent and unit; {expected}"
+        )
+    return value
+
+
+def parse_number(text: str, example: str) -> float:
+    """Return a number without a unit; the message shows the `example`.
+
+    Raises
+    ------
+    ValueError
+        If the text is no finite number.
+    """
+    expected = f"expected a number such as {example}"
+    match = _NUMBER.fullmatch(text)
+    if match is not None and match[2].startswith(","):
+        raise ValueError(f"{text!r} holds a comma: write the decimal point as '.'; {expected}")
+    if match is None or match[2] or not math.isfinite(float(match[1])):
+        raise ValueError(f"{text!r} is not a number; {expected}")
+    return float(match[1])
+
+
+def _factor(unit: str, kind: Kind, text: str) -> float:
+    """Return how many SI units of `kind` one `unit` is."""
+    expected = f"expected {kind.name} such as {kind.example}"
+    try:
+        if _UNIT.fullmatch(unit) is None:
+            raise ValueError(unit)
+        registry = _registry()
+        given = registry.Quantity(1.0, registry.parse_units(unit))
+        right = given.check(registry.parse_units(kind.unit).dimensionality)
+    except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
+        raise ValueError(f"unknown unit {unit!r} in {text!r}; {expected}") from error
+    if not right:
+        raise ValueError(f"{text!r} is not {kind.name}; {expected}")
+    return float(given.to(kind.unit).magnitude)
+
+
+@cache
+def _registry() -> Any:
+    import pint  # late: it takes longer to import than the rest of the command line
+
+    return pint.UnitRegistry()

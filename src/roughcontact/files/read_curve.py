@@ -1,0 +1,94 @@
+"""Read a loading curve back from the file that `write` made of it."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.status import Status
+from roughcontact.files.dispatch import content
+from roughcontact.files.errors import ReadError
+from roughcontact.files.netcdf import Variable, opened
+from roughcontact.halfspace.geometry import Geometry
+
+__all__ = ["read_curve"]
+
+_POINTS = (
+    *("force", "depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy"),
+    *("residual", "stiffness_residual"),
+)
+_SCALES = ("modulus", "rms", "cell_stiffness", "saturation", "nominal_area")
+_SIZES = ("lengths", "spacing", "periodic")
+_REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
+
+
+def read_curve(path: str | os.PathLike[str]) -> Curve:
+    """Return the loading curve in a ``.nc`` file that `write` made of it, to the last bit.
+
+    Columns that others have added to the file, such as theories and conductances, are passed over.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, empty, damaged or holds no loading curve.
+    """
+    file, data = content(path)
+    if Path(path).suffix.casefold() != ".nc":
+        raise ReadError(file, "loading curves are read from NetCDF files (.nc) only", _REMEDY)
+    with opened(data, file) as (variables, attributes):
+        missing = [name for name in (*_POINTS, *_SCALES, *_SIZES, "spots", "status") if name not in variables]
+        if missing or variables["force"].dimensions != ("load",):
+            raise ReadError(file, f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
+        kind = _word(attributes.get("geometry", ""))
+        if kind not in {geometry.value for geometry in Geometry}:
+            raise ReadError(file, f"its geometry is {kind!r}", _REMEDY)
+        geometry = Geometry(kind)
+        shape, axes = variables["force"].shape, (len(geometry.axes),)
+        values: dict[str, Any] = {name: _numbers(variables, name, shape, file) for name in _POINTS}
+        values |= {name: float(_numbers(variables, name, (), file)) for name in _SCALES}
+        sizes = {name: _numbers(variables, name, axes, file).tolist() for name in _SIZES}
+        hardness = float(_numbers(variables, "hardness", (), file)) if "hardness" in variables else math.inf
+        return Curve(
+            **values,
+            spots=_numbers(variables, "spots", shape, file).astype(np.intp),
+            status=_statuses(variables["status"], shape, file),
+            lengths=tuple(sizes["lengths"]),
+            spacing=tuple(sizes["spacing"]),
+            periodic=tuple(bool(value) for value in sizes["periodic"]),
+            geometry=geometry,
+            hardness=hardness,
+        )
+
+
+def _numbers(
+    variables: Mapping[str, Variable], name: str, shape: tuple[int, ...], file: str
+) -> npt.NDArray[np.float64]:
+    variable = variables[name]
+    if variable.shape != shape or variable.dtype.kind not in "biuf":
+        raise ReadError(
+            file,
+            f"its {name} of shape {variable.shape} and type {variable.dtype} is not that of a curve",
+            _REMEDY,
+        )
+    # As they were written: a NaN of ours is no mark of a missing value.
+    return np.asarray(variable.load(), dtype=np.float64)
+
+
+def _statuses(variable: Variable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
+    words = [_word(value) for value in variable.load().reshape(-1).tolist()]
+    known = {status.value: status for status in Status}
+    unknown = [word for word in words if word not in known]
+    if unknown or len(words) != shape[0]:
+        raise ReadError(file, f"its status is {unknown or len(words)}, which is not that of a curve", _REMEDY)
+    return tuple(known[word] for word in words)
+
+
+def _word(value: Any) -> str:
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)

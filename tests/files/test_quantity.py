@@ -1,0 +1,28 @@
+import pytest
+
+from roughcontact.files.quantity import FORCE, LENGTH, parse, parse_number
+
+
+def test_a_quantity_becomes_its_number_in_si():
+    assert parse("5 um", LENGTH) == pytest.approx(5e-6, rel=1e-15)
+    assert parse("5e-6", LENGTH) == 5e-6
+    assert parse_number(" 0.3 ", "0.5") == 0.3
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("5 kg", "'5 kg' is not a force; expected a force such as 10N"),
+        ("5 newtn", "unknown unit 'newtn' in '5 newtn'; expected a force such as 10N"),
+        ("N", "'N' does not start with a number; expected a force such as 10N"),
+    ],
+)
+def test_what_is_none_is_refused_with_a_value_error(text, message):
+    with pytest.raises(ValueError) as caught:
+        parse(text, FORCE)
+    assert str(caught.value) == message
+
+
+def test_what_is_no_number_is_refused():
+    with pytest.raises(ValueError, match=r"^'0.3 m' is not a number; expected a number such as 0.5$"):
+        parse_number("0.3 m", "0.5")
