@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.ensemble_fit import fit_ensemble
 from roughcontact.contact.power_law import fit_power_law
-from roughcontact.mdr.ensemble_fit import fit_ensemble
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves

@@ -5,26 +5,21 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact.material import number
 from roughcontact.mdr.lattice_sums import lambda_rms
 
-__all__ = ["calibrated_lambda"]
+__all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
-# zeta of lines at Hurst exponents H, to 1 %: fits of `LineCurves` to the arithmetic means of 1000 lines of 2^13 points
-# at 25 forces from 1e-5 to 0.07 in equal ratios (benchmarks/mdr.py).
-_HURST = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0)
-_LINE_PREFACTOR = (1.396, 1.198, 1.056, 0.962, 0.879, 0.808, 0.755, 0.713, 0.686, 0.659, 0.637, 0.612, 0.608)
+Array = npt.NDArray[np.float64]
+ROUNDING = 1e-9  # a point on the edge of the window belongs to it, whatever its last digit
 
 
 def calibrated_lambda(
-    hurst: float,
-    *,
-    modes: int | None = None,
-    line_prefactor: float | None = None,
-    surface_prefactor: float | None = None,
+    hurst: float, *, line_prefactor: float, surface_prefactor: float, modes: int | None = None
 ) -> float:
-    """Return lambda of C1D = lambda q C2D for which line and surface are equally stiff at low loads (thesis, eq. 4.75).
+    """Return lambda of C1D = lambda q C2D for which line and surface follow one power law (thesis, eq. 4.75).
 
     ``lambda = lambda_rms (zeta_line / zeta_surface)^(2/alpha)``, alpha = 1/(H + 1), from H = 2 on 1/3, with the
     prefactors zeta of ``k/(E* L) = zeta (F/(E* h L))^alpha``, each with the rms height h of its own line or
@@ -34,13 +29,10 @@ def calibrated_lambda(
     ----------
     hurst : float
         Hurst exponent H, at least 0: below, stiffness is no power law of force.
+    line_prefactor, surface_prefactor : float
+        zeta of lines and of surfaces, with this alpha on both sides.
     modes : int, optional
         See `lambda_rms`.
-    line_prefactor : float, optional
-        zeta of lines. By default, for H up to 3, what this package finds for lines of 2^13 points between a
-        stiffness of 20 springs and a dimensionless force of 0.07, to 1 %.
-    surface_prefactor : float, optional
-        zeta of surfaces. By default, for H up to 2, the thesis' 1.7/(H + 1) (eq. 4.74).
 
     Raises
     ------
@@ -49,28 +41,108 @@ def calibrated_lambda(
 
     Notes
     -----
-    Prefactors enter with the power 2/alpha: 5 % in one of them are 20 % in lambda at H = 1. Both depend
-    on the window of the fit: where it matters, give both from fits in one window. For a single wave (H to
-    infinity) they are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and lambda is 4: the line's crest
-    has half the radius of the surface's, as in the contact of a sphere.
+    Prefactors enter with the power 2/alpha: 5 % in one of them are 20 % in lambda at H = 1. A fit that is free to
+    choose alpha, or that looks at another window, has another prefactor: take `matched_lambda` of measured curves.
+    For a single wave (H to infinity) the prefactors are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and
+    lambda is 4: the line's crest has half the radius of the surface's, as in the contact of a sphere.
     """
     number("Hurst exponent", hurst)
     if not (math.isfinite(hurst) and hurst >= 0):
         raise ValueError(
             f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
-    if line_prefactor is None:
-        if hurst > _HURST[-1]:
-            raise ValueError(
-                f"give line_prefactor: there is none for H above {_HURST[-1]:g}, such as {hurst}"
-            )
-        line_prefactor = float(np.interp(hurst, _HURST, _LINE_PREFACTOR))
-    if surface_prefactor is None:
-        if hurst > 2:
-            raise ValueError(f"give surface_prefactor: eq. 4.74 holds for H up to 2, not {hurst}")
-        surface_prefactor = 1.7 / (hurst + 1)
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
+        number(name, value)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")
     steepness = 2 * min(hurst + 1, 3)
     return lambda_rms(hurst, modes) * math.pow(line_prefactor / surface_prefactor, steepness)
+
+
+def matched_lambda(
+    hurst: float,
+    line: tuple[Array, Array],
+    surface: tuple[Array, Array],
+    *,
+    window: tuple[float, float],
+    modes: int | None = None,
+) -> float:
+    """Return lambda of C1D = lambda q C2D for which line and surface are equally stiff in a window (thesis, fig. 29).
+
+    ``lambda = lambda_rms ratio^2`` with the `force_ratio` of both: a line that is higher by this ratio takes its
+    forces times the ratio. Neither curve has to be a power law.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, at least -1.
+    line, surface, window
+        See `force_ratio`.
+    modes : int, optional
+        See `lambda_rms`: of the grid on which line and surface have this spectrum.
+
+    Raises
+    ------
+    ValueError
+        As `force_ratio` and `lambda_rms` do.
+    """
+    return lambda_rms(hurst, modes) * force_ratio(line, surface, window) ** 2
+
+
+def force_ratio(
+    line: tuple[Array, Array], surface: tuple[Array, Array], window: tuple[float, float]
+) -> float:
+    """Return what force a surface takes over that of a line of the same rms height at one stiffness.
+
+    Parameters
+    ----------
+    line, surface : tuple of array
+        Forces F/(E* h L) and stiffnesses k/(E* L) of an ensemble, each with its own h, at rising forces. Between
+        two points the curve is a power law; points that are no stiffer than one before them are left out.
+    window : tuple of float
+        Lowest and highest stiffness k/(E* L): one window for both, inside which both are resolved.
+
+    Returns
+    -------
+    float
+        The geometric mean of the ratio over the window, every ratio of stiffnesses counting alike.
+
+    Raises
+    ------
+    ValueError
+        If forces do not rise, or a curve does not reach all over the window.
+    """
+    low, high = window
+    if not (0 < low < high < math.inf):
+        raise ValueError(f"window must be a lower and a higher stiffness k/(E* L), not {low} and {high}")
+    below, above = _inside(line, window, "line"), _inside(surface, window, "surface")
+    # Both are straight between all their points together, so that the trapezoidal rule is exact.
+    x = np.unique(np.concatenate([np.log(window), below[0], above[0]]))
+    x = x[(x >= math.log(low)) & (x <= math.log(high))]
+    difference = np.interp(x, *above) - np.interp(x, *below)
+    return math.exp(float(np.trapezoid(difference, x)) / (x[-1] - x[0]))
+
+
+def _inside(curve: tuple[Array, Array], window: tuple[float, float], name: str) -> tuple[Array, Array]:
+    """Return ln k and ln F of the points of a curve in a window and of those next to it."""
+    force, stiffness = (np.asarray(values, dtype=np.float64) for values in curve)
+    if force.ndim != 1 or force.shape != stiffness.shape:
+        raise ValueError(
+            f"the {name} must have a stiffness for each force, in a row, not {stiffness.shape} for {force.shape}"
+        )
+    under = np.flatnonzero(stiffness <= window[0] * (1 + ROUNDING))
+    first = under[-1] if under.size else -1
+    over = np.flatnonzero(stiffness >= window[1] * (1 - ROUNDING))
+    over = over[over > first]
+    if first < 0 or not over.size:
+        raise ValueError(
+            f"the {name} goes from k/(E* L) = {stiffness.min():.3g} to {stiffness.max():.3g}, and not all over the "
+            f"window from {window[0]:.3g} to {window[1]:.3g}: more forces, or a narrower window"
+        )
+    part = slice(first, over[0] + 1)
+    force, stiffness = force[part], stiffness[part]
+    if not ((force > 0).all() and (np.diff(force) > 0).all()):
+        raise ValueError(f"the forces of the {name} must be positive and rise")
+    # The first force that takes a stiffness: a mean over few samples may rest, or fall a little.
+    rises = np.concatenate([[True], stiffness[1:] > np.maximum.accumulate(stiffness)[:-1]])
+    return np.log(stiffness[rises]), np.log(force[rises])
