@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from roughcontact import __version__
-from roughcontact.cli import conductance, curve, prepare, press, spectrum, surface, thesis
+from roughcontact.cli import conductance, curve, prepare, press, spectrum, study, surface, thesis
 
 __all__ = ["app"]
 
@@ -24,6 +24,9 @@ app = typer.Typer(
     rich_markup_mode="rich",
 )
 _surface = typer.Typer(help="Look at a surface file, make one, prepare or analyse it.", no_args_is_help=True)
+_study = typer.Typer(
+    help="Run ensembles that can be stopped, continued and enlarged; export them.", no_args_is_help=True
+)
 
 app.command(epilog=press.EXAMPLES)(press.press)
 app.command(epilog=curve.EXAMPLES)(curve.curve)
@@ -33,6 +36,11 @@ _surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
 _surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
 _surface.command(epilog=prepare.EXAMPLES)(prepare.prepare)
 _surface.command(epilog=spectrum.EXAMPLES)(spectrum.spectrum)
+app.add_typer(_study, name="study")
+_study.command(epilog=study.RUN_EXAMPLES)(study.run)
+_study.command(epilog=study.STATUS_EXAMPLES)(study.status)
+_study.command(epilog=study.EXPORT_EXAMPLES)(study.export)
+_study.command(epilog=study.ADD_EXAMPLES)(study.add)
 app.command(epilog=thesis.EXAMPLES)(thesis.thesis)
 
 

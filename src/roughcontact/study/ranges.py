@@ -1,0 +1,96 @@
+"""Values of a parameter that are spaced evenly, or in equal ratios."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+__all__ = ["Range"]
+
+# Of the largest value: -0.5 + 4 * 0.15 is meant to be 0.1, and to stay the same number when the range grows.
+_DIGITS = 12
+_MOST = 1_000_000
+_HIT = 1e-9  # of a step: one that hits the end but for rounding hits it
+
+
+class Range(BaseModel):
+    """A range with both its ends, by the number of its values or by the step between them.
+
+    Parameters
+    ----------
+    start, stop : float or str
+        The ends; text with a unit where the parameter takes it. A range by steps ends at the last value that does
+        not pass `stop`.
+    count : int, optional
+        Number of values.
+    step : float or str, optional
+        Difference from one value to the next; downwards where `stop` lies below `start`.
+    spacing : "linear" or "log"
+        Even differences or even ratios.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    start: float | str
+    stop: float | str
+    count: int | None = Field(default=None, ge=2, le=_MOST)
+    step: float | str | None = None
+    spacing: Literal["linear", "log"] = "linear"
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Range:
+        if (self.count is None) == (self.step is None):
+            raise ValueError("a range has either a count or a step: give one of them")
+        if self.step is not None and self.spacing == "log":
+            raise ValueError("a range in equal ratios has a count, not a step")
+        return self
+
+    def values(self, read: Callable[[Any], Any]) -> tuple[float, ...]:
+        """Return the values, from what `read` makes of the ends and the step.
+
+        Raises
+        ------
+        ValueError
+            If there are none, or if values in equal ratios are not of one sign.
+        """
+        start, stop = _number(read(self.start)), _number(read(self.stop))
+        if self.count is None:
+            step = read(self.step) if isinstance(self.step, str) else self.step
+            return _by_steps(start, stop, _number(step))
+        if start == stop:
+            raise ValueError(f"it starts and stops at {start:g}: give the one value under parameters")
+        if self.spacing == "log" and not start * stop > 0:
+            raise ValueError(
+                f"equal ratios do not lead from {start:g} to {stop:g}: both ends must be above 0, or both below"
+            )
+        spaced = np.linspace if self.spacing == "linear" else np.geomspace
+        between = spaced(start, stop, self.count)[1:-1]
+        return (start, *_rounded(between, each=self.spacing == "log"), stop)
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"{value!r} is not a number, and only numbers have ranges: write a list")
+    return float(value)
+
+
+def _by_steps(start: float, stop: float, step: float) -> tuple[float, ...]:
+    if step == 0 or (stop - start) / step < 0:
+        raise ValueError(f"steps of {step:g} do not lead from {start:g} to {stop:g}")
+    steps = (stop - start) / step
+    if steps >= _MOST:
+        raise ValueError(f"{steps:.3g} steps of {step:g} are too many")
+    count = math.floor(steps + _HIT) + 1
+    return _rounded(start + step * np.arange(count))
+
+
+def _rounded(values: np.typing.NDArray[np.floating[Any]], *, each: bool = False) -> tuple[float, ...]:
+    """Return values to twelve digits, of `each` or of the largest of them."""
+    if each or not values.any():
+        return tuple(float(f"{value:.{_DIGITS}g}") for value in values)
+    decimals = _DIGITS - 1 - math.floor(math.log10(float(np.abs(values).max())))
+    return tuple(round(float(value), decimals) + 0.0 for value in values)  # 0.0 makes -0.0 positive

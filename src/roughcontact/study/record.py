@@ -1,0 +1,99 @@
+"""Records as text: a dataset in JSON and back, to the last bit."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    import xarray
+
+__all__ = ["decode", "encode", "require_record", "residual_of"]
+
+_KINDS, _HELD = "biufU", "truth values, whole and real numbers of up to 64 bits, and words"
+_ATTRIBUTES = (str, int, float, bool, np.bool_, np.integer)
+
+
+def require_record(record: Any, fields: Iterable[str] = ()) -> None:
+    """Refuse what cannot be stored as the record of a case.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If it is no dataset, lacks one of its `fields`, or holds other values than numbers and words.
+    """
+    import xarray
+
+    if not isinstance(record, xarray.Dataset):
+        raise TypeError(f"a case returns an xarray.Dataset, not {type(record).__name__}")
+    for name in fields:
+        if name not in record.data_vars:
+            raise ValueError(f"the record lacks {name!r}, which the case declares as a field")
+    for place, variable in record.variables.items():
+        if variable.dtype.kind not in _KINDS or (variable.dtype.kind == "f" and variable.dtype.itemsize > 8):
+            raise TypeError(f"{place!r} has the type {variable.dtype}, and a record holds {_HELD}")
+        _require_attributes(repr(place), variable.attrs)
+    _require_attributes("the record", record.attrs)
+
+
+def _require_attributes(name: str, attributes: Mapping[Any, Any]) -> None:
+    for key, value in attributes.items():
+        if not isinstance(value, _ATTRIBUTES):
+            raise TypeError(f"the attribute {key!r} of {name} is {value!r}: give a number or words")
+
+
+def encode(record: xarray.Dataset) -> str:
+    """Return a record as JSON: floats by the shortest digits that give them back, NaN and Infinity by name."""
+    whole = {
+        "coords": {str(name): _encoded(values.variable) for name, values in record.coords.items()},
+        "data": {str(name): _encoded(values.variable) for name, values in record.data_vars.items()},
+        "attrs": record.attrs,
+    }
+    return json.dumps(whole, separators=(",", ":"), default=_plain)
+
+
+def decode(text: str) -> xarray.Dataset:
+    """Return the record of a text by `encode`."""
+    import xarray
+
+    whole = json.loads(text)
+    return xarray.Dataset(
+        {name: _decoded(each) for name, each in whole["data"].items()},
+        {name: _decoded(each) for name, each in whole["coords"].items()},
+        whole["attrs"],
+    )
+
+
+def residual_of(record: xarray.Dataset) -> float | None:
+    """Return the certificate of a record, the largest value of its variable ``residual``; None where it has none."""
+    if "residual" not in record.variables or record["residual"].size == 0:
+        return None
+    largest = float(record["residual"].max())
+    return None if math.isnan(largest) else largest
+
+
+def _encoded(variable: xarray.Variable) -> dict[str, Any]:
+    return {
+        "dims": list(variable.dims),
+        "dtype": variable.dtype.str,
+        "values": variable.values.tolist(),
+        "shape": list(variable.shape),
+        "attrs": variable.attrs,
+    }
+
+
+def _decoded(each: Mapping[str, Any]) -> tuple[Any, ...]:
+    values = np.array(each["values"], dtype=each["dtype"]).reshape(each["shape"])
+    return each["dims"], values, each["attrs"]
+
+
+def _plain(value: Any) -> Any:
+    """Return a number of NumPy, as attributes may be, as one of Python."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{value!r} cannot be stored")

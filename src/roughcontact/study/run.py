@@ -1,0 +1,78 @@
+"""Compute what is left of a study, and store every case as it comes."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, cast
+
+from roughcontact.study.executors.serial import Serial
+from roughcontact.study.perform import perform
+from roughcontact.study.store import Store
+
+if TYPE_CHECKING:
+    from roughcontact.study.study import Study
+    from roughcontact.study.summary import Summary
+    from roughcontact.study.task import Executor, Outcome
+
+__all__ = ["run"]
+
+
+def run(
+    study: Study,
+    folder: str | os.PathLike[str],
+    executor: Executor | None = None,
+    *,
+    retry: bool = False,
+    on_outcome: Callable[[Outcome], None] | None = None,
+    on_progress: Callable[[Summary], None] | None = None,
+) -> Summary:
+    """Compute the cases of a study that a folder does not hold yet.
+
+    Stopped at any moment, by Ctrl-C or a power cut, it goes on from there when it is called again.
+
+    Parameters
+    ----------
+    study : Study
+    folder : str or path
+        Made where it is not there.
+    executor : Executor, optional
+        Where cases are computed; by default one after the other in this process.
+    retry : bool, optional
+        Whether cases that failed before are tried again.
+    on_outcome : function, optional
+        Called with every outcome, after it was stored.
+    on_progress : function, optional
+        Called with the `Summary` at the beginning and after every outcome.
+
+    Returns
+    -------
+    Summary
+        Of the whole study, and the seconds that this run took.
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be used, see `Store.open`, or takes no more; what was stored before is safe.
+    """
+    start = time.monotonic()
+    with Store.open(folder, study) as store:
+        known = store.done_keys() if retry else store.done_keys() | store.failed_keys()
+        summary = store.summary().with_failed_left() if retry else store.summary()
+        tasks = {task.key: task for task in study.tasks() if task.key not in known}
+        if on_progress is not None:
+            on_progress(summary)
+        outcomes = (executor or Serial()).outcomes(perform, list(tasks.values()))
+        # Closing it stops the workers.
+        with closing(cast("Any", outcomes)):
+            for outcome in outcomes:
+                store.add(tasks[outcome.key], outcome)
+                summary = summary.after(failed=outcome.record is None, seconds=time.monotonic() - start)
+                if on_outcome is not None:
+                    on_outcome(outcome)
+                if on_progress is not None:
+                    on_progress(summary)
+    return replace(summary, seconds=time.monotonic() - start)

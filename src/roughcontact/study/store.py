@@ -1,0 +1,251 @@
+"""Where the cases of a study are kept: one folder, one database, one process that writes."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from roughcontact import __version__
+from roughcontact.files.aside import WriteError
+from roughcontact.study.errors import StoreError, StudyError, computed_again, disk_trouble
+from roughcontact.study.fields import parted, read_fields, tidied, write_fields
+from roughcontact.study.growth import require_growth
+from roughcontact.study.lock import locked
+from roughcontact.study.record import encode, residual_of
+from roughcontact.study.row import COLUMNS, Row, checksum
+from roughcontact.study.schema import DATABASE, connected, guarded, made, patiently
+from roughcontact.study.study import Study
+from roughcontact.study.summary import Summary
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.study.task import Outcome, Task
+
+__all__ = ["STUDY", "Row", "Store", "Summary"]
+
+STUDY = "study.toml"
+_INSERT = f"""
+INSERT INTO cases ({", ".join(COLUMNS)}) VALUES ({", ".join("?" * len(COLUMNS))})
+ON CONFLICT (key) DO UPDATE SET {", ".join(f"{name} = excluded.{name}" for name in COLUMNS)}
+WHERE status = 'failed'
+"""
+_AT_ONCE = 200  # rows that are read in one go, so that a slow reader never keeps the writer waiting
+
+
+class Store:
+    """Where the cases of a study are kept. It is opened by `Store.open`, in a ``with`` statement.
+
+    Attributes
+    ----------
+    folder : Path
+    study : Study
+        What the folder holds cases of.
+    """
+
+    __slots__ = ("_connection", "_held", "folder", "study")
+
+    def __init__(self, folder: Path, study: Study, connection: sqlite3.Connection, held: ExitStack) -> None:
+        self.folder = folder
+        self.study = study
+        self._connection = connection
+        self._held = held
+
+    @classmethod
+    def open(cls, folder: str | os.PathLike[str], study: Study | None = None) -> Store:
+        """Open the store in a folder: to read it, or with a `study` to add cases of it.
+
+        One process at a time adds cases; any number may read, meanwhile too.
+
+        Parameters
+        ----------
+        folder : str or path
+            With a `study`, made where it is not there.
+        study : Study, optional
+            The study that the folder is for, or that it holds already: then perhaps with more samples, and with more
+            combinations.
+
+        Raises
+        ------
+        StoreError
+            If the folder holds no store, or that of another study; if another process adds cases to it; if it cannot
+            be written; if its database is damaged or of a newer version. Nothing in it is changed then.
+        """
+        place = Path(folder)
+        with ExitStack() as held:
+            if study is None:
+                found = _kept(place)
+                connection = connected(place, write=False)
+                held.callback(connection.close)
+                return cls(place, found, connection, held.pop_all())
+            try:
+                place.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise disk_trouble(place, "there is no such folder, and it cannot be made", error) from error
+            held.callback(locked(place).release)
+            before = _kept(place) if (place / STUDY).exists() else None
+            if before is not None:
+                require_growth(place, before, study)
+            made(place)
+            connection = connected(place, write=True)
+            held.callback(connection.close)
+            tidied(place)
+            if before != study:
+                _keep(place, study)
+            return cls(place, study, connection, held.pop_all())
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the folder."""
+        self._held.close()
+
+    def add(self, task: Task, outcome: Outcome) -> None:
+        """Store what came of a task, in one transaction.
+
+        A case that failed before is replaced; one that is done stays as it is.
+
+        Raises
+        ------
+        StoreError
+            If it cannot be written; what was stored before stays.
+        """
+        record, residual = outcome.record, None
+        if record is not None:
+            residual = residual_of(record)
+            if task.case.fields:
+                record, fields = parted(record, task.case.fields)
+                # First, so that there is never a row without them.
+                write_fields(self.folder, task.key, fields)
+        values = (
+            task.key,
+            task.sample,
+            json.dumps(task.parameters.model_dump(mode="json")),
+            "failed" if record is None else "done",
+            outcome.message.encode("utf-8", "replace").decode("utf-8"),  # bytes that are no letters become ?
+            float(outcome.seconds),
+            __version__,
+            residual,
+            None if record is None else encode(record),
+        )
+        with guarded(self.folder):
+            self._commit((*values, checksum(values)))
+
+    def done_keys(self) -> frozenset[str]:
+        """Return the keys of all cases that are done, of earlier versions of the case too."""
+        return self._keys("done")
+
+    def failed_keys(self) -> frozenset[str]:
+        """Return the keys of all cases that failed."""
+        return self._keys("failed")
+
+    def rows(self) -> Iterator[Row]:
+        """Yield the cases of the study that are done or failed, in the order of its tasks.
+
+        Raises
+        ------
+        StoreError
+            If one is damaged.
+        """
+        return self._rows([task.key for task in self.study.tasks()])
+
+    def failed(self) -> tuple[Row, ...]:
+        """Return the cases of the study that failed, in the order of its tasks.
+
+        Raises
+        ------
+        StoreError
+            If one is damaged.
+        """
+        failed = self.failed_keys()
+        return tuple(self._rows([task.key for task in self.study.tasks() if task.key in failed]))
+
+    def fields(self, key: str) -> xarray.Dataset:
+        """Return the fields of a case.
+
+        Raises
+        ------
+        StoreError
+            If there are none.
+        """
+        return read_fields(self.folder, key)
+
+    def summary(self) -> Summary:
+        """Return how far the study is."""
+        keys = {task.key for task in self.study.tasks()}
+        done, failed = len(keys & self.done_keys()), len(keys & self.failed_keys())
+        return Summary(done, failed, len(keys) - done - failed)
+
+    def outdated(self) -> int:
+        """Return how many cases are kept that an earlier version of the case has computed."""
+        keys = {task.key for task in self.study.tasks()}
+        return len((self.done_keys() | self.failed_keys()) - keys)
+
+    def _keys(self, status: str) -> frozenset[str]:
+        with guarded(self.folder):
+            found = self._connection.execute("SELECT key FROM cases WHERE status = ?", (status,)).fetchall()
+        return frozenset(key for (key,) in found)
+
+    def _rows(self, keys: list[str]) -> Iterator[Row]:
+        for start in range(0, len(keys), _AT_ONCE):
+            chosen = keys[start : start + _AT_ONCE]
+            query = f"SELECT {', '.join(COLUMNS)} FROM cases WHERE key IN ({', '.join('?' * len(chosen))})"
+            with guarded(self.folder):
+                found = {values[0]: values for values in self._connection.execute(query, chosen).fetchall()}
+            for key in chosen:
+                if key in found:
+                    yield self._row(found[key])
+
+    def _row(self, values: tuple[Any, ...]) -> Row:
+        row = Row.of(values)
+        if row is None:
+            raise StoreError(
+                self.folder,
+                f"the case {values[0]} in {DATABASE} is damaged",
+                f"put a backup in its place; {computed_again(values[0])}",
+            )
+        return row
+
+    def _commit(self, values: tuple[Any, ...]) -> None:
+        connection = self._connection
+        patiently(connection, "BEGIN IMMEDIATE")
+        try:
+            connection.execute(_INSERT, values)
+            patiently(connection, "COMMIT")
+        except BaseException:
+            with suppress(sqlite3.Error):  # some errors have ended the transaction themselves
+                connection.execute("ROLLBACK")
+            raise
+
+
+def _kept(folder: Path) -> Study:
+    """Return the study that a folder holds cases of."""
+    if not (folder / STUDY).is_file():
+        raise StoreError(folder, f"there is no {STUDY} in it", "name the folder that a study was run in")
+    try:
+        return Study.read(folder / STUDY)
+    except StudyError as error:
+        raise StoreError(
+            folder,
+            f"its {STUDY} cannot be used ({error})",
+            "where it is damaged, remove it and run with the study's own file: the cases stay",
+        ) from error
+
+
+def _keep(folder: Path, study: Study) -> None:
+    try:
+        study.write(folder / STUDY)
+    except WriteError as error:
+        raise disk_trouble(folder, f"{STUDY} cannot be written", error.__cause__ or error) from error

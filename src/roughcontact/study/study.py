@@ -1,0 +1,207 @@
+"""A study: a case, the parameters that it is computed for, and how many samples of each."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import tomllib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    TypeAdapter,
+    ValidationError,
+    model_validator,
+)
+
+from roughcontact.files.aside import written_aside
+from roughcontact.study.case import Parameters
+from roughcontact.study.cases import find_case
+from roughcontact.study.errors import StudyError
+from roughcontact.study.explain import explained, meant
+from roughcontact.study.given import case_name, entry, plain, study_name
+from roughcontact.study.key import canonical, key_of
+from roughcontact.study.ranges import Range
+from roughcontact.study.task import Task
+from roughcontact.study.toml import toml_of
+
+__all__ = ["Study"]
+
+
+class Study(BaseModel):
+    """A case, the parameters that it is computed for, and how many samples of each.
+
+    Parameters
+    ----------
+    name : str
+        What the study is called: letters, digits, ``-``, ``_`` and ``.``; folders are named by it.
+    case : str
+        A case that comes with the package, or ``"module:attribute"`` for a `Case` of the user's.
+    seed : int
+        Of the random numbers. Sample 7 draws the same ones whatever the parameters are.
+    samples : int
+        Samples of every combination of parameters.
+    parameters : dict
+        Parameters that are the same for all cases.
+    table : dict
+        Parameters with lists of values, or a `Range`; every combination of them is computed.
+    rows : sequence of dict
+        Combinations spelt out, instead of a table or crossed with it.
+
+    Raises
+    ------
+    StudyError
+        If it makes no sense; the case is asked whether it takes all of the parameters.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: Annotated[str, AfterValidator(study_name)]
+    case: Annotated[str, BeforeValidator(case_name)]
+    seed: Annotated[int, BeforeValidator(plain), Field(ge=0, strict=True)] = 0
+    samples: Annotated[int, BeforeValidator(plain), Field(ge=1, strict=True)] = 1
+    parameters: Annotated[dict[str, Any], BeforeValidator(plain)] = {}
+    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(entry)]] = {}
+    rows: Annotated[tuple[dict[str, Any], ...], BeforeValidator(plain)] = ()
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise StudyError(explained(error, type(self).model_fields)) from None
+
+    @model_validator(mode="after")
+    def _sound(self) -> Study:
+        self.combinations()
+        self.to_toml()
+        return self
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Study:
+        """Return the study of a TOML file.
+
+        Raises
+        ------
+        StudyError
+            If the file cannot be read or makes no sense.
+        """
+        try:
+            return cls(**tomllib.loads(Path(path).read_text(encoding="utf-8")))
+        except OSError as error:
+            raise StudyError(
+                f"{path}: {error.strerror}; name the file of a study, such as study.toml"
+            ) from error
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise StudyError(f"{path}: it is no TOML file: {error}") from error
+        except StudyError as error:
+            raise StudyError(f"{path}: {error}") from None
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the study as a TOML file, which appears whole or not at all.
+
+        Raises
+        ------
+        WriteError
+            If it cannot be written.
+        """
+        text = self.to_toml()
+        with written_aside(path) as aside:
+            aside.write_text(text, encoding="utf-8")
+
+    def to_toml(self) -> str:
+        """Return the study as text in TOML."""
+        head = {"name": self.name, "case": self.case, "seed": self.seed, "samples": self.samples}
+        table = {
+            name: each.model_dump(exclude_defaults=True) if isinstance(each, Range) else each
+            for name, each in self.table.items()
+        }
+        return toml_of(head, {"parameters": self.parameters, "table": table}, {"rows": self.rows})
+
+    def with_samples(self, count: int) -> Study:
+        """Return the same study with so many samples."""
+        return Study(**(dict(self) | {"samples": count}))
+
+    def combinations(self) -> tuple[Parameters, ...]:
+        """Return the parameters of all cases of one sample, row by row, the last name of the table varying fastest.
+
+        Raises
+        ------
+        StudyError
+            If the case does not take them, or if two of them are the same.
+        """
+        model = find_case(self.case).parameters
+        self._require_names(model)
+        values = [self._values(model, name) for name in self.table]
+        found: dict[str, Parameters] = {}
+        for row in self.rows or ({},):
+            for chosen in itertools.product(*values):
+                given = self.parameters | row | dict(zip(self.table, chosen, strict=True))
+                try:
+                    parameters = model(**given)
+                except ValidationError as error:
+                    raise StudyError(
+                        f"the case {self.case!r} does not take these parameters: {explained(error)}"
+                    ) from None
+                text = canonical(parameters)
+                if text in found:
+                    raise StudyError(
+                        f"a case comes twice: {text}; take one of them out of the table or the rows"
+                    )
+                found[text] = parameters
+        return tuple(found.values())
+
+    def tasks(self) -> Iterator[Task]:
+        """Yield every case of the study: the first sample of all combinations, then the second of all, and so on."""
+        case = find_case(self.case)
+        combinations = [(each, canonical(each)) for each in self.combinations()]
+        for sample in range(self.samples):
+            for parameters, text in combinations:
+                key = key_of(case, text, seed=self.seed, sample=sample)
+                yield Task(key, case, parameters, self.seed, sample)
+
+    def _require_names(self, model: type[Parameters]) -> None:
+        """Refuse names that the case does not take, and such as are given in two places."""
+        in_rows = {name for row in self.rows for name in row}
+        places = {"parameters": self.parameters.keys(), "table": self.table.keys(), "rows": in_rows}
+        for place, names in places.items():
+            for name in sorted(names - model.model_fields.keys()):
+                raise StudyError(
+                    f"{place}: the case {self.case!r} has no parameter {name!r}: {meant(name, model.model_fields)}"
+                )
+        for one, other in itertools.combinations(places, 2):
+            for name in sorted(places[one] & places[other]):
+                raise StudyError(
+                    f"{name!r} is given both in {one} and in {other}: take it out of one of them"
+                )
+
+    def _values(self, model: type[Parameters], name: str) -> tuple[Any, ...]:
+        """Return the values that the table has for a parameter."""
+        values = self.table[name]
+        if not isinstance(values, Range):
+            return values
+        field = model.model_fields[name]
+        # The type of the parameter turns text with units into numbers.
+        reader: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])  # type: ignore[arg-type]
+        try:
+            return values.values(_reading(reader.validate_python))
+        except ValueError as error:
+            raise StudyError(f"table: {name}: {error}") from None
+
+
+def _reading(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Return `read` with errors in plain words."""
+
+    def reading(value: Any) -> Any:
+        try:
+            return read(value)
+        except ValidationError as error:
+            raise ValueError(explained(error)) from None
+
+    return reading
