@@ -1,0 +1,138 @@
+"""Dask.distributed: the engine beyond one machine."""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing.resource_tracker
+import signal
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.study.executors.farm import Site, connected, farmed
+from roughcontact.study.executors.processes import usable_cores
+from roughcontact.study.executors.worker import WorkersError
+
+if TYPE_CHECKING:
+    from roughcontact.study.task import Outcome, Perform, Task
+
+__all__ = ["Dask"]
+
+PATIENCE = 60.0  # [s] without any local worker
+FORGIVEN = 1  # deaths of its worker that the local scheduler forgives a task before it is put aside
+
+
+class Dask:
+    """Executor that has cases computed by the workers of a Dask scheduler.
+
+    Parameters
+    ----------
+    address : str, optional
+        Of a scheduler that runs already, such as ``"tcp://node1:8786"``; its workers should have one thread each
+        (``dask worker --nthreads 1``).
+    workers : int, optional
+        Number of processes on this machine, where neither address nor cluster is given; by default as many as there
+        are cores that this process may use.
+    cluster : object, optional
+        A cluster of Dask's, such as a `dask_jobqueue.SLURMCluster`; closing it is left to whoever made it.
+
+    Raises
+    ------
+    WorkersError
+        If Dask is not installed.
+
+    Notes
+    -----
+    A task whose worker dies is tried again. One that the scheduler gives up after several deaths is computed once more
+    at the end, with nothing else beside it, and has failed if its workers die again. When the iterator is closed, the
+    workers of a foreign scheduler finish what they are computing, and it is forgotten.
+    """
+
+    def __init__(
+        self, address: str | None = None, *, workers: int | None = None, cluster: Any = None
+    ) -> None:
+        if sum(given is not None for given in (address, workers, cluster)) > 1:
+            raise ValueError("give one of address, workers and cluster: a scheduler has workers of its own")
+        if workers is not None and workers < 1:
+            raise ValueError(f"workers is {workers}; at least one is needed")
+        try:
+            import distributed  # noqa: F401
+        except ImportError as error:
+            raise WorkersError(
+                f"Dask cannot be imported ({error}); run: {sys.executable} -m pip install 'roughcontact[cluster]'"
+            ) from error
+        self._target = cluster if address is None else address
+        self._workers = usable_cores() if workers is None else workers
+
+    def __repr__(self) -> str:
+        return f"Dask(workers={self._workers})" if self._target is None else f"Dask({self._target!r})"
+
+    @property
+    def workers(self) -> int:
+        """How many tasks are computed at once; by a scheduler that runs already, at this moment."""
+        if self._target is None:
+            return self._workers
+        with connected(self._target) as client:
+            return sum(client.nthreads().values())
+
+    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
+        """Yield one outcome for each task, in the order in which they are done.
+
+        Raises
+        ------
+        WorkersError
+            If the scheduler cannot be reached or is gone, or its workers cannot load the case.
+        """
+        return farmed(self._opened, perform, tasks)
+
+    def _opened(self) -> AbstractContextManager[Site]:
+        return _local(self._workers) if self._target is None else nullcontext(Site(self._target))
+
+
+@contextmanager
+def _local(workers: int) -> Iterator[Site]:
+    """Start a scheduler and workers of one thread each, which nobody outside this machine can reach."""
+    import dask.config
+    from distributed import LocalCluster
+
+    settings = {
+        # One task a worker, none in advance: the one that a worker died of is known.
+        "distributed.scheduler.worker-saturation": 1.0,
+        # A worker that is away twice within this time, having died twice, would not be started again.
+        "distributed.deploy.lost-worker-timeout": "1 h",
+    }
+    with dask.config.set(settings):
+        try:
+            with _interrupts_blocked():
+                cluster = LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    memory_limit=0,  # the arrays of a case are not Dask's to count
+                    silence_logs=logging.CRITICAL,
+                    dashboard_address=None,
+                    scheduler_kwargs={"allowed_failures": FORGIVEN, "dashboard_address": "127.0.0.1:0"},
+                )
+        except RuntimeError as error:
+            raise WorkersError(
+                f"the workers do not start ({error}); in a script, what starts them must stand under "
+                '`if __name__ == "__main__":`, since they run the rest of it first'
+            ) from error
+        with cluster:
+            yield Site(cluster, partial(cluster.scale, workers), PATIENCE)
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Keep Ctrl-C from threads and processes that are started meanwhile: it is the coordinator's to stop them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

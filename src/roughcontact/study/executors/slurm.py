@@ -1,0 +1,157 @@
+"""Workers that are jobs of a SLURM cluster, through Dask."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.study.executors.farm import Site, farmed
+from roughcontact.study.executors.worker import WorkersError
+
+if TYPE_CHECKING:
+    from dask_jobqueue import SLURMCluster
+
+    from roughcontact.study.task import Outcome, Perform, Task
+
+__all__ = ["Slurm"]
+
+AWAY = 60.0  # [s] without any of its workers, after which a job has ended
+
+
+class Slurm:
+    """Executor that submits jobs to SLURM, has cases computed in them, and cancels them in the end.
+
+    Parameters
+    ----------
+    workers : int
+        How many cases are computed at once. A job takes as many of them as it has cores.
+    **options
+        Of `dask_jobqueue.SLURMCluster`: ``cores`` and ``memory`` of a job, ``queue``, ``account``, ``walltime``,
+        ``interface``, ``job_extra_directives``, ``log_directory``, ``security`` ... What is not given is taken from
+        Dask's configuration, ``~/.config/dask/jobqueue.yaml``. Each worker has one thread.
+
+    Raises
+    ------
+    WorkersError
+        If dask-jobqueue is not installed, there is no SLURM, or cores and memory of a job are not known.
+
+    Notes
+    -----
+    A job that has ended, at its time limit for example, is submitted again. Otherwise as `Dask`.
+    """
+
+    def __init__(self, workers: int, **options: Any) -> None:
+        if workers < 1:
+            raise ValueError(f"workers is {workers}; at least one is needed")
+        try:
+            import dask_jobqueue  # noqa: F401
+        except ImportError as error:
+            raise WorkersError(
+                f"dask-jobqueue cannot be imported ({error}); run: "
+                f"{sys.executable} -m pip install 'roughcontact[cluster]'"
+            ) from error
+        if shutil.which("sbatch") is None:
+            raise WorkersError("there is no sbatch here: run the study where jobs can be submitted")
+        self._workers = workers
+        self._options = options
+        self._job = _complete(options)
+
+    def __repr__(self) -> str:
+        options = "".join(f", {name}={value!r}" for name, value in self._options.items())
+        return f"Slurm({self._workers}{options})"
+
+    @property
+    def workers(self) -> int:
+        """How many tasks are computed at once, when all jobs run."""
+        return self._workers
+
+    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
+        """Yield one outcome for each task, in the order in which they are done.
+
+        Raises
+        ------
+        WorkersError
+            If SLURM refuses the jobs, or their workers cannot load the case.
+        """
+        return farmed(self._opened, perform, tasks)
+
+    @contextmanager
+    def _opened(self) -> Iterator[Site]:
+        from dask_jobqueue import SLURMCluster
+
+        with SLURMCluster(**self._job) as cluster:
+            jobs = _Jobs(cluster, self._workers)
+            jobs.submit()
+            yield Site(cluster, jobs.keep)
+
+
+def _complete(options: dict[str, Any]) -> dict[str, Any]:
+    """Return options by which every worker has one thread, and no page that shows what it does."""
+    import dask.config
+
+    def configured(name: str, default: Any) -> Any:
+        found = options.get(name)
+        if found is None:
+            section = options.get("config_name", "slurm")
+            found = dask.config.get(f"jobqueue.{section}.{name.replace('_', '-')}", None)
+        return default if found is None else found
+
+    cores = configured("cores", None)
+    if cores is None or configured("memory", None) is None:
+        raise WorkersError(
+            "the cores and the memory of a job are not known: give them, as in Slurm(48, cores=24, memory='48 GB'), or "
+            "write them to ~/.config/dask/jobqueue.yaml"
+        )
+    hidden = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    return (
+        {"silence_logs": "critical"}
+        | options
+        | {
+            "processes": cores,
+            "scheduler_options": hidden | configured("scheduler_options", {}),
+            "worker_extra_args": ["--no-dashboard", *configured("worker_extra_args", [])],
+        }
+    )
+
+
+@dataclass(slots=True)
+class _Jobs:
+    """The jobs of a cluster, as many as it takes for so many workers."""
+
+    cluster: SLURMCluster
+    workers: int
+    seen: dict[str, float] = field(default_factory=dict)  # when a job last had a worker
+
+    def submit(self) -> None:
+        """Submit what jobs are missing."""
+        # The cluster submits on its own time, and tells nobody when SLURM says no.
+        trial = subprocess.run(
+            ["sbatch", "--test-only"],
+            input=self.cluster.job_script(),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        if trial.returncode:
+            raise WorkersError(f"SLURM refuses the jobs: {trial.stderr.strip()}")
+        self.cluster.scale(self.workers)
+
+    def keep(self) -> None:
+        """Submit again what has ended."""
+        now = time.monotonic()
+        here = {worker["name"] for worker in list(self.cluster.scheduler_info["workers"].values())}
+        for job, spec in self.cluster.worker_spec.items():
+            if not here.isdisjoint(f"{job}{member}" for member in spec.get("group", [""])):
+                self.seen[job] = now
+        ended = [job for job, time in self.seen.items() if now > time + AWAY]
+        if ended:
+            for job in ended:
+                del self.seen[job]
+            self.cluster.sync(self.cluster.scale_down, ended)
+            self.submit()

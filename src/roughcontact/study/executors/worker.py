@@ -1,0 +1,60 @@
+"""What every engine does in a worker: a task comes in, an outcome goes out as bytes."""
+
+from __future__ import annotations
+
+import pickle
+
+from roughcontact.study.task import Outcome, Perform, Task
+
+__all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled"]
+
+# A task whose worker died is tried again twice: workers are also killed from outside, by people, for the memory that
+# another program wanted, with their machine.
+TRIES = 3
+
+
+class WorkersError(RuntimeError):
+    """The workers cannot be used: they do not start, cannot load the case, or have gone for good."""
+
+
+def computed(perform: Perform, task: Task) -> bytes:
+    """Return the outcome of `task`, pickled: one that cannot be sent is the failure of its case and of nothing else."""
+    try:
+        outcome = perform(task)
+    except SystemExit as error:  # would end the worker
+        outcome = Outcome(task.key, None, f"the case called for an exit with status {error.code}", 0.0)
+    try:
+        return pickle.dumps(outcome, pickle.HIGHEST_PROTOCOL)
+    except Exception as error:
+        message = f"its record cannot be sent back: {type(error).__name__}: {error}"
+        return pickle.dumps(Outcome(task.key, None, message, outcome.seconds), pickle.HIGHEST_PROTOCOL)
+
+
+def pickled(thing: object, name: str) -> bytes:
+    """Return what is sent to another process.
+
+    Raises
+    ------
+    WorkersError
+        If it cannot be sent.
+    """
+    try:
+        return pickle.dumps(thing, pickle.HIGHEST_PROTOCOL)
+    except Exception as error:
+        raise WorkersError(
+            f"{name} cannot be sent to another process: {error}; define its functions and classes at the top of a "
+            "module, none inside another function"
+        ) from error
+
+
+def cannot_load(reason: str) -> WorkersError:
+    """Return the error of a worker that cannot load what it was sent."""
+    return WorkersError(
+        f"a worker cannot load what it is to compute ({reason}); the case must stand in a module that the workers can "
+        "import, not in the script or notebook that runs the study, and other machines need the same versions"
+    )
+
+
+def lost(task: Task, reason: str) -> Outcome:
+    """Return the outcome of a task that took its workers down."""
+    return Outcome(task.key, None, reason, 0.0)

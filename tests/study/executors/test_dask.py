@@ -1,0 +1,111 @@
+"""Dask as an engine: nothing is lost with a worker, and nothing is left behind."""
+
+import random
+import sys
+import time
+
+import psutil
+import pytest
+
+from roughcontact.study.case import Case
+from roughcontact.study.executors import dask, farm
+from roughcontact.study.executors.dask import Dask
+from roughcontact.study.executors.worker import WorkersError
+from study.executors.workload import FATE, NUMBERS, Numbers, bits, perform, tasks, truth, workers
+
+distributed = pytest.importorskip("distributed")
+
+
+@pytest.fixture
+def threads():
+    """Return a cluster whose one worker is a thread: there at once, though it cannot be killed."""
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, protocol="tcp", dashboard_address=None
+    ) as cluster:
+        yield cluster
+
+
+def test_a_killed_worker_costs_nothing_and_a_killing_case_only_itself(monkeypatch):
+    # Every task whose worker dies is put aside at once: that takes fewer new workers, which are slow to start.
+    monkeypatch.setattr(dask, "FORGIVEN", 0)
+    rng = random.Random(2)
+    given = tasks(NUMBERS, [{"value": i, "seconds": 0.002} for i in range(200)])
+    (killer,) = tasks(FATE, [{"how": "kill"}], first=200)
+    kills, outcomes = set(rng.sample(range(20, 180), 2)), []
+    for outcome in Dask(workers=2).outcomes(perform, [*given[:100], killer, *given[100:]]):
+        outcomes.append(outcome)
+        if len(outcomes) in kills:
+            time.sleep(rng.uniform(0, 0.004))
+            rng.choice(workers()).kill()
+    assert bits(outcomes) == truth(given) | {killer.key: None}
+    (message,) = (outcome.message for outcome in outcomes if outcome.message)
+    assert "its worker died in each of 2 tries" in message
+    assert workers() == []
+
+
+def test_local_workers_listen_to_this_machine_alone():
+    outcomes = Dask(workers=1).outcomes(perform, tasks(NUMBERS, [{}, {}, {}]))
+    next(outcomes)
+    family = [psutil.Process(), *workers()]
+    assert len(family) == 2
+    hosts = {
+        connection.laddr.ip
+        for process in family
+        for connection in process.net_connections()
+        if connection.status == psutil.CONN_LISTEN
+    }
+    assert hosts == {"127.0.0.1"}
+    outcomes.close()
+    assert workers() == []
+
+
+def test_a_scheduler_that_runs_already_is_used_and_left_alone(threads):
+    given = tasks(NUMBERS, [{"value": i} for i in range(20)])
+    for engine in Dask(cluster=threads), Dask(threads.scheduler_address):
+        assert engine.workers == 1
+        assert bits(engine.outcomes(perform, given)) == truth(given)
+    assert threads.status.name == "running"
+
+
+def test_a_scheduler_that_goes_is_told_of(threads):
+    outcomes = Dask(threads.scheduler_address).outcomes(perform, tasks(NUMBERS, [{"seconds": 0.1}] * 9))
+    next(outcomes)
+    threads.close()
+    with pytest.raises(WorkersError, match="the scheduler is gone; start it again"):
+        list(outcomes)
+
+
+def test_a_scheduler_that_does_not_answer_is_told_of(monkeypatch):
+    monkeypatch.setattr(farm, "ANSWER", 0.2)
+    with pytest.raises(WorkersError, match="no scheduler answers at tcp"):
+        list(Dask("tcp://127.0.0.1:9").outcomes(perform, tasks(NUMBERS, [{}])))
+
+
+def test_workers_of_another_version_are_refused(threads, monkeypatch):
+    from_elsewhere = Dask(threads.scheduler_address).outcomes(perform, tasks(NUMBERS, [{}]))
+    monkeypatch.setattr(farm, "__version__", "0.0.7")
+    with pytest.raises(WorkersError, match=r"and here is 0\.0\.7"):
+        list(from_elsewhere)
+
+
+def test_a_case_that_cannot_be_sent_or_loaded_is_refused(threads, monkeypatch):
+    engine = Dask(cluster=threads)
+    with pytest.raises(WorkersError, match="'local' cannot be sent to another process"):
+        list(engine.outcomes(perform, tasks(Case("local", 1, Numbers, lambda p, rng: None), [{}])))
+    monkeypatch.setattr(farm, "pickled", lambda *_: b"cfleeting\nrun\n.")
+    with pytest.raises(WorkersError, match="No module named 'fleeting'"):
+        list(engine.outcomes(perform, tasks(NUMBERS, [{}])))
+
+
+def test_starts_nothing_for_nothing():
+    assert list(Dask("tcp://127.0.0.1:9").outcomes(perform, [])) == []
+
+
+def test_what_makes_no_sense_is_refused(monkeypatch):
+    with pytest.raises(ValueError, match="one of address, workers and cluster"):
+        Dask("tcp://127.0.0.1:9", workers=2)
+    with pytest.raises(ValueError, match="workers is 0"):
+        Dask(workers=0)
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(WorkersError, match=r"pip install 'roughcontact\[cluster\]'"):
+        Dask(workers=2)
