@@ -1,0 +1,177 @@
+"""Ensembles: means with the band of their error, and what is fitted to them against a parameter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.variables import VARIABLES
+from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.units import pretty
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+__all__ = ["fitted_values", "mean_curves"]
+
+Array = npt.NDArray[Any]
+
+# Colours that every eye tells apart; more groups than these take shades in their order.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_BAND = 0.25  # opacity
+
+
+def mean_curves(
+    axes: Axes,
+    force: xarray.DataArray,
+    mean: xarray.DataArray,
+    error: xarray.DataArray | None = None,
+    resolved: xarray.DataArray | None = None,
+) -> None:
+    """Draw means over samples against force, both logarithmic, one line a group.
+
+    Parameters
+    ----------
+    axes : Axes
+    force : DataArray
+        Along the points, and the groups where they differ; such as ``dimensionless_force`` of an export.
+    mean : DataArray
+        Along the points and at most one dimension more, whose values tell the groups apart.
+    error : DataArray, optional
+        Half the width of a band about the mean, such as `roughcontact.study.statistics.standard_error`, or the
+        standard deviation where the scatter of samples is meant.
+    resolved : DataArray of bool, optional
+        Points outside it are drawn thin and dotted.
+
+    Raises
+    ------
+    ValueError
+        If there is more than one dimension of groups.
+    """
+    import xarray
+
+    points = force.dims[-1]
+    groups = [d for d in mean.dims if d != points]
+    if len(groups) > 1 or points not in mean.dims:
+        raise ValueError(
+            f"curves lie along {points!r} and one dimension of groups, not along {', '.join(map(str, mean.dims))}: "
+            "select or average the others first"
+        )
+    half = 0.0 * mean if error is None else error
+    inside = mean.notnull() if resolved is None else resolved
+    rows = [
+        np.atleast_2d(each.transpose(*groups, points).to_numpy())
+        for each in xarray.broadcast(force, mean, half, inside)
+    ]
+    names = [_named(mean, groups[0], i) for i in range(len(rows[0]))] if groups else [""]
+    for *numbers, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
+        _curve(axes, (numbers[0], numbers[1], numbers[2]), kept, name, colour)
+    axes.set(xscale="log", yscale="log")
+    _label(axes, force, mean)
+    if groups and len(names) <= len(_COLOURS):
+        axes.legend(title=_words(mean[groups[0]]), fontsize=TICK, title_fontsize=TICK, frameon=False)
+
+
+def fitted_values(
+    axes: Axes,
+    fits: xarray.Dataset,
+    name: str = "exponent",
+    *,
+    along: str,
+    label: str = "",
+    colour: str = _COLOURS[0],
+    shift: float = 0.0,
+) -> None:
+    """Draw what `roughcontact.study.fit.fit_power_laws` found against a parameter, with its intervals.
+
+    Parameters
+    ----------
+    axes : Axes
+    fits : Dataset
+        Of no other dimension than `along`; ensembles without a fit are left out.
+    name : str
+        ``"exponent"`` or ``"prefactor"``.
+    along : str
+        The parameter.
+    label : str
+        In the legend.
+    colour : str
+    shift : float
+        Of the marks along the axis, so that several series do not hide one another.
+
+    Raises
+    ------
+    ValueError
+        If there are other dimensions.
+    """
+    if fits[name].dims != (along,):
+        raise ValueError(
+            f"{name} lies along {', '.join(map(str, fits[name].dims))}, not along {along!r} alone: select first"
+        )
+    x, y, low, high = (fits[each].to_numpy() for each in (along, name, f"{name}_low", f"{name}_high"))
+    shown = np.isfinite(y)
+    # Of one sample there is a value and no interval.
+    arms = np.nan_to_num(np.stack([y - low, high - y])[:, shown])
+    axes.errorbar(
+        x[shown] + shift,
+        y[shown],
+        yerr=np.maximum(arms, 0.0),
+        fmt="o",
+        markersize=4,
+        capsize=2,
+        linewidth=1.0,
+        color=colour,
+        label=label or None,
+        zorder=3,
+    )
+    _label(axes, fits[along], fits[name])
+
+
+def _curve(
+    axes: Axes, numbers: tuple[Array, Array, Array], inside: npt.NDArray[np.bool_], name: str, colour: Any
+) -> None:
+    """Draw one mean with its band; a logarithmic axis has no place for zero."""
+    x, y, half = numbers
+    shown = np.isfinite(y) & (y > 0) & (x > 0)
+    if not inside[shown].all():
+        axes.plot(x[shown], y[shown], ":", color=colour, linewidth=0.9, zorder=2)
+    kept = shown & inside
+    axes.plot(x[kept], y[kept], "-", color=colour, linewidth=1.5, label=name or None, zorder=3)
+    lower = np.where(half < y, y - half, np.nan)
+    if (half[shown] > 0).any():
+        axes.fill_between(
+            x[shown], lower[shown], (y + half)[shown], color=colour, alpha=_BAND, linewidth=0, zorder=1
+        )
+
+
+def _shades(count: int) -> list[Any]:
+    if count <= len(_COLOURS):
+        return list(_COLOURS[:count])
+    from matplotlib import colormaps
+
+    # The last of viridis is too pale for a line on white.
+    return list(colormaps["viridis"](np.linspace(0, 0.9, count)))
+
+
+def _named(values: xarray.DataArray, dimension: Any, index: int) -> str:
+    value = values[dimension].to_numpy()[index]
+    return f"{value:g}" if values[dimension].dtype.kind in "fiu" else str(value)
+
+
+def _words(values: xarray.DataArray) -> str:
+    """Return the name of a variable with its unit, as on an axis."""
+    unit = pretty(values.attrs.get("units", ""))
+    name = str(values.name)
+    known = VARIABLES[name].label if name in VARIABLES else name.replace("_", " ")
+    return f"{known} [{unit}]" if unit else known
+
+
+def _label(axes: Axes, x: xarray.DataArray, y: xarray.DataArray) -> None:
+    axes.set_xlabel(_words(x), fontsize=LABEL)
+    axes.set_ylabel(_words(y), fontsize=LABEL)
+    axes.tick_params(labelsize=TICK, which="both")
+    axes.grid(True, which="major", color="0.92", linewidth=0.8)
+    axes.set_axisbelow(True)

@@ -1,0 +1,56 @@
+"""The cases that come with the package, and those of the user's own, by name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from importlib import import_module
+from types import MappingProxyType, ModuleType
+
+from roughcontact.study.case import Case
+from roughcontact.study.errors import StudyError
+from roughcontact.study.explain import meant
+
+__all__ = ["CASES", "find_case"]
+
+# A case is opened when it is first asked for.
+_NAMES = ("asperities", "cells", "curve", "lines", "refined", "slip", "yielding")
+CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}:CASE" for name in _NAMES})
+_OWN = "a case of your own is named as module:attribute"
+
+
+def find_case(name: str) -> Case:
+    """Return the case of that name, or that of a module of the user's: ``"module:attribute"``.
+
+    Raises
+    ------
+    StudyError
+        If there is none.
+    """
+    place = CASES.get(name, name)
+    if re.fullmatch(r"[\w.]+:\w+", place) is None:
+        raise StudyError(f"there is no case {name!r}: {meant(name, CASES)}; {_OWN}")
+    module, _, attribute = place.partition(":")
+    found = getattr(_module(module, name), attribute, None)
+    if not isinstance(found, Case):
+        raise StudyError(
+            f"the case {name!r} is not there: {module} has no Case named {attribute!r}, such as {attribute} = Case(...)"
+        )
+    return found
+
+
+def _module(module: str, name: str) -> ModuleType:
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        top = module.partition(".")[0]
+        if error.name is None or error.name.partition(".")[0] != top:
+            raise StudyError(f"the case {name!r} needs the module {error.name}: install it") from error
+        raise StudyError(
+            f"the case {name!r} is not there: no module {error.name} is found; run where {top} lies, or put the folder "
+            "that holds it on PYTHONPATH"
+        ) from error
+    except Exception as error:  # importing a module of the user's runs it: anything may come of that
+        raise StudyError(
+            f"the module of the case {name!r} cannot be imported: {type(error).__name__}: {error}"
+        ) from error

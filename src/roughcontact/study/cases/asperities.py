@@ -1,0 +1,89 @@
+"""A case: the summits of one rough surface as spheres, with and without their influence on each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from roughcontact.grid import Grid
+from roughcontact.study.case import Case
+from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.surface.analysis.summits import find_summits
+from roughcontact.surface.fourier import self_affine
+from roughcontact.theory.asperities import Asperities, press
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["CASE", "AsperityParameters", "run", "summits_of"]
+
+
+class AsperityParameters(ForceRange):
+    """A self-affine surface and the forces that press its summits, all without dimension.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, from -1 to 3.
+    points : int
+        Points along a side; the surface is made by the inverse Fourier transform.
+    lowest_force, highest_force, loads
+        See `ForceRange`.
+    """
+
+    hurst: float = Field(ge=-1, le=3)
+    points: int = Field(ge=8)
+    lowest_force: float = Field(default=1e-4, gt=0)
+    highest_force: float = Field(default=0.1, gt=0)
+    loads: int = Field(default=25, ge=2)
+
+
+def run(parameters: AsperityParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the stiffness of the discrete asperity model at every force (thesis, figs 31 to 33).
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``load``: ``dimensionless_force``, F/(E* h L); ``dimensionless_stiffness``, k/(E* L), of summits that push
+        each other down; ``independent_stiffness``, that of summits that do not; ``spots`` in contact and ``merged``,
+        those of them that overlap another, both with influence.
+    """
+    import xarray
+
+    grid = Grid((parameters.points,) * 2, 1 / parameters.points, periodic=True)
+    asperities = summits_of(self_affine(grid, parameters.hurst, 1.0, rng))
+    forces = parameters.forces
+    together = [press(asperities, force=float(force)) for force in forces]
+    alone = [press(asperities, force=float(force), interaction=False) for force in forces]
+
+    def along(
+        values: list[float] | list[int], words: str
+    ) -> tuple[str, list[float] | list[int], dict[str, str]]:
+        return "load", values, {"units": "1", "long_name": words}
+
+    return xarray.Dataset(
+        {
+            "dimensionless_force": along(list(forces), "force / (E* L h)"),
+            "dimensionless_stiffness": along([each.stiffness for each in together], "stiffness / (E* L)"),
+            "independent_stiffness": along(
+                [each.stiffness for each in alone], "the same without interaction"
+            ),
+            "spots": along([each.count for each in together], "summits in contact"),
+            "merged": along([each.merged for each in together], "spots that overlap another one"),
+        }
+    )
+
+
+def summits_of(surface: Surface) -> Asperities:
+    """Return the summits of a surface as spheres on a half-space of unit modulus."""
+    found = find_summits(surface)
+    dy, dx = surface.grid.spacing
+    x, y = (np.asarray(places, dtype=np.float64) for places in (found.columns, found.rows))
+    return Asperities(x * dx, y * dy, found.height, found.radius, 1.0)
+
+
+CASE = Case("asperities", 1, AsperityParameters, run)

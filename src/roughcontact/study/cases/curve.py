@@ -1,0 +1,142 @@
+"""A case: the loading curve of one rough surface by boundary elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from roughcontact.contact.curve import collect
+from roughcontact.contact.loading import loading_path
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import contact_stiffness
+from roughcontact.grid import Grid
+from roughcontact.study.case import Case
+from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.study.cases.surfaces import RoughSquare
+from roughcontact.study.parameters import Positive, Pressure
+from roughcontact.surface.moments import surface_moments
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "CurveParameters", "run"]
+
+_POINTS = (
+    "force",
+    "depth",
+    "stiffness",
+    "interfacial_stiffness",
+    "contact_area",
+    "mean_gap",
+    "elastic_energy",
+    "spots",
+    "dimensionless_stiffness",
+    "residual",
+    "stiffness_residual",
+    "resolved",
+    "status",
+)
+_SCALES = ("cell_stiffness", "saturation")
+_LIMIT = 1e-3  # of the displacement: enough for a saturation, of which nine tenths are a limit
+
+
+class CurveParameters(RoughSquare, ForceRange):
+    """A rough surface pressed on an elastic half-space by growing forces.
+
+    Parameters
+    ----------
+    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+        See `RoughSquare`.
+    modulus : float
+        Reduced modulus E* [Pa].
+    lowest_force, highest_force, loads
+        See `ForceRange`; by default from the first cells in contact to the end of the power law.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+    relative_hardness : float, optional
+        The same over E* times the rms slope of the roughness; at most one of the two.
+    tolerance : float
+        Of the certificate of every load.
+    """
+
+    modulus: Positive[Pressure]
+    lowest_force: float = Field(default=1e-4, gt=0)
+    highest_force: float = Field(default=0.07, gt=0)
+    loads: int = Field(default=30, ge=2)
+    hardness: Positive[Pressure] | None = None
+    relative_hardness: float | None = Field(default=None, gt=0)
+    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
+
+    @model_validator(mode="after")
+    def _one_hardness(self) -> Self:
+        if self.hardness is not None and self.relative_hardness is not None:
+            raise ValueError("give hardness or relative_hardness, not both")
+        return self
+
+
+def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the loading curve of one sample.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``load`` the points of a `roughcontact.Curve`, with ``dimensionless_force``, F/(E* h L), where h is the
+        rms height of the parameters. A load that missed its tolerance says so in ``status``. Without a dimension:
+        ``cell_stiffness`` and ``saturation``, between which a curve is resolved; ``rms``, ``rms_slope`` and
+        ``rms_curvature`` of the roughness, without the body under it; ``hardness`` where there is one.
+    """
+    roughness = parameters.roughness(rng)
+    moments = surface_moments(roughness, "spectral")  # made of waves: exact
+    forces = parameters.forces
+    hardness = parameters.hardness
+    if parameters.relative_hardness is not None:
+        hardness = parameters.relative_hardness * parameters.modulus * moments.rms_slope
+    path = loading_path(
+        parameters.on_body(roughness),
+        parameters.modulus,
+        forces=forces * (parameters.modulus * parameters.size * parameters.rms),
+        tolerance=parameters.tolerance,
+        hardness=hardness,
+    )
+    curve = collect(_saturated(path, parameters))
+    whole = curve.to_dataset()
+    names = [*_POINTS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
+    record = whole[names].drop_vars("axis", errors="ignore")
+    record["dimensionless_force"] = "load", forces, whole["dimensionless_force"].attrs
+    for name, value, unit, words in (
+        ("rms", roughness.rms, "m", "root mean square height of the roughness"),
+        ("rms_slope", moments.rms_slope, "1", "root mean square slope of the roughness"),
+        (
+            "rms_curvature",
+            moments.rms_curvature,
+            "m-1",
+            "root mean square curvature of the roughness, half the Laplacian",
+        ),
+    ):
+        record[name] = (), value, {"units": unit, "long_name": words}
+    return record.assign_attrs(title="loading curves of rough surfaces by boundary elements")
+
+
+def _saturated(path: Iterator[Solution], parameters: CurveParameters) -> Iterator[Solution]:
+    """Yield a path whose saturation is known: where few cells touch, finding it takes half of the time."""
+    unit = parameters.modulus * parameters.size
+    for solution in path:
+        solution.problem.once(
+            "saturation", lambda: unit * _saturation(parameters.points, parameters.periodic)
+        )
+        yield solution
+
+
+@lru_cache(maxsize=16)
+def _saturation(points: int, periodic: bool) -> float:
+    """Return k/(E* L) of a square in full contact; it depends on the number of cells alone."""
+    grid = Grid((points, points), 1 / points, periodic)
+    return contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0, tolerance=_LIMIT)
+
+
+CASE = Case("curve", 1, CurveParameters, run)

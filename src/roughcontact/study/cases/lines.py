@@ -1,0 +1,81 @@
+"""A case: rough lines of one Hurst exponent on independent springs, many at once (the reduced model)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from roughcontact.grid import Grid
+from roughcontact.mdr.random_lines import rough_lines
+from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.study.case import Case
+from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.surface.spectrum import SelfAffineSpectrum
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "LineParameters", "run"]
+
+
+class LineParameters(ForceRange):
+    """Lines, and the forces that press them; all without dimension, so that no length and no modulus is asked for.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H of the lines, C1D ~ q^(-(2H+1)), from -1 to 3.
+    points : int
+        Points N of a line, and springs under it.
+    lines : int
+        Lines a sample: one alone would take less time than its row in the store.
+    lowest_force, highest_force, loads
+        See `ForceRange`; by default twelve to a decade, 0.07 among them, from one spring to all of them.
+    """
+
+    hurst: float = Field(ge=-1, le=3)
+    points: int = Field(ge=4)
+    lines: int = Field(default=50, ge=1)
+    lowest_force: float = Field(default=7e-8, gt=0)
+    highest_force: float = Field(default=7.0, gt=0)
+    loads: int = Field(default=97, ge=2)
+
+
+def run(parameters: LineParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the stiffness of every line at every force (thesis, section 4.5.2).
+
+    The answer is exact: there is no residual. Lines have random phases and the power spectrum of the law exactly, and
+    so one rms height.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``dimensionless_force`` (load), F/(E* h L), and ``dimensionless_stiffness`` (line, load), k/(E* L): the part of
+        the springs that carries load.
+    """
+    import xarray
+
+    grid = Grid(parameters.points, 1 / parameters.points, periodic=True)
+    spectrum = SelfAffineSpectrum(parameters.hurst, dimension=1)
+    forces = parameters.forces
+    springs = np.concatenate(
+        [
+            loading_curves(heights, grid.spacing[0], 1.0, forces=forces, energy=False).springs
+            for heights in rough_lines(grid, spectrum, rng, parameters.lines, rms=1.0)
+        ]
+    )
+    return xarray.Dataset(
+        {
+            "dimensionless_force": ("load", forces, {"units": "1", "long_name": "force / (E* L h)"}),
+            "dimensionless_stiffness": (
+                ("line", "load"),
+                springs / parameters.points,
+                {"units": "1", "long_name": "stiffness / (E* L)"},
+            ),
+        }
+    )
+
+
+CASE = Case("lines", 1, LineParameters, run)

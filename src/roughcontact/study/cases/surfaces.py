@@ -1,0 +1,81 @@
+"""What describes the surface of a case: roughness by its spectrum, on a flat or a rounded body."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from roughcontact.grid import Grid
+from roughcontact.study.case import Parameters
+from roughcontact.study.parameters import Length, Positive
+from roughcontact.surface.fourier import self_affine
+from roughcontact.surface.shapes import paraboloid
+from roughcontact.surface.surface import Surface
+
+__all__ = ["RoughSquare"]
+
+
+class RoughSquare(Parameters):
+    """Parameters of a case on a square with self-affine roughness.
+
+    The waves' phases come from the generator of the sample: surfaces of one sample and one number of points are
+    alike for all other parameters.
+
+    Parameters
+    ----------
+    points : int
+        Cells along a side.
+    size : float
+        Side of the square L [m].
+    hurst : float
+        Hurst exponent H, from -1 to 3.
+    rms : float
+        Root mean square height h of the roughness [m].
+    rolloff, cutoff, shortest : float, optional
+        Limits of the power law, as wavelengths over the side: longer waves have the amplitude of the roll-off, are
+        absent beyond the cut-off; shorter ones than the shortest are absent. Without: all waves of the grid.
+    amplitudes : {"exact", "gaussian"}
+        The spectrum exactly in every sample, or on the average over a Gaussian process.
+    periodic : bool
+        Whether the body repeats itself.
+    radius : float, optional
+        Radius of curvature of a paraboloid under the roughness, its apex in the middle [m].
+    """
+
+    points: int = Field(ge=4)
+    size: Positive[Length]
+    hurst: float = Field(ge=-1, le=3)
+    rms: Positive[Length]
+    rolloff: float | None = Field(default=None, gt=0)
+    cutoff: float | None = Field(default=None, gt=0)
+    shortest: float | None = Field(default=None, gt=0)
+    amplitudes: Literal["exact", "gaussian"] = "exact"
+    periodic: bool = False
+    radius: Positive[Length] | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The cells."""
+        return Grid((self.points, self.points), self.size / self.points, self.periodic)
+
+    def roughness(self, rng: np.random.Generator) -> Surface:
+        """Return the roughness alone, as if on a flat body."""
+        return self_affine(
+            self.grid,
+            self.hurst,
+            self.rms,
+            rng,
+            rolloff_wavelength=self._length(self.rolloff),
+            cutoff_wavelength=self._length(self.cutoff),
+            short_wavelength=self._length(self.shortest),
+            amplitudes=self.amplitudes,
+        )
+
+    def on_body(self, roughness: Surface) -> Surface:
+        """Return a roughness on the body that it belongs to."""
+        return roughness if self.radius is None else paraboloid(self.grid, self.radius) + roughness
+
+    def _length(self, part: float | None) -> float | None:
+        return None if part is None else part * self.size

@@ -1,0 +1,121 @@
+"""Where each case of a study stands among the dimensions of its export."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from roughcontact.study.errors import StudyError
+from roughcontact.study.parameters import Area, Energy, Force, Length, Pressure, Stiffness
+
+if TYPE_CHECKING:
+    from roughcontact.study.case import Parameters
+    from roughcontact.study.study import Study
+
+__all__ = ["Layout", "layout_of"]
+
+Triple = tuple[tuple[str, ...], Any, dict[str, str]]
+
+_UNITS = ((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J"))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """The dimensions of a study: its rows, its table, its samples.
+
+    Attributes
+    ----------
+    sizes : dict of int
+        By name, in order; ``sample`` is the last.
+    coordinates : dict
+        What varies, by name: dimensions, values and attributes.
+    constants : dict
+        What does not, in the same form.
+    places : dict
+        Of every case, by its key.
+    """
+
+    sizes: Mapping[str, int]
+    coordinates: Mapping[str, Triple]
+    constants: Mapping[str, Triple]
+    places: Mapping[str, tuple[int, ...]]
+
+
+def layout_of(study: Study) -> Layout:
+    """Return the layout of a study.
+
+    A name of its table is a dimension, in the order of the table. Combinations spelt out as rows make a dimension
+    ``row``, along which lie the values of all names that occur in them.
+
+    Raises
+    ------
+    StudyError
+        If a parameter that varies is called ``row`` or ``sample``.
+    """
+    found = study.combinations()
+    combinations = [each.model_dump(mode="json") for each in found]
+    in_rows = list(dict.fromkeys(name for row in study.rows for name in row))
+    if taken := sorted({"row", "sample"} & {*in_rows, *study.table}):
+        raise StudyError(
+            f"a parameter that varies cannot be called {taken[0]!r}: this is a dimension of its own"
+        )
+
+    units = _units_of(type(found[0]))
+    values = {name: _distinct([each[name] for each in combinations]) for name in study.table}
+    sizes = {name: len(each) for name, each in values.items()}
+    in_one_row = math.prod(sizes.values())
+    coordinates = {name: _coordinate((name,), each, units.get(name)) for name, each in values.items()}
+    if study.rows:
+        sizes = {"row": len(study.rows)} | sizes
+        coordinates["row"] = (("row",), np.arange(len(study.rows)), {"long_name": "row of the study"})
+        for name in in_rows:
+            along = [each[name] for each in combinations[::in_one_row]]
+            coordinates[name] = _coordinate(("row",), along, units.get(name))
+    coordinates["sample"] = (("sample",), np.arange(study.samples), {"long_name": "number of the sample"})
+    constants = {
+        name: _coordinate((), value, units.get(name))
+        for name, value in combinations[0].items()
+        if name not in coordinates and isinstance(value, bool | int | float | str)
+    }
+    shape = tuple(sizes.values())
+    places = {}
+    for number, task in enumerate(study.tasks()):
+        place = np.unravel_index(number % len(combinations), shape) if shape else ()
+        places[task.key] = (*map(int, place), task.sample)
+    return Layout(sizes | {"sample": study.samples}, coordinates, constants, places)
+
+
+def _units_of(model: type[Parameters]) -> dict[str, str]:
+    """Return the SI units of those parameters that are declared as quantities."""
+    units: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        # A quantity that may be none carries its marks one level down.
+        parts = [getattr(part, "__metadata__", ()) for part in get_args(field.annotation)]
+        marks = [*field.metadata, *itertools.chain(*parts)]
+        units.update((name, unit) for kind, unit in _UNITS if get_args(kind)[1] in marks)
+    return units
+
+
+def _distinct(values: Sequence[Any]) -> list[Any]:
+    """Return values in the order in which they first occur."""
+    return list({json.dumps(each, sort_keys=True): each for each in values}.values())
+
+
+def _coordinate(dimensions: tuple[str, ...], values: Any, unit: str | None) -> Triple:
+    """Return values as numbers, truths or words; what is none of these, alone or among others, as JSON."""
+    each = values if dimensions else [values]
+    kinds = {type(value) for value in each}
+    if kinds <= {int, float, type(None)} and kinds != {type(None)}:
+        values = np.array([math.nan if value is None else value for value in each])
+    elif kinds in ({bool}, {str}):
+        values = np.array(each)
+    else:
+        values = np.array([value if isinstance(value, str) else json.dumps(value) for value in each])
+    attributes = {"long_name": "parameter of the case"} | ({"units": unit} if unit else {})
+    return dimensions, values if dimensions else values[0], attributes

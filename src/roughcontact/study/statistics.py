@@ -1,0 +1,164 @@
+"""What the samples of a study say together: means, scatter, standard errors.
+
+All functions take labelled data and drop the dimensions of the samples; NaN is a sample that is missing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.ensemble_mean import mean_over_samples
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = [
+    "count",
+    "dimensions",
+    "geometric_mean",
+    "mean",
+    "scatter",
+    "standard_deviation",
+    "standard_error",
+    "summary",
+]
+
+Array = npt.NDArray[Any]
+
+
+def mean(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the arithmetic mean."""
+    return _along(values, samples, mean_over_samples, "mean of {}")
+
+
+def geometric_mean(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the geometric mean: zero with a zero among the samples, NaN with less than zero."""
+    return _along(values, samples, lambda v: mean_over_samples(v, "geometric"), "geometric mean of {}")
+
+
+def standard_deviation(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the standard deviation of the population that the samples are drawn from; of one sample NaN."""
+    return _along(values, samples, _deviation, "standard deviation of {}")
+
+
+def standard_error(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the standard error of the arithmetic mean; of one sample NaN."""
+    return _along(values, samples, lambda v: _deviation(v) / np.sqrt(_there(v)), "standard error of {}")
+
+
+def scatter(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the standard deviation over the mean (thesis, fig. 18), a pure number; 0 where all samples are."""
+
+    def ratio(v: Array) -> Array:
+        deviation, over = _deviation(v), mean_over_samples(v)
+        # Before first contact nothing scatters.
+        return np.where(deviation == 0, 0.0, deviation / over)
+
+    return _along(values, samples, ratio, "standard deviation over mean of {}", "1")
+
+
+def count(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
+    """Return the number of samples that are there."""
+    return _along(values, samples, _there, "number of samples of {}", "1")
+
+
+STATISTICS: Mapping[str, Callable[..., xarray.DataArray]] = MappingProxyType(
+    {
+        "mean": mean,
+        "geometric_mean": geometric_mean,
+        "standard_deviation": standard_deviation,
+        "standard_error": standard_error,
+        "scatter": scatter,
+        "count": count,
+    }
+)
+
+
+def summary(
+    dataset: xarray.Dataset, names: Sequence[str] | None = None, samples: str | Sequence[str] = "sample"
+) -> xarray.Dataset:
+    """Return all statistics of variables, as ``NAME_mean``, ``NAME_geometric_mean`` and so on.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As `roughcontact.study.export.export` makes it.
+    names : sequence of str, optional
+        Variables of numbers or truths; without, all that lie along the samples. One that does not is the same in all
+        samples, and stays as it is.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Raises
+    ------
+    ValueError
+        If the dataset has no such variable or dimension, or the variable holds words.
+    """
+    over = dimensions(samples)
+    if absent := [d for d in over if d not in dataset.sizes]:
+        raise ValueError(f"no samples lie along {absent[0]!r}; there are {_listed(dataset.sizes)}")
+    numbers = [str(name) for name, values in dataset.data_vars.items() if values.dtype.kind in "fiub"]
+    chosen = [n for n in numbers if set(over) <= set(dataset[n].dims)] if names is None else list(names)
+    if unknown := [name for name in chosen if name not in numbers]:
+        raise ValueError(f"there are no numbers named {unknown[0]!r}; there are {_listed(numbers)}")
+    result = dataset.drop_vars([*dataset.data_vars, *over], errors="ignore")
+    for name in chosen:
+        values = dataset[name]
+        if not set(over) <= set(values.dims):
+            result[name] = values
+            continue
+        if values.dtype.kind == "b" and "case_status" in dataset:
+            # False of a case that is not there says nothing.
+            values = values.astype(np.float64).where(dataset["case_status"] == "done")
+        for word, statistic in STATISTICS.items():
+            result[f"{name}_{word}"] = statistic(values, over)
+    return result
+
+
+def dimensions(samples: str | Sequence[str]) -> tuple[str, ...]:
+    """Return the dimensions of samples, of which one may be given by its name alone."""
+    return (samples,) if isinstance(samples, str) else tuple(samples)
+
+
+def _along(
+    values: xarray.DataArray,
+    samples: str | Sequence[str],
+    function: Callable[[Array], Array],
+    words: str,
+    unit: str | None = None,
+) -> xarray.DataArray:
+    """Return `function`, of an array with the samples first, as a variable that says what it is."""
+    over = dimensions(samples)
+    if absent := [d for d in over if d not in values.dims]:
+        raise ValueError(
+            f"no samples of {values.name} lie along {absent[0]!r}; it has {_listed(values.dims)}"
+        )
+    first = values.transpose(*over, ...)
+    kept = first.isel(dict.fromkeys(over, 0), drop=True)
+    table = first.to_numpy().astype(np.float64).reshape(-1, kept.size)
+    with np.errstate(all="ignore"):  # of means of nothing, and of infinities
+        result = kept.copy(data=function(table).reshape(kept.shape))
+    result.attrs["long_name"] = words.format(values.attrs.get("long_name", values.name))
+    if unit is not None:
+        result.attrs["units"] = unit
+    return result
+
+
+def _there(values: Array) -> Array:
+    return np.asarray((~np.isnan(values)).sum(axis=0))
+
+
+def _deviation(values: Array) -> Array:
+    """Return the standard deviation with n - 1, of samples along the first axis."""
+    there = _there(values)
+    away = np.where(np.isnan(values), 0.0, values - mean_over_samples(values))
+    return np.asarray(np.where(there > 1, np.sqrt((away**2).sum(axis=0) / (there - 1)), np.nan))
+
+
+def _listed(names: Any) -> str:
+    return ", ".join(map(str, names)) or "none"
