@@ -13,15 +13,16 @@ from roughcontact.contact.tangential.path import slide_path
 from roughcontact.contact.tangential.slide import slide
 from roughcontact.contact.tangential.step import Step
 from roughcontact.halfspace.shear import shear_half_space
+from roughcontact.halfspace.shear_multilevel import MultilevelShear
 
 MU = 0.4
 
 
-def certificate(answer, before):
+def certificate(answer, before, method="dense"):
     """Return the largest violation over the largest displacement, by loops over the cells in contact."""
     problem = answer.problem
     bodies = problem.bodies if isinstance(problem.bodies, tuple) else (problem.bodies,)
-    dense = shear_half_space(problem.pressed.problem.grid, *bodies, method="dense")
+    dense = shear_half_space(problem.pressed.problem.grid, *bodies, method=method)
     now = dense.apply(answer.traction) - answer.displacement[:, None, None]
     then = np.zeros_like(now) if before is None else before.slip
     largest = 0.0
@@ -64,6 +65,64 @@ def test_every_state_of_a_path_is_what_it_claims(periodic, nu, load):
                 answer.force, (answer.load.x, answer.load.y), rtol=0, atol=1e-12 * answer.problem.capacity
             )
         before = answer
+
+
+@pytest.fixture(scope="module")
+def wide():
+    """A contact of so many cells that its operator makes no matrix of them, and the sum is put to work."""
+    bodies = (rc.Solid(1e11, 0.4), rc.Solid(3e11, 0.2))
+    grid = rc.Grid((40, 48), (1.2e-6, 1e-6))
+    surface = rc.self_affine(grid, hurst=0.7, rms=1e-7, rng=np.random.default_rng(5))
+    solution = rc.press(surface, bodies, pressure=0.006 * rc.reduced_modulus(*bodies))
+    operator = Interface.of(SUMS["multilevel"](grid, bodies), solution.contact).operator
+    assert all(hierarchy.levels for hierarchy in operator._hierarchies)
+    return solution, bodies
+
+
+SUMS = {
+    "moving-grid": lambda grid, bodies: shear_half_space(grid, *bodies, method="moving-grid"),
+    "multilevel": lambda grid, bodies: shear_half_space(grid, *bodies, method="multilevel"),
+    "a rough sum, wrong by a thousandth": lambda grid, bodies: MultilevelShear(
+        shear_half_space(grid, *bodies), order=4, near=4
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SUMS)
+def test_any_sum_may_drive_and_the_exact_one_certifies(wide, name):
+    solution, bodies = wide
+    operator = SUMS[name](solution.problem.grid, bodies)
+    path = MU * solution.force * np.array([[0.7, 0], [-0.4, 0.5]])
+    exact, found = (
+        list(slide_path(solution, bodies, friction=MU, forces=path, operator=body))
+        for body in (None, operator)
+    )
+    before = None
+    for truth, answer in zip(exact, found, strict=True):
+        assert answer.status is Status.CONVERGED
+        assert answer.residual <= 1e-8
+        assert certificate(answer, before, "moving-grid") == pytest.approx(answer.residual, rel=1e-3)
+        before = answer
+        largest = np.abs(truth.traction).max()
+        np.testing.assert_allclose(answer.traction, truth.traction, rtol=0, atol=1e-6 * largest)
+        np.testing.assert_allclose(answer.displacement, truth.displacement, rtol=1e-7)
+        assert answer.slip_area == pytest.approx(truth.slip_area, rel=1e-3)
+        np.testing.assert_allclose(
+            answer.stiffness, truth.stiffness, rtol=1e-7, atol=1e-7 * abs(truth.stiffness).max()
+        )
+
+
+@pytest.mark.parametrize("name", SUMS)
+def test_stiffness_by_any_sum(wide, name):
+    """Good to the square of the tolerance, 1e-7, by the exact sum; that of a thousandth alone would be off by more."""
+    solution, bodies = wide
+    grid = solution.problem.grid
+    truth = rc.tangential_stiffness(solution.contact, grid, bodies, tolerance=1e-10)
+    found = rc.tangential_stiffness(
+        solution.contact, grid, bodies, operator=SUMS[name](grid, bodies), tolerance=1e-7
+    )
+    assert found.residual <= 1e-7
+    np.testing.assert_allclose(found.matrix, truth.matrix, rtol=0, atol=1e-12 * truth.matrix.max())
 
 
 @pytest.mark.parametrize("seed", range(24))

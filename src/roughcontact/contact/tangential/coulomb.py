@@ -1,6 +1,7 @@
 """Coulomb's law on a list of cells: tractions no larger than a limit, and slip against them.
 
-Fields have shape ``(k, n)``: k components, one or two, of n cells.
+Fields have shape ``(k, n)``: k components, one or two, of n cells, in arrays of any library. Vectors of k entries that
+belong to no cell are NumPy's.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import beside, inner, namespace, numbers
+
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "under_force", "violations", "within"]
 
 Array = npt.NDArray[np.float64]
@@ -18,30 +21,33 @@ Mask = npt.NDArray[np.bool_]
 AT_LIMIT = 1e-12  # part of the limit that is rounding: a traction as near to it is at it
 FORCE = 1e-14  # of all the limits together: how well a sum over many cells meets a force
 SINGULAR = 1e-12  # part of a slope that keeps it from being singular
+LARGE = 10.0  # times the limits: tractions with so much rounding that the force misses some of its digits
 PASSES = 100  # of Newton's method for the force, and of the search along a step of it: ten are many
 
 
 def lengths(vectors: Array) -> Array:
     """Return the length of the vector of each cell, shape (n,)."""
-    return np.asarray(np.abs(vectors[0]) if len(vectors) == 1 else np.hypot(vectors[0], vectors[1]))
+    xp, x = namespace(vectors), vectors[0, :]
+    return xp.abs(x) if vectors.shape[0] == 1 else xp.hypot(x, vectors[1, :])  # type: ignore[no-any-return]
 
 
 def directions(vectors: Array, cells: Mask) -> Array:
     """Return unit vectors in `cells`, zero elsewhere."""
-    size = lengths(vectors)
-    return np.asarray(np.where(cells, vectors / np.where(size > 0, size, 1.0), 0.0))
+    xp, size = namespace(vectors), lengths(vectors)
+    return xp.where(cells, vectors / xp.where(size > 0, size, 1.0), 0.0)  # type: ignore[no-any-return]
 
 
 def at_limit(traction: Array, limit: Array) -> Mask:
     """Return the cells whose traction is all that friction can hold."""
-    return np.asarray(lengths(traction) >= limit * (1 - AT_LIMIT))
+    return lengths(traction) >= limit * (1 - AT_LIMIT)
 
 
 def within(traction: Array, limit: Array) -> Array:
     """Return the nearest traction that friction can hold."""
-    size = lengths(traction)
+    xp, size = namespace(traction), lengths(traction)
     over = size > limit
-    return np.asarray(traction * np.where(over, limit / np.where(over, size, 1.0), 1.0))
+    scaled: Array = traction * xp.where(over, limit / xp.where(over, size, 1.0), 1.0)
+    return scaled
 
 
 def violations(traction: Array, limit: Array, slip: Array) -> Array:
@@ -50,12 +56,12 @@ def violations(traction: Array, limit: Array, slip: Array) -> Array:
     Below the limit nothing may slip; at it, slip [m] is opposed to the traction, so that what counts is its distance
     from that ray. A traction beyond the limit is no answer at all.
     """
-    held = at_limit(traction, limit)
+    xp, held = namespace(traction), at_limit(traction, limit)
     normal = directions(traction, held)
-    forward = (slip * normal).sum(axis=0)
+    forward = xp.sum(slip * normal, axis=0)
     astray = lengths(slip - forward * normal)
-    violation = np.where(held & (forward <= 0), astray, lengths(slip))
-    return np.where(lengths(traction) > limit * (1 + AT_LIMIT), np.inf, violation)
+    violation = xp.where(held & (forward <= 0), astray, lengths(slip))
+    return xp.where(lengths(traction) > limit * (1 + AT_LIMIT), np.inf, violation)  # type: ignore[no-any-return]
 
 
 def under_force(traction: Array, limit: Array, total: Array) -> Array:
@@ -71,31 +77,46 @@ def under_force(traction: Array, limit: Array, total: Array) -> Array:
     total : array, shape (k,)
         Shorter than the sum of the limits.
     """
+    nearest = _projected(traction, limit, total)
+    if inner(traction, traction) <= LARGE**2 * inner(limit, limit):
+        return nearest
+    return _projected(nearest, limit, total)  # without the rounding of large tractions
+
+
+def _projected(traction: Array, limit: Array, total: Array) -> Array:
+    """Return what `under_force` does, whose sum is as good as the rounding of `traction`."""
+    xp = namespace(traction)
+
+    def shifted(shift: Array) -> Array:
+        result: Array = traction - beside(shift[:, None], traction)
+        return result
 
     def excess(shift: Array) -> Array:
-        return np.asarray(within(traction - shift[:, None], limit).sum(axis=1) - total)
+        return numbers(xp.sum(within(shifted(shift), limit), axis=1)) - total
 
-    shift, enough = np.zeros(len(traction)), FORCE * (limit.sum() + np.abs(traction).sum())
+    shift = np.zeros(traction.shape[0])
+    enough = FORCE * (float(xp.sum(limit)) + float(xp.sum(xp.abs(traction))))
     over = excess(shift)
-    size = float(limit.max() + np.abs(traction).max())
+    size = float(xp.max(limit)) + float(xp.max(xp.abs(traction)))
     for _ in range(PASSES):
         if np.abs(over).max() <= enough:
             break
-        direction = _newton_direction(traction - shift[:, None], limit, over)
+        direction = _newton_direction(shifted(shift), limit, over)
         # Where the sum hardly falls any more, the direction leads far away.
         direction *= min(1.0, size / float(np.abs(direction).max()))
         shift, over = _searched(excess, shift, over, direction)
-    return within(traction - shift[:, None], limit)
+    return within(shifted(shift), limit)
 
 
 def _newton_direction(shifted: Array, limit: Array, over: Array) -> Array:
     """Return the shift that takes `over` away if the sum went on to fall as it does."""
-    beyond = lengths(shifted) > limit
-    part = (limit / np.where(beyond, lengths(shifted), 1.0))[beyond]
-    normal = directions(shifted, beyond)[:, beyond]
-    slope = ((~beyond).sum() + part.sum()) * np.eye(len(over)) - (part * normal) @ normal.T
+    xp, size = namespace(shifted), lengths(shifted)
+    beyond = size > limit
+    part = xp.where(beyond, limit / xp.where(beyond, size, 1.0), 1.0)
+    normal = directions(shifted, beyond)
+    slope = float(xp.sum(part)) * np.eye(len(over)) - numbers((part * normal) @ normal.T)
     if not slope.trace() > 0:  # one component, and all cells at their limits
-        return np.asarray(np.sign(over) * limit.max())
+        return np.asarray(np.sign(over) * float(xp.max(limit)))
     return np.asarray(np.linalg.solve(slope + SINGULAR * slope.trace() * np.eye(len(over)), over))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,9 @@ from roughcontact.contact.tangential.path import Loads, slide_path
 from roughcontact.contact.tangential.problem import Bodies
 from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.halfspace.shear import ShearOperator
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["SlipCurve", "slide_curve"]
 
@@ -66,6 +70,18 @@ class SlipCurve:
             f"SlipCurve({converged} of {len(self)} points converged, forces up to {largest:.4g} of "
             f"{self.capacity:.4g} N, {self.dissipated.sum():.4g} J dissipated)"
         )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the curve as an `xarray.Dataset` with units and long names."""
+        from roughcontact.contact.tangential.dataset import slip_curve_dataset
+
+        return slip_curve_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the curve as plain values, for JSON."""
+        from roughcontact.contact.tangential.dataset import slip_curve_record
+
+        return slip_curve_record(self)
 
 
 def slide_curve(

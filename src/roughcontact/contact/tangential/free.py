@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import inner, namespace, numbers
 from roughcontact.contact.tangential.interface import Interface
 
 __all__ = ["Correction", "Freedom", "corrected"]
@@ -35,7 +36,9 @@ class Freedom:
 
     def project(self, field: Array) -> Array:
         """Return the free part of a field."""
-        return np.asarray(field - (field * self.normal).sum(axis=0) * self.normal)
+        along = namespace(field).sum(field * self.normal, axis=0)
+        free: Array = field - along * self.normal
+        return free
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,17 +72,17 @@ def corrected(
     they slip, the diagonal: next to turning, the half-space is compliant only for long waves.
     """
     precondition = _preconditioner(interface, freedom)
-    change, image, steps = np.zeros(error.shape), np.zeros(error.shape), 0
+    change, image, steps = interface.zeros(), interface.zeros(), 0
     r = freedom.project(error)
     z = precondition(r)
     t = z
-    rho = float(np.vdot(r, z))
+    rho = inner(r, z)
     enough = reduction**2 * rho
     while rho > enough and steps < max_steps:
-        v = interface.apply(t)
+        v = interface.estimate(t)
         steps += 1
         q = freedom.project(v) + freedom.turning * t
-        curvature = float(np.vdot(t, q))
+        curvature = inner(t, q)
         if not curvature > 0:  # rounding has eaten the direction
             break
         alpha = rho / curvature
@@ -87,31 +90,31 @@ def corrected(
         image += alpha * v
         r = r - alpha * q
         z = precondition(r)
-        rho, previous = float(np.vdot(r, z)), rho
+        rho, previous = inner(r, z), rho
         t = z + rho / previous * t
     return Correction(change, image, steps)
 
 
 def _preconditioner(interface: Interface, freedom: Freedom) -> Callable[[Array], Array]:
     """Return a map from errors [m] to free changes of traction [Pa], without resultant if the force is held."""
-    sticks = ~freedom.normal.any(axis=0)
+    xp = namespace(freedom.normal)
+    sticks = ~xp.any(freedom.normal != 0, axis=0)
     diagonal = 1 / (interface.self_influence + freedom.turning)
 
     def answer(r: Array) -> Array:
-        z = np.where(sticks, interface.approximate_inverse(np.where(sticks, r, 0.0)), r * diagonal)
+        z = xp.where(sticks, interface.approximate_inverse(xp.where(sticks, r, 0.0)), r * diagonal)
         return freedom.project(z)
 
     if not freedom.held:
         return answer
-    k, n = freedom.normal.shape
     # Answers to common displacements, of which a combination takes a resultant away.
-    common = [answer(freedom.project(np.repeat(unit[:, None], n, axis=1))) for unit in np.eye(k)]
-    shares = np.linalg.pinv(np.array([z.sum(axis=1) for z in common]).T)
+    common = [answer(freedom.project(unit)) for unit in interface.units()]
+    shares = np.linalg.pinv(np.array([numbers(xp.sum(z, axis=1)) for z in common]).T)
 
     def without_resultant(r: Array) -> Array:
         z = answer(r)
-        for part, response in zip(shares @ z.sum(axis=1), common, strict=True):
-            z -= part * response
+        for part, response in zip(shares @ numbers(xp.sum(z, axis=1)), common, strict=True):
+            z -= float(part) * response
         return z
 
     return without_resultant

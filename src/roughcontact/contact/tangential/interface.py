@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.window import Box, bounding_box
+from roughcontact.arrays import beside, is_numpy, namespace
+from roughcontact.contact.tangential.selection import Selection
+from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear import ShearOperator
 from roughcontact.halfspace.shear_sums import DenseShear
@@ -32,11 +34,13 @@ class Interface:
     ----------
     operator : ShearOperator
         On the box that holds the cells, or on the cells alone.
-    region : bool array, shape of the operator's grid
-        The cells, in flat order.
+    exact : ShearOperator
+        The same without the error of its sum: what certifies. Most sums are exact themselves.
+    region : Selection
+        The cells on the operator's grid.
     basis : array, shape (k, 2)
         Unit vectors (x, y) of the k directions in which traction may act: both axes, or one direction.
-    contact : bool array
+    chosen : Selection
         The cells on the whole grid.
     floating : bool
         Whether they are all cells of a periodic grid, which a constant traction does not displace.
@@ -45,9 +49,10 @@ class Interface:
     """
 
     operator: ShearOperator
-    region: Mask
+    exact: ShearOperator
+    region: Selection
     basis: Array
-    contact: Mask
+    chosen: Selection
     floating: bool
     self_influence: float
 
@@ -56,17 +61,25 @@ class Interface:
         cls, operator: ShearOperator, contact: Mask, along: tuple[float, float] | None = None
     ) -> Interface:
         """Return the interface of the `contact` cells of a grid, at least one; one component `along` a direction."""
-        box = bounding_box(contact)
-        assert box is not None  # who comes here has asked
-        floating = bool(all(operator.grid.periodic) and contact.all())
+        floating = bool(all(operator.grid.periodic) and namespace(contact).all(contact))
         basis = np.eye(2) if along is None else np.array([along])
-        part, region = operator.restrict(box), contact[box]
-        if not floating and _few(region, box):
-            matrix = part.as_matrix(np.flatnonzero(region))
-            cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
-            part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
+        part, region = operator, contact
+        if is_numpy(contact):  # elsewhere it would cost a look at every side
+            box = bounding_box(contact)
+            assert box is not None  # who comes here has asked
+            part, region = operator.restrict(box), contact[box]
+            if not floating and _few(region):
+                matrix = part.as_matrix(np.flatnonzero(region))
+                cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
+                part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
         own = float(part.as_matrix(np.zeros(1, np.intp))[0, 0])
-        return cls(part, region, basis, contact, floating, own)
+        exact = getattr(part, "exact", None) or part
+        return cls(part, exact, Selection.of(region), basis, Selection.of(contact), floating, own)
+
+    @property
+    def contact(self) -> Mask:
+        """The cells on the whole grid, as a mask."""
+        return self.chosen.mask
 
     @property
     def area(self) -> float:
@@ -75,29 +88,54 @@ class Interface:
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] of the cells under a traction [Pa] on them."""
+        return self._through(self.exact.apply, traction)
+
+    def estimate(self, traction: Array) -> Array:
+        """Return the displacement by a sum that may be inexact: good enough to find a correction with."""
         return self._through(self.operator.apply, traction)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a traction [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
         return self._through(self.operator.approximate_inverse, displacement)
 
+    def zeros(self) -> Array:
+        """Return nothing on every cell."""
+        xp, mask = namespace(self.contact), self.contact
+        shape = (len(self.basis), self.chosen.count)
+        return xp.zeros(shape, dtype=xp.float64, device=mask.device)  # type: ignore[no-any-return]
+
+    def units(self) -> list[Array]:
+        """Return a unit in each direction, the same on every cell."""
+        return [self.zeros() + beside(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
+
     def take(self, field: Array) -> Array:
         """Return the components of a field of shape ``(2, ny, nx)`` on the cells."""
-        return np.asarray(self.basis @ field[:, self.contact])
+        return self._components(self.chosen.take(field))
 
     def embed(self, values: Array) -> Array:
         """Return values on the cells as a field of shape ``(2, ny, nx)``, zero outside the contact."""
-        field = np.zeros((2, *self.contact.shape))
-        field[:, self.contact] = self.basis.T @ values
-        return field
+        return self.chosen.embed(self._vectors(values))
 
     def _through(self, operation: Callable[[Array], Array], values: Array) -> Array:
-        field = np.zeros((2, *self.region.shape))
-        field[:, self.region] = self.basis.T @ values
-        return np.asarray(self.basis @ operation(field)[:, self.region])
+        field = operation(self.region.embed(self._vectors(values)))
+        return self._components(self.region.take(field))
+
+    def _vectors(self, values: Array) -> Array:
+        """Return components as vectors (x, y)."""
+        if len(self.basis) == 2:
+            return values
+        (x, y), xp = self.basis[0], namespace(values)
+        return xp.concat([float(x) * values, float(y) * values])  # type: ignore[no-any-return]
+
+    def _components(self, vectors: Array) -> Array:
+        """Return the components of vectors (x, y)."""
+        if len(self.basis) == 2:
+            return vectors
+        x, y = self.basis[0]
+        return float(x) * vectors[:1, :] + float(y) * vectors[1:, :]
 
 
-def _few(region: Mask, box: Box) -> bool:
+def _few(region: Mask) -> bool:
     count = int(region.sum())
     padded = 4 * region.size
     return count <= DENSE_LIMIT and count * count <= NUMBERS * padded

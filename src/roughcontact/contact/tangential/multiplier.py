@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import beside, namespace, numbers
+
 __all__ = ["common_displacement"]
 
 Array = npt.NDArray[np.float64]
 
 
 def common_displacement(level: Array, normal: Array, limit: Array, self_influence: float) -> Array:
-    """Return the displacement [m] that the free parts of `level` have in common, shape (k,).
+    """Return the displacement [m] that the free parts of `level` have in common, shape (k,), as NumPy's array.
 
     Parameters
     ----------
@@ -29,20 +31,24 @@ def common_displacement(level: Array, normal: Array, limit: Array, self_influenc
     The mean with the weights of the preconditioner: a cell that slips far under little traction follows any
     displacement, and says nothing about it.
     """
-    across = level - (level * normal).sum(axis=0) * normal
-    weight = np.ones(level.shape[1])
+    xp = namespace(level)
+
+    def forward_of(shift: Array) -> Array:
+        return xp.sum((level - beside(shift[:, None], level)) * normal, axis=0)  # type: ignore[no-any-return]
+
+    across = level - xp.sum(level * normal, axis=0) * normal
+    weight = xp.ones_like(limit)
     for _ in range(2):  # the weights take a first answer to know who slips how far
-        free = weight.sum() * np.eye(len(level)) - (weight * normal) @ normal.T
-        shift = np.linalg.lstsq(free, across @ weight, rcond=None)[0]
-        forward = ((level - shift[:, None]) * normal).sum(axis=0)
-        weight = 1 / (1 + np.maximum(-forward, 0.0) / (limit * self_influence))
-    if normal.any(axis=0).all() and (forward > 0).all():
+        free = float(xp.sum(weight)) * np.eye(level.shape[0]) - numbers((weight * normal) @ normal.T)
+        shift = np.asarray(np.linalg.lstsq(free, numbers(across @ weight), rcond=None)[0], np.float64)
+        forward = forward_of(shift)
+        weight = 1 / (1 + xp.clip(-forward, 0.0, None) / (limit * self_influence))
+    if bool(xp.all(xp.any(normal != 0, axis=0) & (forward > 0))):
         # All slip, and all the wrong way: what is free says too little. None slips forward from here on:
-        pull = normal @ limit
+        pull = numbers(normal @ limit)
         pull /= np.sqrt(pull @ pull)
-        leaning = pull @ normal
-        if (leaning > 0).all():
-            mean = level.mean(axis=1)
-            forward = ((level - mean[:, None]) * normal).sum(axis=0)
-            return np.asarray(mean + pull * (forward / leaning).max())
-    return np.asarray(shift)
+        leaning = beside(pull, normal) @ normal
+        if bool(xp.all(leaning > 0)):
+            mean = numbers(xp.mean(level, axis=1))
+            return np.asarray(mean + pull * float(xp.max(forward_of(mean) / leaning)))
+    return shift

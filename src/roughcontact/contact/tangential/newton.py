@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.status import Status
-from roughcontact.contact.tangential.coulomb import at_limit, directions
+from roughcontact.contact.tangential.descent import descended
 from roughcontact.contact.tangential.free import Freedom, corrected
-from roughcontact.contact.tangential.step import Slipped, Step
+from roughcontact.contact.tangential.step import Slipped, State, Step
 
 __all__ = ["SlipNewton"]
 
 REDUCTION = 0.1  # of the error by each linear solve: the next guess is another problem
-PATIENCE = 20  # iterations without a smaller residual, after which rounding or a cycle has the better of it
+FALL = 0.9  # of the residual, below its least, that an iteration must bring, lest it goes in circles
+PATIENCE = 20  # descents without a smaller residual or energy, after which rounding has the better of it
+ROUNDING = float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,48 +28,62 @@ class SlipNewton:
     The conditions of a step say that the energy ``q.Aq/2 - q.(slip + shift)`` is as low as tractions within their
     limits allow. An iteration solves for the traction of the cells that stick and the direction of that of those that
     slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, just as far as
-    the guess deserves; its end is projected on the limits. Nothing proves that this ends: a run without progress says
-    so.
+    the guess deserves; its end is projected on the limits.
+
+    Many cells that flip together act on each other over the whole contact, which no guess by cells sees: they go too
+    far, flip back, and so on. So an iteration that does not take the residual down counts as no more than a direction,
+    and the energy is made to fall: see `descended`. Since the residual can only halve so often, and falling energy
+    leads to the minimum, this ends at the answer.
     """
 
     max_steps: int = 5000
 
     def run(self, step: Step) -> Slipped:
         """Solve for the traction at the end of a step."""
-        interface, limit = step.interface, step.limit
-        q = step.admitted(step.traction)
-        u, fresh, steps = interface.apply(q), True, 1
-        best, idle = np.inf, 0
-        while True:
-            held = at_limit(q, limit)
-            normal = directions(q, held)
-            shift = step.shift_of(u, normal)
-            r = step.residual(q, u, shift)
-            if r <= step.tolerance and fresh:
-                return Slipped(q, u, shift, r, steps, Status.CONVERGED)
-            if r <= step.tolerance:  # the certificate stands on a product of the returned traction
-                u, fresh, steps = interface.apply(q), True, steps + 1
-                continue
-            idle = 0 if r < best else idle + 1
-            best = min(best, r)
-            if steps >= self.max_steps or idle > PATIENCE:
-                status = Status.MAX_STEPS if steps >= self.max_steps else Status.STAGNATED
-                u = interface.apply(q)
-                return Slipped(q, u, shift, step.residual(q, u, shift), steps + 1, status)
-            slipped = step.slipped(u, shift)
-            forward = (slipped * normal).sum(axis=0)
-            slips = held & (forward <= 0)
-            freedom = Freedom(
-                normal=np.where(slips, normal, 0.0),
-                turning=np.where(slips, -forward / limit, 0.0),
-                held=step.force is not None,
-            )
-            change = corrected(
-                interface, freedom, -slipped, reduction=REDUCTION, max_steps=self.max_steps - steps
-            )
-            aim, steps = q + change.traction, steps + change.steps
-            q = step.admitted(aim)
-            if np.array_equal(q, aim):
-                u, fresh = u + change.displacement, False
+        state, steps = step.state(step.admitted(step.traction)), 1
+        least, lowest, idle = state.residual, math.inf, 0
+        while not state.residual <= step.tolerance and steps < self.max_steps and idle <= PATIENCE:
+            trial, products = _guessed(step, state, self.max_steps - steps)
+            steps += products
+            if trial.residual <= step.tolerance:
+                trial, steps = _certified(step, trial, steps)
+            if trial.residual <= max(step.tolerance, FALL * least):
+                state, idle = trial, 0
             else:
-                u, fresh, steps = interface.apply(q), True, steps + 1
+                state, steps = _certified(step, state, steps)
+                trial, steps = _certified(step, trial, steps)
+                state, products = descended(step, state, trial)
+                steps += products
+                energy = step.energy(state)
+                idle = 0 if energy < lowest - ROUNDING * abs(energy) or state.residual < least else idle + 1
+                lowest = min(lowest, energy)
+            least = min(least, state.residual)
+        state, steps = _certified(step, state, steps)
+        if state.residual <= step.tolerance:
+            status = Status.CONVERGED
+        else:
+            status = Status.MAX_STEPS if steps >= self.max_steps else Status.STAGNATED
+        return Slipped(state.traction, state.displacement, state.shift, state.residual, steps, status)
+
+
+def _guessed(step: Step, state: State, max_steps: int) -> tuple[State, int]:
+    """Return where the guess leads that a state suggests, and the products it took."""
+    xp, q, interface = namespace(state.traction), state.traction, step.interface
+    forward = xp.sum(state.slipped * state.normal, axis=0)
+    slips = xp.any(state.normal != 0, axis=0) & (forward <= 0)
+    freedom = Freedom(
+        normal=xp.where(slips, state.normal, 0.0),
+        turning=xp.where(slips, -forward / step.limit, 0.0),
+        held=step.force is not None,
+    )
+    change = corrected(interface, freedom, -state.slipped, reduction=REDUCTION, max_steps=max_steps)
+    aim = q + change.traction
+    admitted = step.admitted(aim)
+    if bool(xp.all(admitted == aim)):
+        return step.state(admitted, state.displacement + change.displacement), change.steps
+    return step.state(admitted), change.steps + 1
+
+
+def _certified(step: Step, state: State, steps: int) -> tuple[State, int]:
+    """Return a state on a product of its own, and the products so far."""
+    return (state, steps) if state.exact else (step.state(state.traction), steps + 1)

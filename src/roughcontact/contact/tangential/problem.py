@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import namespace
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.tangential.interface import Interface
 from roughcontact.grid import AnyGrid
@@ -95,12 +96,13 @@ class SlipProblem:
     @property
     def limit(self) -> Array:
         """Largest traction of each cell in contact, mu p [Pa], in flat order."""
-        return np.asarray(self.friction * self.pressed.pressure[self.interface.contact])
+        pressure = namespace(self.pressed.pressure).expand_dims(self.pressed.pressure, axis=0)
+        return self.friction * self.interface.chosen.take(pressure)[0, :]
 
     @property
     def capacity(self) -> float:
         """Largest tangential force that friction can hold, mu P [N]."""
-        return float(self.limit.sum() * self.interface.area)
+        return float(namespace(self.pressed.pressure).sum(self.limit)) * self.interface.area
 
     def slides_under(self, load: Pull | Shift) -> bool:
         """Whether a force is all that friction can hold."""
@@ -143,7 +145,7 @@ def make_problem(
         raise ValueError(
             f"partial slip is that of a surface of two axes; this contact is that of a {kind.value}"
         )
-    if not pressed.contact.any():
+    if not bool(namespace(pressed.contact).any(pressed.contact)):
         raise ValueError("the bodies do not touch: nothing to pull at; press them first")
     modulus, stated = reduced_modulus(*_pair(bodies)), pressed.problem.modulus
     if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:

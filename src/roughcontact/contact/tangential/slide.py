@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import ConvergenceError, Status
 from roughcontact.contact.tangential.coulomb import lengths
@@ -46,6 +47,8 @@ def slide(
 ) -> TangentialSolution:
     """Pull at a pressed contact whose pressure is held, and return what sticks and what slips, with a certificate.
 
+    Done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of theirs.
+
     Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
     opposed to the traction at its end: exact where slip does not turn within the step, as from rest along a line, or
     back along it, for nu = 0; where it may turn, take more steps. (Cattaneo 1938, Mindlin 1949 for a sphere;
@@ -70,7 +73,8 @@ def slide(
         Let traction act in this direction (x, y) only, as the closed forms do, and leave out what moves the surfaces
         across it. Without, it may turn.
     operator : ShearOperator, optional
-        Another body than the half-spaces on the grid of the contact.
+        Another body than the half-spaces on the grid of the contact, or another way to sum them: see
+        `shear_half_space`.
     tolerance : float
         Largest residual.
 
@@ -99,12 +103,12 @@ def advance(
     problem: SlipProblem, load: Pull | Shift, initial: TangentialSolution | None = None
 ) -> TangentialSolution:
     """Return the state under a load, from an initial one or from rest; its status says whether it is good."""
-    interface, shape = problem.interface, (2, *problem.pressed.pressure.shape)
-    traction, slip = (
-        (np.zeros(shape), np.zeros(shape)) if initial is None else (initial.traction, initial.slip)
-    )
-    start, slipped = interface.take(traction), interface.take(slip)
-    moved = slipped if initial is None else slipped + (interface.basis @ initial.displacement)[:, None]
+    interface = problem.interface
+    if initial is None:
+        start = slipped = moved = interface.zeros()
+    else:
+        start, slipped = interface.take(initial.traction), interface.take(initial.slip)
+        moved = slipped + beside((interface.basis @ initial.displacement)[:, None], slipped)
     value = interface.basis @ np.array([load.x, load.y])
     step = Step(
         interface,
@@ -113,22 +117,23 @@ def advance(
         slipped,
         force=value if isinstance(load, Pull) else None,
         shift=value if isinstance(load, Shift) else None,
-        scale=float(lengths(moved).max()),
+        scale=float(namespace(moved).max(lengths(moved))),
         tolerance=problem.tolerance,
     )
     with one_blas_thread():
         found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
-    now = found.displacement - found.shift[:, None]
+    now = found.displacement - beside(found.shift[:, None], found.displacement)
     fields = [interface.embed(found.traction), interface.embed(now)]
     for field in fields:
-        field.flags.writeable = False
+        if is_numpy(field):
+            field.flags.writeable = False
     return TangentialSolution(
         problem,
         load,
         fields[0],
         interface.basis.T @ found.shift,
         fields[1],
-        -float(np.vdot(found.traction, now - slipped)) * interface.area,
+        -inner(found.traction, now - slipped) * interface.area,
         found.status,
         found.residual,
         found.steps,
@@ -141,11 +146,11 @@ def _slid(step: Step, force: Array) -> Slipped:
     The bodies move on along it, which turns the slip of every cell into that direction: what counts is that none slips
     backwards.
     """
-    direction = force / np.sqrt(force @ force)
-    q = step.limit * direction[:, None]
+    direction, xp = force / np.sqrt(force @ force), namespace(step.limit)
+    q = step.limit * beside(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
-    along = direction @ level
-    shift = level.mean(axis=1)
-    shift += (along.max() - direction @ shift) * direction
+    along = beside(direction, level) @ level
+    shift = numbers(xp.mean(level, axis=1))
+    shift += (float(xp.max(along)) - direction @ shift) * direction
     return Slipped(q, u, shift, 0.0, 1, Status.CONVERGED)

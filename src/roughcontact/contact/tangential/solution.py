@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.contact.status import Status
 from roughcontact.contact.tangential.coulomb import at_limit
+from roughcontact.contact.tangential.interface import Interface
 from roughcontact.contact.tangential.problem import Pull, Shift, SlipProblem
 from roughcontact.contact.tangential.stiffness import TangentialStiffness, frozen_shear
 from roughcontact.halfspace.shear import dundurs_parameter
 from roughcontact.material import Solid
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["TangentialSolution"]
 
@@ -27,8 +33,8 @@ UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
 class TangentialSolution:
     """A traction, the displacement of the bodies, and a certificate; the rest is computed when asked for.
 
-    Fields have shape ``(2, ny, nx)``: x component, then y component. Traction, force and displacement are those
-    that body 2 forces upon body 1.
+    Fields have shape ``(2, ny, nx)``: x component, then y component; they live where the pressure does. Vectors that
+    belong to no cell are NumPy's. Traction, force and displacement are those that body 2 forces upon body 1.
 
     Attributes
     ----------
@@ -68,15 +74,15 @@ class TangentialSolution:
     @property
     def force(self) -> Array:
         """Tangential force [N], shape (2,)."""
-        return np.asarray(self._on_cells(self.traction).sum(axis=1) * self.problem.interface.area)
+        traction = self._on_cells(self.traction)
+        return numbers(namespace(traction).sum(traction, axis=1)) * self.problem.interface.area
 
     @cached_property
     def slipping(self) -> Mask:
         """Mask of the cells in contact whose traction is all that friction holds."""
-        mask = np.zeros(self.problem.interface.contact.shape, dtype=bool)
-        traction = self.problem.interface.take(self.traction)
-        mask[self.problem.interface.contact] = at_limit(traction, self.problem.limit)
-        return mask
+        interface = self.problem.interface
+        held = at_limit(interface.take(self.traction), self.problem.limit)
+        return interface.chosen.embed(held[None, :])[0, ...]
 
     @property
     def sticking(self) -> Mask:
@@ -86,24 +92,24 @@ class TangentialSolution:
     @property
     def stick_area(self) -> float:
         """Area of the cells that hold [m^2]."""
-        return float(self.sticking.sum() * self.problem.interface.area)
+        return _count(self.sticking) * self.problem.interface.area
 
     @property
     def slip_area(self) -> float:
         """Area of the cells that slip [m^2]."""
-        return float(self.slipping.sum() * self.problem.interface.area)
+        return _count(self.slipping) * self.problem.interface.area
 
     @property
     def sliding(self) -> bool:
         """Whether every cell slips."""
-        return not self.sticking.any()
+        return _count(self.sticking) == 0
 
     @cached_property
     def elastic_energy(self) -> float:
         """Elastic energy of the tangential displacement [J]: half the traction times it."""
         traction = self._on_cells(self.traction)
-        displaced = self._on_cells(self.slip) + self.displacement[:, None]
-        return 0.5 * float(np.vdot(traction, displaced)) * self.problem.interface.area
+        displaced = self._on_cells(self.slip) + beside(self.displacement[:, None], traction)
+        return 0.5 * inner(traction, displaced) * self.problem.interface.area
 
     @cached_property
     def frozen(self) -> TangentialStiffness:
@@ -114,6 +120,15 @@ class TangentialSolution:
     def stiffness(self) -> Array:
         """Tangential stiffness dQ/d(displacement) of the cells that hold [N/m], shape (2, 2)."""
         return self.frozen.matrix
+
+    def on_host(self) -> TangentialSolution:
+        """Return the same solution in NumPy's memory."""
+        if is_numpy(self.traction):
+            return self
+        problem, pressed = self.problem, self.problem.pressed.on_host()
+        interface = Interface.of(problem.operator, pressed.contact, problem.along)
+        there = replace(problem, pressed=pressed, interface=interface)
+        return replace(self, problem=there, traction=on_host(self.traction), slip=on_host(self.slip))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -137,11 +152,27 @@ class TangentialSolution:
     def __repr__(self) -> str:
         """Say what was found, not the fields."""
         (qx, qy), (x, y) = self.force, self.displacement
-        slips, cells = int(self.slipping.sum()), int(self.problem.interface.contact.sum())
+        slips, cells = _count(self.slipping), self.problem.interface.chosen.count
         return (
             f"TangentialSolution({self.status.value}, force ({qx:.4g}, {qy:.4g}) N, displacement ({x:.4g}, {y:.4g}) m, "
             f"{slips} of {cells} cells slip, residual {self.residual:.1e})"
         )
 
+    def to_dataset(self) -> xarray.Dataset:
+        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        from roughcontact.contact.tangential.dataset import tangential_dataset
+
+        return tangential_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON."""
+        from roughcontact.contact.tangential.dataset import tangential_record
+
+        return tangential_record(self)
+
     def _on_cells(self, field: Array) -> Array:
-        return field[:, self.problem.interface.contact]
+        return self.problem.interface.chosen.take(field)
+
+
+def _count(mask: Mask) -> int:
+    return int(namespace(mask).count_nonzero(mask))

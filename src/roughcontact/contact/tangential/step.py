@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import beside, inner, namespace, numbers
 from roughcontact.contact.optimality import UNITS
 from roughcontact.contact.status import Status
-from roughcontact.contact.tangential.coulomb import lengths, under_force, violations, within
+from roughcontact.contact.tangential.coulomb import (
+    at_limit,
+    directions,
+    lengths,
+    under_force,
+    violations,
+    within,
+)
 from roughcontact.contact.tangential.interface import Interface
 from roughcontact.contact.tangential.multiplier import common_displacement
 
-__all__ = ["Slipped", "Step"]
+__all__ = ["Slipped", "State", "Step"]
 
 Array = npt.NDArray[np.float64]
 
@@ -29,7 +38,7 @@ class Step:
         Largest traction of each cell [Pa].
     traction, slip : array, shape (k, n)
         Where the step starts [Pa], and how far the cells have slipped until then [m].
-    force, shift : array, shape (k,), or None
+    force, shift : NumPy array, shape (k,), or None
         One of them: the force [N] or the displacement of the bodies [m] at the end of the step.
     scale : float
         Largest displacement of a cell at the start [m].
@@ -45,6 +54,22 @@ class Step:
     shift: Array | None
     scale: float
     tolerance: float
+
+    def state(self, traction: Array, displacement: Array | None = None) -> State:
+        """Return the state of a traction that friction can hold; its exact displacement is found if none is given."""
+        moved = self.interface.apply(traction) if displacement is None else displacement
+        normal = directions(traction, at_limit(traction, self.limit))
+        shift = self.shift_of(moved, normal)
+        slipped = self.slipped(moved, shift)
+        residual = self.residual(traction, moved, slipped)
+        return State(traction, moved, displacement is None, normal, shift, slipped, residual)
+
+    def energy(self, state: State) -> float:
+        """Return what is lowest at the end of the step [J per area of a cell]."""
+        stored = inner(state.traction, state.displacement / 2 - self.slip)
+        if self.shift is None:  # the work of a given force is the same for all tractions that add up to it
+            return stored
+        return stored - float(self.shift @ numbers(namespace(state.traction).sum(state.traction, axis=1)))
 
     def admitted(self, traction: Array) -> Array:
         """Return the nearest traction that friction can hold, under the force if one is given."""
@@ -64,21 +89,51 @@ class Step:
 
     def slipped(self, displacement: Array, shift: Array) -> Array:
         """Return the slip of the step [m]."""
-        return displacement - shift[:, None] - self.slip
+        moved: Array = displacement - beside(shift[:, None], displacement)
+        return moved - self.slip
 
-    def residual(self, traction: Array, displacement: Array, shift: Array) -> float:
+    def residual(self, traction: Array, displacement: Array, slipped: Array) -> float:
         """Return the largest violation of Coulomb's law relative to the largest displacement of the step.
 
         What is rounding of what the largest traction does in its own cell counts as no more: uniform traction on all
         cells of a period moves nothing, and there all is rounding.
         """
-        violation = float(violations(traction, self.limit, self.slipped(displacement, shift)).max())
+        xp = namespace(traction)
+        violation = float(xp.max(violations(traction, self.limit, slipped)))
         if violation == 0:
             return 0.0
-        scale = max(self.scale, float(lengths(displacement).max()))
-        relative = violation / scale if scale > 0 else np.inf
-        rounding = UNITS * self.interface.self_influence * float(lengths(traction).max())
+        scale = max(self.scale, float(xp.max(lengths(displacement))))
+        relative = violation / scale if scale > 0 else math.inf
+        rounding = UNITS * self.interface.self_influence * float(xp.max(lengths(traction)))
         return min(relative, UNITS) if violation <= rounding else relative
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A traction that friction can hold, and how far it is from the end of the step.
+
+    Parameters
+    ----------
+    traction, displacement : array, shape (k, n)
+        Of the cells [Pa], [m].
+    exact : bool
+        Whether the displacement is the exact product of this very traction: what a certificate stands on.
+    normal : array, shape (k, n)
+        Unit vectors of the traction in cells at their limit, zero elsewhere.
+    shift : NumPy array, shape (k,)
+        Displacement of the bodies [m].
+    slipped : array, shape (k, n)
+        Slip of the step [m], which is the slope of the energy.
+    residual : float
+    """
+
+    traction: Array
+    displacement: Array
+    exact: bool
+    normal: Array
+    shift: Array
+    slipped: Array
+    residual: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)

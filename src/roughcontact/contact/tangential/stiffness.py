@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import inner, is_array, is_numpy, namespace
 from roughcontact.contact.tangential.free import Freedom, corrected
 from roughcontact.contact.tangential.interface import Interface
 from roughcontact.contact.tangential.problem import Bodies, shear_body
@@ -65,7 +66,8 @@ def tangential_stiffness(
     Parameters
     ----------
     region : bool array, shape ``grid.shape``
-        The cells in contact, for instance ``solution.contact``.
+        The cells in contact, for instance ``solution.contact``. On arrays of other libraries the work is done where
+        they live.
     grid : Grid
         Of two axes, free or periodic.
     bodies : Solid or pair of Solids
@@ -83,9 +85,13 @@ def tangential_stiffness(
         If the tolerance was not reached.
     """
     body = shear_body(grid, bodies, operator)
-    cells = np.asarray(region, dtype=bool)
-    if cells.shape != grid.shape:
-        raise ValueError(f"a region of shape {cells.shape} does not fit the grid of shape {grid.shape}")
+    cells = region if is_array(region) and not is_numpy(region) else np.asarray(region, dtype=bool)
+    if tuple(cells.shape) != grid.shape:
+        raise ValueError(
+            f"a region of shape {tuple(cells.shape)} does not fit the grid of shape {grid.shape}"
+        )
+    xp = namespace(cells)
+    cells = xp.astype(cells, xp.bool)
     frozen = frozen_shear(body, cells, tolerance=tolerance)
     if not frozen.residual <= tolerance:
         raise RuntimeError(
@@ -98,37 +104,37 @@ def frozen_shear(
     operator: ShearOperator, region: Mask, *, tolerance: float = TOLERANCE
 ) -> TangentialStiffness:
     """Return what `tangential_stiffness` does, with whatever residual was reached."""
-    if not region.any():
+    if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
     interface = Interface.of(operator, region)
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
+    xp = namespace(region)
     with one_blas_thread():
-        answers = [_displaced(interface, unit, tolerance) for unit in np.eye(2)]
+        answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
     # By what the errors are to the tractions, the matrix is good to the product of two errors, beside the diagonal too.
     matrix = np.array(
         [
-            [traction[of].sum() + np.vdot(other, error) for of, (other, _) in enumerate(answers)]
+            [float(xp.sum(traction[of, :])) + inner(other, error) for of, (other, _) in enumerate(answers)]
             for traction, error in answers
         ]
     )
-    residual = max(float(np.abs(error).max()) for _, error in answers)
+    residual = max(float(xp.max(xp.abs(error))) for _, error in answers)
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: Interface, unit: Array, tolerance: float) -> tuple[Array, Array]:
-    """Return the traction that displaces all cells by `unit`, and its errors on a product of its own."""
-    count = int(interface.region.sum())
-    sticks = Freedom(np.zeros((2, count)), np.zeros(count), held=False)
-    wanted = np.repeat(unit[:, None], count, axis=1)
-    traction, error, worst, steps = np.zeros((2, count)), wanted, 1.0, 0
+def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+    """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
+    xp, traction = namespace(wanted), interface.zeros()
+    sticks = Freedom(traction, traction[0, :], held=False)
+    error, worst, steps = wanted, 1.0, 0
     while worst > tolerance and steps < MAX_STEPS:
         found = corrected(
             interface, sticks, error, reduction=0.1 * tolerance / worst, max_steps=MAX_STEPS - steps
         )
         traction = traction + found.traction
         error = wanted - interface.apply(traction)
-        before, worst, steps = worst, float(np.abs(error).max()), steps + found.steps + 1
+        before, worst, steps = worst, float(xp.max(xp.abs(error))), steps + found.steps + 1
         if worst > 0.9 * before:  # rounding allows no more
             break
     return traction, error
