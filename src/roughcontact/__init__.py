@@ -100,6 +100,7 @@ _ROOMS = {
     "PowerLaw": "contact.curve",
     "read": "files.read",
     "read_line": "files.read",
+    "read_curve": "files.read_curve",
     "write": "files.save",
     "WriteError": "files.aside",
     "SurfaceWarning": "files.errors",
@@ -107,12 +108,13 @@ _ROOMS = {
 }
 
 # Public names that are modules themselves.
-_MODULES = {"shapes": "surface.shapes", "theory": "theory", "mdr": "mdr"}
+_MODULES = {"shapes": "surface.shapes", "theory": "theory", "mdr": "mdr", "study": "study"}
 
 __all__ = ["__version__", *_ROOMS, *_MODULES]
 
 if TYPE_CHECKING:
     from roughcontact import mdr as mdr
+    from roughcontact import study as study
     from roughcontact import theory as theory
     from roughcontact.contact.active_set import ActiveSet as ActiveSet
     from roughcontact.contact.below import StressPeak as StressPeak
@@ -150,6 +152,7 @@ if TYPE_CHECKING:
     from roughcontact.files.errors import SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read
     from roughcontact.files.read import read_line as read_line
+    from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
     from roughcontact.grid import Grid as Grid
     from roughcontact.grid import RadialGrid as RadialGrid

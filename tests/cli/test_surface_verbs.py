@@ -1,4 +1,4 @@
-"""The verbs ``surface spectrum``, ``surface prepare`` and ``thesis``."""
+"""The verbs ``surface spectrum`` and ``surface prepare``."""
 
 import json
 
@@ -270,30 +270,3 @@ def test_prepare_neither_overwrites_what_was_measured_nor_writes_what_it_cannot(
     answer = invoke("surface", "prepare", free[0], tmp_path / "out.csv")
     assert answer.exit_code == 2
     assert "written as one of .npz, .nc, .x3p, .txt, .npy, .vti" in answer.stderr
-
-
-def test_thesis_lists_its_figures(invoke):
-    answer = invoke("thesis", "list")
-    assert answer.exit_code == 0
-    names = [line.split()[0] for line in answer.stdout.splitlines()]
-    assert names == ["fig4", "fig5", "fig6", "fig7", "fig14", "fig34"]
-
-
-def test_thesis_writes_a_figure_and_says_what_was_chosen(invoke, tmp_path):
-    answer = invoke("thesis", "fig4", "--out", tmp_path / "figures", "--seed", "5")
-    assert answer.exit_code == 0, answer.stderr
-    path = tmp_path / "figures" / "fig4.png"
-    assert path.read_bytes().startswith(b"\x89PNG")
-    assert str(path) in answer.stdout
-    assert "H = 0.8" in answer.stdout
-    assert answer.stdout.rstrip().endswith("5")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"), [(("fig99",), "no figure 'fig99'"), (("fig4", "--seed", "x"), "no seed")]
-)
-def test_thesis_refuses_what_it_does_not_know(invoke, tmp_path, arguments, words):
-    answer = invoke("thesis", *arguments, "--out", tmp_path / "new")
-    assert answer.exit_code == 2
-    assert words in answer.stderr
-    assert not (tmp_path / "new").exists()

@@ -13,7 +13,7 @@ from roughcontact.thesis.figures import FIGURES, figure, module
 def test_every_figure_says_what_it_is_and_what_is_chosen():
     for name in FIGURES:
         found = module(name)
-        assert found.__name__ == f"roughcontact.thesis.{name}"
+        assert found.__name__ == f"roughcontact.thesis.{name.replace('-', '_')}"
         assert found.TITLE
         assert found.CHOSEN
         assert all(found.CHOSEN)

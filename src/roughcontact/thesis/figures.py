@@ -1,34 +1,88 @@
-"""Which figures of the thesis there are, and the module of each."""
+"""Which figures of the thesis there are, and the module of each.
+
+A module named ``fig`` and a number is a figure of the thesis, one named ``outlook_`` and a word answers a question that its
+outlook asks. A simple one computes what it draws from a seed, in seconds. That of
+an ensemble names studies, averages what they export, and draws the averages.
+"""
 
 from __future__ import annotations
 
+import pkgutil
+import re
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, cast
+
+import roughcontact.thesis
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.figure import Figure
 
-__all__ = ["FIGURES", "FigureModule", "figure", "module"]
+    from roughcontact.study.study import Study
+    from roughcontact.thesis.verdict import Verdict
 
-FIGURES = {name: f"roughcontact.thesis.{name}" for name in ("fig4", "fig5", "fig6", "fig7", "fig14", "fig34")}
+__all__ = [
+    "FIGURES",
+    "EnsembleFigure",
+    "FigureModule",
+    "Scale",
+    "SimpleFigure",
+    "drawn",
+    "figure",
+    "is_ensemble",
+    "module",
+    "verdicts",
+]
+
+Scale = Literal["small", "thesis"]
+"""How large the ensembles are: two minutes on two cores at most, or the counts of the thesis."""
+
+_FIGURE = re.compile(r"fig(\d+)|outlook_[a-z]+")
+
+
+def _figures() -> dict[str, str]:
+    """Return the modules of all figures by the names that users give them, those with numbers first."""
+    found = filter(
+        None, (_FIGURE.fullmatch(m.name) for m in pkgutil.iter_modules(roughcontact.thesis.__path__))
+    )
+    ordered = sorted(found, key=lambda match: (int(match[1] or 1000), match[0]))
+    return {match[0].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
+
+
+FIGURES = _figures()
 
 
 class FigureModule(Protocol):
-    """What the module of a figure holds."""
+    """What the module of every figure holds. It may also hold `verdicts`, see the function of this name."""
 
     TITLE: str
     CHOSEN: tuple[str, ...]  # what the thesis leaves open, and what is taken here
-    SEED: int
     SIZE: tuple[float, float]  # of the picture [inches]
-
-    def case(self, seed: int = ...) -> Any:
-        """Return what is drawn: the same for the same seed."""
 
     def draw(self, figure: Figure, data: Any) -> None:
         """Draw it."""
 
 
-def module(name: str) -> FigureModule:
+class SimpleFigure(FigureModule, Protocol):
+    """What the module of a figure holds that is computed from a seed."""
+
+    SEED: int
+
+    def case(self, seed: int = ...) -> Any:
+        """Return what is drawn: the same for the same seed."""
+
+
+class EnsembleFigure(FigureModule, Protocol):
+    """What the module of a figure holds that stands on studies."""
+
+    def studies(self, scale: Scale) -> tuple[Study, ...]:
+        """Return the studies; those that figures share have one name and are run once."""
+
+    def averages(self, *datasets: xarray.Dataset) -> xarray.Dataset:
+        """Return what is drawn, small, from what the studies export, in their order."""
+
+
+def module(name: str) -> SimpleFigure | EnsembleFigure:
     """Return the module of the figure `name`.
 
     Raises
@@ -38,14 +92,41 @@ def module(name: str) -> FigureModule:
     """
     if name not in FIGURES:
         raise ValueError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}")
-    return cast("FigureModule", import_module(FIGURES[name]))
+    return cast("SimpleFigure | EnsembleFigure", import_module(FIGURES[name]))
+
+
+def is_ensemble(found: SimpleFigure | EnsembleFigure) -> TypeGuard[EnsembleFigure]:
+    """Return whether a figure stands on studies."""
+    return hasattr(found, "studies")
+
+
+def drawn(found: FigureModule, data: Any) -> Figure:
+    """Return the picture of what a figure shows."""
+    from matplotlib.figure import Figure
+
+    picture = Figure(figsize=found.SIZE, layout="constrained")
+    found.draw(picture, data)
+    return picture
+
+
+def verdicts(found: FigureModule, data: Any) -> tuple[Verdict, ...]:
+    """Return what a figure shows beside what the thesis says; empty where the text holds no number."""
+    judge = getattr(found, "verdicts", None)
+    return () if judge is None else tuple(judge(data))
 
 
 def figure(name: str, seed: int | None = None) -> Figure:
-    """Return the figure `name`, computed and drawn."""
-    from matplotlib.figure import Figure
+    """Return the simple figure `name`, computed and drawn.
 
+    Raises
+    ------
+    ValueError
+        If there is no such figure, or it stands on studies: see `roughcontact.thesis.ensembles.averages_of`.
+    """
     found = module(name)
-    drawn = Figure(figsize=found.SIZE, layout="constrained")
-    found.draw(drawn, found.case(found.SEED if seed is None else seed))
-    return drawn
+    if is_ensemble(found):
+        raise ValueError(
+            f"{name} stands on an ensemble: compute it with averages_of, or 'roughcontact thesis {name}'"
+        )
+    simple = cast("SimpleFigure", found)
+    return drawn(simple, simple.case(simple.SEED if seed is None else seed))

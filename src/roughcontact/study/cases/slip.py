@@ -11,6 +11,7 @@ from roughcontact.contact.labelled import variable, words
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import Status
+from roughcontact.contact.stiffness import cell_stiffness
 from roughcontact.contact.tangential.curve import SlipCurve, slide_curve
 from roughcontact.contact.tangential.stiffness import tangential_stiffness
 from roughcontact.material import Solid
@@ -141,7 +142,7 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
             "status": variable(
                 "status", ("load",), words(_ended(*pair) for pair in zip(points, pulls, strict=True))
             ),
-            "cell_stiffness": variable("cell_stiffness", (), _cell(points[0])),
+            "cell_stiffness": variable("cell_stiffness", (), cell_stiffness(points[0].problem.operator)),
         }
     )
     return record.assign_attrs(title="rough contacts pulled sideways until they slide")
@@ -154,12 +155,6 @@ def _worst(pressed: Solution, pulled: SlipCurve) -> float:
 def _ended(pressed: Solution, pulled: SlipCurve) -> Status:
     """Return how a load ended: well, if the pressure and all tractions did."""
     return next((each for each in (pressed.status, *pulled.status) if not each.converged), pressed.status)
-
-
-def _cell(pressed: Solution) -> float:
-    from roughcontact.contact.stiffness import cell_stiffness
-
-    return cell_stiffness(pressed.problem.operator)
 
 
 CASE = Case("slip", 1, SlipParameters, run)

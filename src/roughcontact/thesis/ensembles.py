@@ -1,0 +1,192 @@
+"""The rough surfaces that figures 18, 21, 26 to 28, 30 and 37 stand on, run once for all of them.
+
+The counts are the thesis' own where it states them. Lengths and moduli are without meaning: all answers go with
+E* h L and E* L.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.contact.status import Status
+from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.study.common import on_common
+from roughcontact.study.fit import fit_power_laws
+from roughcontact.study.ranges import Range
+from roughcontact.study.statistics import count, mean, scatter, standard_error
+from roughcontact.study.study import Study
+from roughcontact.study.window import Window, window_of
+from roughcontact.thesis.line_ensembles import line_averages, line_fits
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.contact.ensemble_mean import Mean
+    from roughcontact.thesis.figures import Scale
+
+__all__ = [
+    "HURST",
+    "coarse_square_study",
+    "curve_averages",
+    "curve_fits",
+    "laws",
+    "resolution_studies",
+    "saturation_study",
+    "sphere_study",
+    "square_study",
+    "stiffness_at",
+    "without_parameters",
+]
+
+HURST = Range(start=-0.5, stop=2.95, count=24)
+_FEW_HURST = Range(start=-0.5, stop=2.8, count=12)  # every other one
+LOW_HURST = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.2)
+RADIUS, SPHERE_HURST, SPHERE_RMS = 0.5, 0.7, 9e-3  # of figure 37, over the side
+FORCES = (1e-6, 1e-2)  # of figure 37, over E* L^2
+SEED = 1
+_RMS = 0.01  # over the side
+_LAWS = (
+    *("exponent", "exponent_error", "exponent_low", "exponent_high"),
+    *("prefactor", "prefactor_error", "prefactor_low", "prefactor_high"),
+    *("correlation", "misfit", "window_low", "window_high", "count", "samples"),
+)
+
+
+def square_study(scale: Scale) -> Study:
+    """Return the study of figures 18, 27, 28 and 30: stiffness against force for all Hurst exponents."""
+    if scale == "thesis":
+        return _study("squares", 50, {"points": 513, "loads": 100}, {"hurst": HURST})
+    return _study("squares-small", 10, {"points": 257, "loads": 50}, {"hurst": _FEW_HURST})
+
+
+def coarse_square_study(scale: Scale) -> Study:
+    """Return the same study on half as many cells a side, for curves; exponents want more."""
+    if scale == "thesis":
+        return _study("squares-257", 50, {"points": 257, "loads": 100}, {"hurst": HURST})
+    return _study("squares-small-129", 10, {"points": 129, "loads": 50}, {"hurst": _FEW_HURST})
+
+
+def saturation_study(scale: Scale) -> Study:
+    """Return the study of figure 21: from the first cells to full contact, fractal dimensions 2 to 3."""
+    table = {"hurst": Range(start=0.0, stop=1.0, step=0.2)}
+    forces = {"lowest_force": 1e-4, "highest_force": 300.0, "loads": 27, "tolerance": 1e-6}
+    if scale == "thesis":
+        return _study("saturation", 3, forces | {"points": 1025}, table)
+    return _study("saturation-small", 6, forces | {"points": 129}, table)
+
+
+def resolution_studies(scale: Scale) -> tuple[Study, ...]:
+    """Return the studies of figure 26: low Hurst exponents on several numbers of cells."""
+    forces = {"lowest_force": 1e-3, "loads": 40}
+    if scale == "thesis":
+        counts = {257: 500, 513: 500, 1025: 200}
+        name = "resolution"
+    else:
+        counts = {257: 20, 513: 20}
+        name = "resolution-small"
+    return tuple(
+        _study(f"{name}-{points}", samples, forces | {"points": points}, {"hurst": LOW_HURST})
+        for points, samples in counts.items()
+    )
+
+
+def sphere_study(scale: Scale) -> Study:
+    """Return the study of figure 37: a paraboloid with roughness."""
+    parameters = {
+        "hurst": SPHERE_HURST,
+        "rms": SPHERE_RMS,
+        "radius": RADIUS,
+        "lowest_force": FORCES[0] / SPHERE_RMS,
+        "highest_force": FORCES[1] / SPHERE_RMS,
+        "loads": 33,
+    }
+    if scale == "thesis":
+        return _study("rough-sphere", 50, parameters | {"points": 513}, {})
+    return _study("rough-sphere-small", 20, parameters | {"points": 257}, {})
+
+
+def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return the mean stiffness of surfaces, its standard error and its scatter, along what varies and the load.
+
+    Loads that missed their tolerance have no part in it. ``resolved`` says where the mean stiffness is above 20 cells
+    and below 90 % of saturation. The attributes ``cells`` and ``surfaces`` count cells a side and samples.
+    """
+    import xarray
+
+    met = exported["status"].isin([status.value for status in Status if status.converged])
+    stiffness = exported["dimensionless_stiffness"].where(met)
+    means = mean(stiffness)
+    low, high = window_of(exported, ("sample",), "load").stiffness
+    found = {
+        "force": exported["dimensionless_force"],
+        "stiffness": means,
+        "stiffness_error": standard_error(stiffness),
+        "scatter": scatter(stiffness),
+        "samples": count(stiffness),
+        "resolved": (means > low) & (means < high),
+    }
+    for name, values, words in (
+        ("cell_stiffness", low / CELLS, "k/(E* L) of one cell"),
+        ("saturation", high / SATURATED, "k/(E* L) of all cells"),
+    ):
+        found[name] = values.assign_attrs(long_name=words, units="1")
+    return xarray.Dataset(
+        found, attrs={"cells": int(exported["points"]), "surfaces": int(found["samples"].max())}
+    )
+
+
+def curve_fits(
+    exported: xarray.Dataset, *, window: Window | None = None, mean: Mean = "arithmetic"
+) -> xarray.Dataset:
+    """Return the power laws of the mean stiffness of surfaces, with intervals; see `fit_power_laws`."""
+    return fit_power_laws(exported, window, rng=np.random.default_rng(0), mean=mean)
+
+
+def stiffness_at(averages: xarray.Dataset, force: Sequence[float]) -> xarray.Dataset:
+    """Return averages at given forces F/(E* h L), the dimension ``force``, between their loads in logarithms.
+
+    Parameters
+    ----------
+    averages : Dataset
+        Of `curve_averages`, or of lines.
+    force : sequence of float
+        Where they were not computed the answer is NaN.
+    """
+    return on_common(averages, force, at="force")
+
+
+def laws(squares: xarray.Dataset, lines: xarray.Dataset) -> xarray.Dataset:
+    """Return what figures 27 and 28 show: power laws of rough surfaces and, named ``line_...``, of rough lines.
+
+    Parameters
+    ----------
+    squares, lines : Dataset
+        What `square_study` and the study of lines export.
+
+    Returns
+    -------
+    Dataset
+        Along ``hurst``, the lines also along ``points``; NaN where only the others were computed.
+    """
+    import xarray
+
+    surfaces = without_parameters(curve_fits(squares)[list(_LAWS)])
+    reduced = without_parameters(line_fits(lines)[list(_LAWS)].rename({n: f"line_{n}" for n in _LAWS}))
+    found = xarray.merge([surfaces, reduced], join="outer", combine_attrs="drop")
+    return found.assign_attrs(curve_averages(squares).attrs | {"lines": line_averages(lines).attrs["lines"]})
+
+
+def without_parameters(averages: xarray.Dataset) -> xarray.Dataset:
+    """Return averages without the parameters that do not vary, in which surfaces and lines differ."""
+    return averages.drop_vars([name for name in averages.coords if name not in averages.dims])
+
+
+def _study(name: str, samples: int, parameters: dict[str, Any], table: dict[str, Any]) -> Study:
+    """Return a study of the case ``curve``."""
+    common = {"size": 1.0, "modulus": 1.0, "rms": _RMS}
+    return Study(
+        name=name, case="curve", seed=SEED, samples=samples, parameters=common | parameters, table=table
+    )

@@ -1,0 +1,154 @@
+"""The rough lines that figures 18, 23 and 27 to 30 stand on, run once for all of them, and what they say together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.contact.ensemble_mean import Mean
+from roughcontact.study import statistics
+from roughcontact.study.fit import fit_power_laws
+from roughcontact.study.ranges import Range
+from roughcontact.study.study import Study
+from roughcontact.study.window import Window, resolved_window
+from roughcontact.theory import gaussian_heights
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.thesis.figures import Scale
+
+__all__ = [
+    "HURST",
+    "POINTS",
+    "each_line",
+    "line_averages",
+    "line_fits",
+    "line_studies",
+    "line_study",
+    "resolution_exponent",
+    "white_exponent",
+]
+
+HURST = Range(start=-0.95, stop=2.95, step=0.15)  # from -0.5 on the 24 values of the boundary elements
+POINTS = (2**9, 2**11, 2**13)
+LINES = 50  # a sample
+
+
+def line_studies(scale: Scale) -> tuple[Study, ...]:
+    """Return the one study of rough lines: 27 Hurst exponents, three numbers of points, 1000 lines of each."""
+    return (line_study("lines", scale, table={"points": POINTS, "hurst": HURST}),)
+
+
+def line_study(
+    name: str,
+    scale: Scale,
+    *,
+    table: Mapping[str, Range | Sequence[float]],
+    parameters: Mapping[str, float] | None = None,
+    lines: int = 1000,
+) -> Study:
+    """Return a study of rough lines: that many of every combination, on the small scale a fifth."""
+    if scale == "small":
+        name, lines = f"{name}-small", lines // 5
+    return Study(
+        name=name,
+        case="lines",
+        samples=lines // LINES,
+        parameters={"lines": LINES} | dict(parameters or {}),
+        table=dict[str, Any](table),
+    )
+
+
+def each_line(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return what a study of lines exports with every line as a sample, as the statistics of a study want it."""
+    import xarray
+
+    stacked = exported["dimensionless_stiffness"].stack(one=("sample", "line"))
+    lines = stacked.drop_vars(["one", "sample", "line"]).rename(one="sample")
+    return xarray.Dataset(
+        {"dimensionless_force": exported["dimensionless_force"], "dimensionless_stiffness": lines}
+    )
+
+
+def line_averages(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return the mean stiffness of lines, its standard error and its scatter at every force.
+
+    Parameters
+    ----------
+    exported : Dataset
+        Of `line_studies`, or of another `line_study`.
+
+    Returns
+    -------
+    Dataset
+        ``force`` F/(E* h L) along ``load``; ``stiffness`` k/(E* L), ``stiffness_error`` and ``scatter`` along ``load``
+        and what varies in the study. How many lines there are is an attribute.
+    """
+    import xarray
+
+    lines = each_line(exported)
+    stiffness = lines["dimensionless_stiffness"]
+    averaged = xarray.Dataset(
+        {
+            "force": lines["dimensionless_force"],
+            "stiffness": statistics.mean(stiffness),
+            "stiffness_error": statistics.standard_error(stiffness),
+            "scatter": statistics.scatter(stiffness),
+        }
+    )
+    return averaged.assign_attrs(lines=stiffness.sizes["sample"])
+
+
+def line_fits(
+    exported: xarray.Dataset, *, window: Window | None = None, mean: Mean = "arithmetic"
+) -> xarray.Dataset:
+    """Return the power laws of the mean stiffness of lines, with intervals; see `fit_power_laws`.
+
+    Parameters
+    ----------
+    exported : Dataset
+        See `line_averages`.
+    window : Window, optional
+        Without: where more than 20 springs and fewer than 90 % of all carry load, up to a force of 0.07.
+    mean : {"arithmetic", "geometric"}
+        Which mean over the lines.
+    """
+    if window is None:
+        window = resolved_window(1 / exported["points"], 1.0)
+    return fit_power_laws(each_line(exported), rng=np.random.default_rng(0), window=window, mean=mean)
+
+
+def white_exponent(force: xarray.DataArray, fits: xarray.Dataset) -> xarray.DataArray:
+    """Return what exponents the same fits find where heights are white, and the stiffness knows no number of points.
+
+    Parameters
+    ----------
+    force : DataArray
+        The forces F/(E* h L) of the curves.
+    fits : Dataset
+        As `fit_power_laws` returns them: their windows count.
+    """
+    import xarray
+
+    every = np.unique(force.to_numpy())
+
+    def fitted(low: float, high: float) -> float:
+        inside = every[(every >= low * (1 - 1e-9)) & (every <= high * (1 + 1e-9))]
+        if inside.size < 2:
+            return np.nan
+        stiffness = gaussian_heights.stiffness(inside, 1.0, 1.0, 1.0)
+        return float(np.polyfit(np.log(inside), np.log(stiffness), 1)[0])
+
+    found: xarray.DataArray = xarray.apply_ufunc(
+        fitted, fits["window_low"], fits["window_high"], vectorize=True
+    )
+    return found
+
+
+def resolution_exponent(points: float) -> float:
+    """Return alpha of eq. 4.73 for a number N of points: ``(1 + log2 N)/(3 + log2 N)``."""
+    return (1 + math.log2(points)) / (3 + math.log2(points))

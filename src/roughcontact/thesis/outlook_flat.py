@@ -1,0 +1,326 @@
+"""Outlook: nominally flat surfaces, cut off or rolled off at ever shorter waves, finite and periodic (section 5.1).
+
+A surface without long waves consists of cells as long as its longest ones. By section 5.1 each is a rough indenter of
+its own under eq. 4.74; if their maxima are distributed exponentially, the stiffness is proportional to the force.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.contact.theories import loading_laws
+from roughcontact.grid import Grid
+from roughcontact.study.study import Study
+from roughcontact.surface.fourier import self_affine
+from roughcontact.theory import pohrt_popov
+from roughcontact.theory.interaction import SQUARE
+from roughcontact.thesis.cell_law import cells_stiffness, exponential_rate, single_cell_stiffness
+from roughcontact.thesis.flat_view import draw_flat
+from roughcontact.thesis.sample_means import (
+    apart,
+    converged,
+    exponential,
+    logarithm,
+    means,
+    plus_minus,
+    same_for_all,
+    slope,
+)
+from roughcontact.thesis.verdict import Verdict, judged, spanned
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+    from roughcontact.thesis.figures import Scale
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+Array = npt.NDArray[np.float64]
+
+TITLE = "nominally flat surfaces, finite and periodic, beside theories and the law of their cells' maxima"
+HURST = 0.8
+CUTOFF = (1, 2, 4, 8, 16)  # L over the longest wave; a cut-off at L is none
+ROLLOFF = (4, 8, 16)
+FEW = 4  # cells along a side from which a surface is nominally flat
+MANY = 0.2  # force F/(E* h l) a cell from which many cells carry: about the crossover to a linear law
+FULL = 0.15  # part of the nominal area in contact up to which a law is looked for
+CHOSEN = (
+    f"squares of 512 x 512 cells (small: 128 x 128), H = {HURST:g}, shortest wave of 4 cells; cut-off at L to L/16 and "
+    "roll-off at L/4 to L/16",
+    "17 forces F/(E* h L) from 1e-3 to 3; 10 samples (small: 16)",
+    "stiffness against the mean gap, in which free and periodic bodies can be compared",
+    "cells: squares as long as the longest waves, each with eq. 4.74 from its highest point on, h that of the surface; "
+    "1/lambda of the exponential distribution: the mean height of the upper half of the maxima above their median",
+    f"a linear law is looked for from {MANY:g} E* h l on, l the longest wave, up to a contact fraction of {FULL:g}",
+)
+SIZE = (8.8, 7.2)
+SEED = 15
+_POINTS = {"small": 128, "thesis": 512}
+_SAMPLES = {"small": 16, "thesis": 10}
+_RMS = 0.01
+_THEORIES = ("persson", "gw")
+
+
+def studies(scale: Scale) -> tuple[Study, ...]:
+    """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
+    points = _POINTS[scale]
+    rows: list[dict[str, Any]] = [{"cutoff": 1 / each} for each in CUTOFF]
+    rows += [{"rolloff": 1 / each} for each in ROLLOFF]
+    return (
+        Study(
+            name={"small": "outlook-flat-small", "thesis": "outlook-flat"}[scale],
+            case="cells",
+            seed=SEED,
+            samples=_SAMPLES[scale],
+            parameters={
+                "points": points,
+                "size": 1.0,
+                "modulus": 1.0,
+                "hurst": HURST,
+                "rms": _RMS,
+                "shortest": 4 / points,
+                "lowest_force": 1e-3,
+                "highest_force": 3.0,
+                "loads": 17,
+                "tolerance": 1e-6,
+            },
+            table={"periodic": (False, True)},
+            rows=rows,
+        ),
+    )
+
+
+def averages(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return means over samples along ``row``, ``periodic`` and ``load``.
+
+    Returns
+    -------
+    Dataset
+        ``stiffness`` k and ``interfacial`` K over E* L, ``area`` A/L^2; ``cells``, what the sum over cells says, and
+        ``decay`` (row), lambda h of their maxima; ``persson``, ``gw`` and, with ``_area``, their areas; ``exponent``
+        of K over the force in the window, ``level``, the geometric mean of K h/F there, and ``over_decay``, the same
+        of K over lambda F; ``alone``, k over that of one cell that carries all, where the fits of eq. 4.74 end.
+        ``long`` (row), L over the longest wave, and ``kind``, "cut-off" or "roll-off"; ``force`` F/(E* h L);
+        ``window``.
+    """
+    import xarray
+
+    given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
+    force = given["dimensionless_force"]
+    interfacial, area = given["interfacial_stiffness"], given["contact_area"]
+    cutoff, rolloff = given["cutoff"], given["rolloff"]
+    length = cutoff.fillna(rolloff)
+    model = _of_cells(given["below"].isel(periodic=1, drop=True) / _RMS, length, force)
+    cells, decay = model["cells"], model["decay"]
+    floor = 20 * same_for_all(given["cell_stiffness"])
+    window = (force >= MANY * length) & (area.mean("sample") <= FULL) & (interfacial.mean("sample") > floor)
+    held = interfacial.where(window)
+    alone = xarray.apply_ufunc(single_cell_stiffness, length, force, HURST)
+    nearest = abs(logarithm(force / length / pohrt_popov.FORCE_LIMIT)).argmin("load")
+
+    def typical(ratio: xarray.DataArray) -> xarray.DataArray:
+        return exponential(logarithm(ratio).mean("load"))
+
+    found = means(
+        {
+            "stiffness": given["stiffness"],
+            "interfacial": interfacial,
+            "area": area,
+            "cells": cells,
+            "decay": decay,
+            "exponent": slope(logarithm(held), logarithm(force), "load"),
+            "level": typical(held / force),
+            "over_decay": typical(held / force / decay),
+            "alone": (given["stiffness"] / alone).isel(load=nearest),
+        }
+    )
+    for name, values in _theories(exported, force.values).items():
+        found[name] = ("row", "load"), values
+    found["force"], found["window"] = force, window
+    found["long"] = "row", (1 / length.values).round().astype(int)
+    found["kind"] = "row", np.where(np.isnan(cutoff.values), "roll-off", "cut-off")
+    told = {"surfaces": exported.sizes["sample"], "points": int(exported["points"])}
+    return found.drop_vars(["cutoff", "rolloff"]).assign_attrs(told)
+
+
+def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray) -> xarray.Dataset:
+    """Return the stiffness of the sum over cells at every load, and lambda h of their tops, of every row and sample."""
+    import xarray
+
+    def tops(values: Array) -> Array:
+        return values[np.isfinite(values)]
+
+    def stiffness(values: Array, side: float, forces: Array) -> Array:
+        found = tops(values)
+        return cells_stiffness(found, side, forces, HURST) if found.size else np.full(forces.shape, np.nan)
+
+    return xarray.Dataset(
+        {
+            "cells": xarray.apply_ufunc(
+                stiffness,
+                below,
+                length,
+                force,
+                input_core_dims=[["cell"], [], ["load"]],
+                output_core_dims=[["load"]],
+                vectorize=True,
+            ),
+            "decay": xarray.apply_ufunc(
+                lambda values: exponential_rate(tops(values)),
+                below,
+                input_core_dims=[["cell"]],
+                vectorize=True,
+            ),
+        }
+    )
+
+
+def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
+    """Return K/(E* L) and A/L^2 of the theories for every row; all samples of a row have one spectrum."""
+    points = int(exported["points"])
+    grid = Grid((points, points), 1 / points, periodic=True)
+    shape = (exported.sizes["row"], len(force))
+    found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
+    for row in range(shape[0]):
+        longest = {
+            f"{name}_wavelength": float(value)
+            for name in ("cutoff", "rolloff")
+            if np.isfinite(value := exported[name].values[row])
+        }
+        surface = self_affine(
+            grid,
+            HURST,
+            _RMS,
+            np.random.default_rng(0),
+            short_wavelength=float(exported["shortest"]),
+            **longest,  # type: ignore[arg-type]
+        )
+        for name, law in zip(_THEORIES, loading_laws(surface, 1.0, _THEORIES), strict=True):
+            found[name][row] = law.predict("interfacial_stiffness", force * _RMS)
+            found[f"{name}_area"][row] = law.predict("contact_area", force * _RMS)
+    return found
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw K/F with cut-off (a) and roll-off (b), and stiffness (c) and area (d) of one beside all laws."""
+    draw_flat(figure, averages)
+
+
+def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+    """Judge the linear law of section 5.1, where it comes from, and the theories beside it."""
+    cut, roll = _rows(averages, "cut-off"), _rows(averages, "roll-off")
+    told = f"{averages.attrs['surfaces']} samples of {averages.attrs['points']}² cells, H = {HURST:g}"
+    last = cut.isel(row=-1)
+    return (
+        Verdict(
+            "with a considerable cut-off the stiffness is proportional to the force (section 5.1)",
+            "exponent 1",
+            f"exponents of K over the window, periodic {_each(cut, 'exponent', True)}; free "
+            f"{_each(cut, 'exponent', False)}; {told}",
+            judged(last["exponent"] - 1, last["exponent_error"], 0.06),
+        ),
+        Verdict(
+            "with a roll-off the exponent is about 0.9 (section 5.1)",
+            "0.9",
+            f"periodic {_each(roll, 'exponent', True)}; free {_each(roll, 'exponent', False)}; {told}",
+            judged(roll["exponent"] - 0.9, roll["exponent_error"], 0.05),
+        ),
+        Verdict(
+            "the linear law follows from the heights of the cells' maxima (section 5.1)",
+            "K = lambda F",
+            f"K over lambda F, means over the window, cut-off, periodic {_each(cut, 'over_decay', True)}; lambda h "
+            f"{_each(cut, 'decay', None)}, K h/F {_each(cut, 'level', True)}; roll-off "
+            f"{_each(roll, 'over_decay', True)}; {told}",
+            judged(cut["over_decay"] - 1, cut["over_decay_error"], 0.2),
+        ),
+        Verdict(
+            "cells act as independent indenters under eq. 4.74 (section 5.1)",
+            "no coupling",
+            "K over the sum over cells, with their own maxima, from the lowest force of the window to the highest, "
+            f"cut-off, periodic {_ends(cut, 'cells')}; roll-off {_ends(roll, 'cells')}; {told}",
+            judged(
+                (cut["interfacial"] / cut["cells"] - 1).where(cut["window"]).sel(periodic=True),
+                (cut["interfacial_error"] / cut["cells"]).sel(periodic=True),
+                0.2,
+            ),
+        ),
+        Verdict(
+            "a single cell under eq. 4.74 at the lowest loads",
+            "1",
+            f"k over that of one cell that carries all, at about {pohrt_popov.FORCE_LIMIT:g} E* h l, cut-off, periodic "
+            f"{_each(_rows(averages, 'cut-off', least=1), 'alone', True)}; {told}",
+            None,
+        ),
+        *(_theory(averages, name, told) for name in _THEORIES),
+        _finite(averages, cut, told),
+    )
+
+
+def _rows(averages: xarray.Dataset, kind: str, least: int = FEW) -> xarray.Dataset:
+    """Return the rows of cut-offs or roll-offs, from so many cells along a side on."""
+    chosen = (averages["kind"] == kind) & (averages["long"] >= least)
+    return averages.isel(row=np.flatnonzero(chosen))
+
+
+def _each(averages: xarray.Dataset, name: str, periodic: bool | None) -> str:
+    """Return a mean of every row in words."""
+    chosen = averages if periodic is None else averages.sel(periodic=periodic)
+    words = []
+    for row in range(chosen.sizes["row"]):
+        one = chosen.isel(row=row)
+        long = int(one["long"])
+        words.append(f"{plus_minus(one, name)} at {f'L/{long}' if long > 1 else 'L'}")
+    return ", ".join(words)
+
+
+def _ends(averages: xarray.Dataset, law: str) -> str:
+    """Return K over a law at the first and the last force of the window, periodic, of every row in words."""
+    words = []
+    for row in range(averages.sizes["row"]):
+        one = averages.isel(row=row).sel(periodic=True)
+        inside = np.flatnonzero(one["window"])
+        if len(inside):
+            ratio = (one["interfacial"] / one[law]).values[inside]
+            words.append(f"{ratio[0]:.2f} to {ratio[-1]:.2f} at L/{int(one['long'])}")
+    return ", ".join(words) or "none"
+
+
+def _theory(averages: xarray.Dataset, name: str, told: str) -> Verdict:
+    """Return how far a theory's stiffness and area are from those computed, periodic, in the window."""
+    inside = averages["window"].sel(periodic=True) & (averages["long"] >= FEW)
+    one = averages.sel(periodic=True)
+    stiffness = (one["interfacial"] / one[name] - 1).where(inside)
+    area = (one["area"] / one[f"{name}_area"] - 1).where(inside)
+    error = (one["interfacial_error"] / one[name]).where(inside)
+    words = {"persson": "Persson", "gw": "Greenwood and Williamson, from the spectrum"}[name]
+    return Verdict(
+        f"theories of nominally flat surfaces: {words}",
+        "a linear law",
+        f"computed stiffness {spanned(stiffness, '+.0%')} from it, area {spanned(area, '+.0%')}, periodic, cut-off and "
+        "roll-off from L/4 on, in the window; K over it from its lowest force to its highest, "
+        f"cut-off {_ends(_rows(averages, 'cut-off'), name)}; roll-off {_ends(_rows(averages, 'roll-off'), name)}; "
+        f"{told}",
+        judged(stiffness, error, 0.2),
+    )
+
+
+def _finite(averages: xarray.Dataset, cut: xarray.Dataset, told: str) -> Verdict:
+    """Return what a free edge does."""
+    inside = cut["window"].all("periodic")
+    gap = (cut["interfacial"].sel(periodic=False) / cut["interfacial"].sel(periodic=True) - 1).where(inside)
+    bulk = cut["stiffness"].sel(periodic=False) / cut["interfacial"].sel(periodic=True)
+    expected = 1 / (1 + SQUARE * cut["interfacial"].sel(periodic=True))
+    off = (bulk / expected - 1).where(inside)
+    lost = (bulk - 1).where(inside)
+    return Verdict(
+        "coupling over more than a cell is negligible (section 5.1)",
+        "negligible",
+        f"of a finite body k is {spanned(lost, '+.0%')} from that of a periodic one: the body sinks in as a whole; "
+        f"it is {spanned(off, '+.1%')} from 1/k = 1/K + {SQUARE:.3f}/(E* L), and K of the one {spanned(gap, '+.1%')} "
+        f"from K of the other; {told}",
+        judged(lost, 0.0, 0.1),
+    )

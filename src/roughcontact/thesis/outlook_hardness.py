@@ -1,0 +1,288 @@
+"""Outlook: contact area and stiffness under a ceiling of the pressure, on one surface and with ever shorter waves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.grid import Grid
+from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import readable_ticks
+from roughcontact.study.common import on_common
+from roughcontact.study.study import Study
+from roughcontact.surface.moments import Moments, grid_moments
+from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.thesis.sample_means import apart, converged, means, plus_minus, same_for_all
+from roughcontact.thesis.stiffness_view import quiet
+from roughcontact.thesis.verdict import Verdict, judged, spanned
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from roughcontact.thesis.figures import Scale
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "contact area and stiffness under a ceiling of the pressure"
+HURST = 0.7
+CEILINGS = (2.0, 1.0, 0.5, 0.25, 0.125)  # over E* g, g the rms slope with all waves
+GIVEN = 0.5  # the ceiling under which waves are added: the mean pressure in contact by eq. 4.19
+FORCES = np.geomspace(0.01, 0.3, 9)  # F/(E* h L), h the rms height with all waves
+NONE = 0.01  # of the contact area: what counts as elastic
+FORCE = 0.05  # at which ceilings are compared
+CHOSEN = (
+    f"free squares of 256 x 256 cells, H = {HURST:g}, shortest wave L/64 (small: 128 x 128, L/32)",
+    "ceilings of "
+    + ", ".join(f"{each:g}" for each in CEILINGS)
+    + " E* g and none, g the rms slope; on the same "
+    "surfaces with shortest waves from L/8 on none and the one of half E* g with all waves",
+    "two stiffnesses: that of pressing on, in which cells at the ceiling have no part; and that of the contact region "
+    "as it stands, for the first step back and for what it conducts",
+    "10 samples, compared one by one; depths from 0.2 to 2.8 h",
+)
+SIZE = (8.8, 7.2)
+SEED = 12
+_POINTS = {"small": 128, "thesis": 256}
+_SAMPLES = {"small": 10, "thesis": 10}
+_CELLS = 4  # a shortest wave
+_COLOURS = ("black", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00")
+_NAMES = ("stiffness", "region_stiffness", "area")
+
+
+def studies(scale: Scale) -> tuple[Study, ...]:
+    """Return the one study: its rows are the ceilings with all waves, then the waves without and with a ceiling."""
+    points = _POINTS[scale]
+    last = points // _CELLS
+    rows: list[dict[str, Any]] = [{"shortest": 1 / last}]
+    rows += [{"shortest": 1 / last, "relative_hardness": each} for each in CEILINGS]
+    waves = [8 * 2**i for i in range(10) if 8 * 2**i < last]
+    rows += [{"shortest": 1 / each} for each in waves]
+    # The ceiling in the units of a surface whose rms height is that with all waves.
+    slope = _moments(points, 1 / last).rms_slope
+    for each in waves:
+        part = _moments(points, 1 / each)
+        rows.append({"shortest": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
+    return (
+        Study(
+            name={"small": "outlook-hardness-small", "thesis": "outlook-hardness"}[scale],
+            case="yielding",
+            seed=SEED,
+            samples=_SAMPLES[scale],
+            parameters={
+                "points": points,
+                "size": 1.0,
+                "modulus": 1.0,
+                "hurst": HURST,
+                "rms": 0.01,
+                "lowest_depth": 0.2,
+                "highest_depth": 2.8,
+                "loads": 16,
+            },
+            rows=rows,
+        ),
+    )
+
+
+def averages(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return means over samples at common forces.
+
+    Returns
+    -------
+    Dataset
+        Along ``ceiling`` (over E* g, infinite for none) and ``force``: ``stiffness`` of pressing on,
+        ``region_stiffness`` of the whole contact, both over E* L, ``area`` A/L^2 and ``yielded``, the part of it at
+        the ceiling; with ``_change`` the first three over those without a ceiling, sample by sample. The same, named
+        ``waves_...``, along ``waves`` (L over the shortest wave) and ``kind`` ("elastic", "ceiling"), changes over
+        those without a ceiling and with all waves. ``elastic_..._grown`` and ``ceiling_..._grown``: by which part
+        stiffness of the region and area grow from the fewest waves to all. ``slope`` along ``waves``.
+    """
+    import xarray
+
+    given = converged(exported)
+    points = int(given["points"])
+    heights = {each: _moments(points, each).rms_height for each in np.unique(given["shortest"].values)}
+    whole = given["shortest"].copy(data=[heights[each] for each in given["shortest"].values])
+    whole = whole / whole.isel(row=0)
+    scale = float(given["modulus"] * given["size"])
+    curves = xarray.Dataset(
+        {
+            # Higher waves on the same body: contact and stiffness are the same at a force in proportion.
+            "force": given["dimensionless_force"] * whole,
+            "stiffness": given["stiffness"] / scale,
+            "region_stiffness": given["region_stiffness"] / scale,
+            "area": given["contact_area"],
+            "yielded": given["yielded"],
+        }
+    )
+    common = on_common(curves.drop_vars(["shortest", "relative_hardness"]), FORCES, at="force")
+    values = {name: common[name] for name in (*_NAMES, "yielded")}
+    values |= {f"{name}_change": common[name] / common[name].isel(row=0) for name in _NAMES}
+    elastic, hard = _rows_of_waves(given.sizes["row"])
+    for kind, rows in (("elastic", elastic), ("ceiling", hard)):
+        for name in ("region_stiffness", "area"):
+            first, last = (common[name].isel(row=rows[i], drop=True) for i in (0, -1))
+            values[f"{kind}_{name}_grown"] = last / first - 1
+    every = apart(means(values))
+    ceilings = [np.inf, *CEILINGS]
+    found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
+    waves = (1 / given["shortest"].values).round().astype(int)
+    along_rows = every[[name for name, each in every.data_vars.items() if "row" in each.dims]]
+    along = xarray.concat(
+        [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)], "kind"
+    )
+    along = along.assign_coords(waves=waves[elastic], kind=["elastic", "ceiling"])
+    slope = (same_for_all(given["rms_slope"]) * whole).values[elastic]
+    found = found.assign({f"waves_{name}": each for name, each in along.data_vars.items()})
+    return found.assign(slope=("waves", slope, {"long_name": "rms slope", "units": "1"})).assign_attrs(
+        surfaces=exported.sizes["sample"], cells=points
+    )
+
+
+def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:
+    """Return the rows of all waves, the fewest first, without a ceiling and with the one; see `studies`."""
+    first = len(CEILINGS) + 1
+    middle = (first + count) // 2
+    return [*range(first, middle), 0], [*range(middle, count), 1 + CEILINGS.index(GIVEN)]
+
+
+def _moments(points: int, shortest: float) -> Moments:
+    """Return the moments of a surface with waves down to a shortest one; the scale is that of the spectrum."""
+    return grid_moments(
+        SelfAffineSpectrum(HURST, short_wavelength=shortest), Grid((points, points), 1 / points)
+    )
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw area (a) and stiffness (b) against force, both against the ceiling (c), and against the waves (d)."""
+    (first, second), (third, fourth) = figure.subplots(2, 2)
+    for ceiling, colour in zip(averages["ceiling"].values, _COLOURS, strict=True):
+        one = averages.sel(ceiling=ceiling)
+        words = f"{ceiling:g} E* g" if np.isfinite(ceiling) else "elastic"
+        first.plot(one["force"], one["area"], color=colour, linewidth=1.3, label=words)
+        second.plot(one["force"], one["stiffness"], color=colour, linewidth=1.3, label=words)
+        second.plot(one["force"], one["region_stiffness"], "--", color=colour, linewidth=1.1)
+    second.plot([], [], "--", color="0.4", label="whole region")
+    for axes, label in ((first, r"contact area $A\,/\,L^2$"), (second, r"stiffness $k\,/\,(E^* L)$")):
+        axes.set(xscale="log", yscale="log")
+        low, high = axes.get_ylim()
+        readable_ticks(axes.yaxis, high / low)
+        axes.set_xlabel(r"force $F\,/\,(E^* h L)$", fontsize=LABEL)
+        axes.set_ylabel(label, fontsize=LABEL)
+        axes.legend(fontsize=TICK, frameon=False)
+    at = averages.sel(force=FORCE, method="nearest")
+    _ceilings(third, at.isel(ceiling=slice(1, None)))
+    _waves(fourth, at)
+    for letter, axes in zip("abcd", (first, second, third, fourth), strict=True):
+        axes.set_title(f"({letter})", fontsize=TICK + 1, loc="left")
+        quiet(axes)
+
+
+def _ceilings(axes: Axes, at: xarray.Dataset) -> None:
+    for name, mark, colour, words in (
+        ("stiffness", "o-", "black", "k of pressing on"),
+        ("region_stiffness", "o--", "black", "k of the whole region"),
+        ("area", "s-", "#c8290b", "area"),
+    ):
+        axes.errorbar(
+            at["ceiling"],
+            at[f"{name}_change"],
+            at[f"{name}_change_error"],
+            fmt=mark,
+            markersize=4,
+            color=colour,
+            linewidth=1.2,
+            label=words,
+        )
+    axes.plot(at["ceiling"], at["yielded"], ":", color="0.4", label="part at the ceiling")
+    axes.axhline(1, color="0.6", linewidth=0.8)
+    axes.set(xscale="log")
+    axes.set_xticks(at["ceiling"].values, [f"{each:g}" for each in at["ceiling"].values])
+    axes.minorticks_off()
+    axes.set_xlabel(r"ceiling $\sigma_0\,/\,(E^* g)$", fontsize=LABEL)
+    axes.set_ylabel(f"over the elastic one, at a force of {FORCE:g}", fontsize=LABEL)
+    axes.legend(fontsize=TICK, frameon=False)
+
+
+def _waves(axes: Axes, at: xarray.Dataset) -> None:
+    for kind, style in (("elastic", "-"), ("ceiling", "--")):
+        one = at.sel(kind=kind)
+        for name, mark, colour in (("region_stiffness", "o", "black"), ("area", "s", "#c8290b")):
+            axes.errorbar(
+                one["waves"],
+                one[f"waves_{name}_change"],
+                one[f"waves_{name}_change_error"],
+                fmt=mark,
+                linestyle=style,
+                markersize=4,
+                color=colour,
+                linewidth=1.2,
+                label=f"{name.replace('region_', '')}, {'elastic' if kind == 'elastic' else 'one ceiling'}",
+            )
+    axes.set(xscale="log")
+    axes.set_xticks(at["waves"].values, [f"L/{waves}" for waves in at["waves"].values])
+    axes.minorticks_off()
+    axes.set_xlabel("shortest wave", fontsize=LABEL)
+    axes.set_ylabel(f"over that with all waves, elastic, at {FORCE:g}", fontsize=LABEL)
+    axes.legend(fontsize=TICK, frameon=False)
+
+
+def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+    """Say what a ceiling does to stiffness and area, when contact is elastic, and what more waves do under it."""
+    at = averages.sel(force=FORCE, method="nearest")
+    told = f"{averages.attrs['surfaces']} samples of {averages.attrs['cells']}² cells, H = {HURST:g}"
+    each = {
+        name: ", ".join(
+            f"{float(one['ceiling']):g}: {plus_minus(one, f'{name}_change', '.3f')}"
+            for one in (at.isel(ceiling=i) for i in range(1, at.sizes["ceiling"]))
+        )
+        for name in _NAMES
+    }
+    given = at.sel(ceiling=GIVEN)
+    off = np.array([float(given[f"{name}_change"]) - 1 for name in _NAMES[:2]])
+    errors = np.array([float(given[f"{name}_change_error"]) for name in _NAMES[:2]])
+    yielded, soft = averages["yielded"], averages.sel(ceiling=0.5)
+    first, last = (int(averages["waves"][i]) for i in (0, -1))
+    grown = {
+        name: plus_minus(at, f"{name}_grown", "+.1%")
+        for name in (
+            f"{kind}_{each}" for kind in ("ceiling", "elastic") for each in ("region_stiffness", "area")
+        )
+    }
+    worst = {each: float(yielded.sel(ceiling=each).max()) for each in (2.0, 1.0)}
+    return (
+        Verdict(
+            "elasticity on all scales plays no crucial role for the stiffness (section 4.3)",
+            "not crucial",
+            f"k over the elastic one at F = {FORCE:g} E* h L, by the ceiling over E* g: pressing on "
+            f"{each['stiffness']}; of the whole contact region {each['region_stiffness']}; the area {each['area']}; "
+            f"{told}. Judged at {GIVEN:g}, the mean pressure of eq. 4.19",
+            judged(off, errors, 0.1),
+        ),
+        Verdict(
+            "contact is elastic for a plasticity index E* g/sigma_0 below 2/3 (section 4.3)",
+            "2/3",
+            f"{spanned(yielded.sel(ceiling=2.0), '.1%')} of the contact area yields at an index of 0.5, "
+            f"{spanned(yielded.sel(ceiling=1.0), '.1%')} at 1, {spanned(yielded.sel(ceiling=0.5), '.1%')} at 2; forces "
+            f"from {FORCES[0]:g} to {FORCES[-1]:g} E* h L",
+            worst[2.0] < NONE < worst[1.0],
+        ),
+        Verdict(
+            "the index, and with it the state of the contact, does not depend on the force (section 4.3)",
+            "independent",
+            "the part of the contact area that yields at an index of 2 goes from "
+            f"{plus_minus(soft.isel(force=0), 'yielded')} to {plus_minus(soft.isel(force=-1), 'yielded')} as the force "
+            f"grows {FORCES[-1] / FORCES[0]:.0f} times",
+            None,
+        ),
+        Verdict(
+            "the stiffness does not see the smallest scales, which yield (section 4.3)",
+            "not sensitive",
+            f"under one ceiling, waves from L/{first} to L/{last} change the stiffness of the contact region by "
+            f"{grown['ceiling_region_stiffness']} and the area by {grown['ceiling_area']}; without it by "
+            f"{grown['elastic_region_stiffness']} and {grown['elastic_area']}; {told}",
+            judged(at["ceiling_region_stiffness_grown"], at["ceiling_region_stiffness_grown_error"], 0.1),
+        ),
+    )

@@ -1,0 +1,90 @@
+"""From a figure of an ensemble to its averages: run its studies where they are kept, and average what they export."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from roughcontact.thesis.figures import EnsembleFigure, Scale
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.study.study import Study
+    from roughcontact.study.summary import Summary
+    from roughcontact.study.task import Executor
+
+__all__ = ["STUDIES", "averages_of", "planned", "run_study", "store_of"]
+
+STUDIES = "studies"
+"""Folder beside the pictures that holds a store a study."""
+
+
+def planned(found: EnsembleFigure, scale: Scale = "small", seed: int | None = None) -> tuple[Study, ...]:
+    """Return the studies of a figure; another `seed` than their own gives them another name, and so another store."""
+    studies = found.studies(scale)
+    if seed is None:
+        return studies
+    return tuple(
+        each.model_copy(update={"seed": seed, "name": f"{each.name}-seed-{seed}"}) for each in studies
+    )
+
+
+def store_of(folder: str | os.PathLike[str], study: Study) -> Path:
+    """Return where a study is kept under a folder."""
+    return Path(folder) / STUDIES / study.name
+
+
+def run_study(
+    study: Study,
+    folder: str | os.PathLike[str],
+    executor: Executor,
+    on_progress: Callable[[Summary], None] | None = None,
+) -> Summary:
+    """Run a study in its store under `folder`; what is done already is not done again."""
+    from roughcontact.study.run import run
+
+    return run(study, store_of(folder, study), executor, on_progress=on_progress)
+
+
+def averages_of(
+    found: EnsembleFigure, studies: tuple[Study, ...], folder: str | os.PathLike[str]
+) -> xarray.Dataset:
+    """Return what a figure shows, from what the stores of its studies under `folder` hold so far.
+
+    Attributes say what that was, an entry a study: ``studies`` as TOML, ``cases_done``, ``cases_failed`` and
+    ``cases_missing``, and ``cases_seconds``, the time that its cases took together.
+
+    Raises
+    ------
+    ValueError
+        If there is no such store.
+    """
+    exports = tuple(_exports(studies, folder))
+    return found.averages(*exports).assign_attrs(_origin(exports))
+
+
+def _exports(studies: tuple[Study, ...], folder: str | os.PathLike[str]) -> Iterator[xarray.Dataset]:
+    from roughcontact.study.export import export
+    from roughcontact.study.store import Store
+
+    for study in studies:
+        if not (store_of(folder, study) / "study.toml").is_file():
+            raise ValueError(f"the study {study.name!r} was not run in {folder}: run it first")
+        with Store.open(store_of(folder, study)) as store:
+            yield export(store, seconds=True)
+
+
+def _origin(exports: tuple[xarray.Dataset, ...]) -> dict[str, list[str] | list[int] | list[float]]:
+    """Return what was averaged, see `averages_of`."""
+    counts = {
+        f"cases_{status}": [int((each["case_status"] == status).sum()) for each in exports]
+        for status in ("done", "failed", "missing")
+    }
+    return {
+        "studies": [each.attrs["study"] for each in exports],
+        **counts,
+        "cases_seconds": [float(each["case_seconds"].sum()) for each in exports],
+    }

@@ -1,0 +1,58 @@
+"""What the thesis says in numbers, what is found here, and whether the two agree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Verdict", "judged", "spanned"]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """One claim of the thesis beside what was computed.
+
+    Parameters
+    ----------
+    claim : str
+        What is claimed, in words.
+    thesis : str
+        The number in the text.
+    found : str
+        The number found here, with its error and what it was found from.
+    holds : bool or None
+        None where the text states too little to say so.
+    """
+
+    claim: str
+    thesis: str
+    found: str
+    holds: bool | None
+
+    @property
+    def word(self) -> str:
+        """The verdict in a word or two."""
+        return {True: "holds", False: "does not hold", None: "open"}[self.holds]
+
+
+def judged(deviation: npt.ArrayLike, error: npt.ArrayLike, tolerance: float) -> bool | None:
+    """Return whether all deviations stay within a tolerance, as far as their standard errors let one say.
+
+    None where one is outside, but by less than three standard errors, and where there is none. Deviations that are
+    NaN say nothing.
+    """
+    away, errors = np.broadcast_arrays(np.abs(np.asarray(deviation, dtype=np.float64)), np.nan_to_num(error))
+    if not np.isfinite(away).any():
+        return None
+    if not (away > tolerance).any():
+        return True
+    return False if (away > tolerance + 3 * errors).any() else None
+
+
+def spanned(values: npt.ArrayLike, form: str) -> str:
+    """Return the smallest and the largest of some numbers in words; NaN are none."""
+    numbers = np.asarray(values, dtype=np.float64)
+    there = numbers[np.isfinite(numbers)]
+    return f"{there.min():{form}} to {there.max():{form}}" if there.size else "none"
