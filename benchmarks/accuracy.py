@@ -12,6 +12,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +22,11 @@ from roughcontact.theory import hertz, power_law_indenter, punch
 
 Array = npt.NDArray[np.float64]
 Shape = Callable[[Array], Array]
+Method = Literal["fft", "multilevel", "moving-grid", "dense"]
 
 SIZES = 1 + 0.15 * np.arange(16) / 16  # of a contact, so that its edge falls anywhere within a cell
+SUMS = {"multilevel": 512, "moving-grid": 64, "dense": 64}  # cells a side up to which each is tried
+NONE = 1e-15  # a relative difference that is rounding
 SURFACE, RINGS, SPRINGS = (32, 64, 128, 256), (50, 100, 200, 400), (100, 200, 400, 800)
 
 
@@ -38,7 +42,7 @@ class Case:
         Cells across the domain, each number twice the one before.
     value, exact : callable
         What is computed, ``value(cells, size)``, and what is right, ``exact(size)``, for a contact whose size is
-        multiplied by `size`.
+        multiplied by `size`. On a surface ``value(cells, size, method)`` sums in another way.
     edge : bool
         Whether the contact finds its own edge, between cells; else the grid is made to fit, and the limit is
         extrapolated by two more terms.
@@ -48,7 +52,7 @@ class Case:
     geometry: str
     quantity: str
     cells: Sequence[int]
-    value: Callable[[int, float], float]
+    value: Callable[..., float]
     exact: Callable[[float], float]
     edge: bool = True
 
@@ -75,12 +79,27 @@ def row(case: Case) -> str:
     return head + f"| {order:.2f} | {limits[-1] * exact:.8f} | {exact:.8f} |"
 
 
-def on_surface(fall: Callable[[Array, Array], Array], n: int, side: float, depth: float) -> rc.Solution:
+def sums(case: Case) -> str:
+    """Return one row of the table of the ways to sum: the largest relative difference to the transforms."""
+    shown = []
+    for method, most in SUMS.items():
+        grids = [n for n in case.cells if n <= most]
+        differences = [abs(case.value(n, 1.0, method) / case.value(n, 1.0) - 1) for n in grids]
+        worst = max(differences)
+        size = "none" if worst < NONE else f"{worst:.0e}"
+        shown.append(f"{size} ({grids[0]} to {grids[-1]})" if len(grids) > 1 else f"{size} ({grids[0]})")
+    return f"| {case.name} | {case.quantity} | {' | '.join(shown)} |"
+
+
+def on_surface(
+    fall: Callable[[Array, Array], Array], n: int, side: float, depth: float, method: Method = "fft"
+) -> rc.Solution:
     """Press a body that falls from its apex in the middle of a square; the depth counts from the apex."""
     grid = rc.Grid((n, n), side / n)
     y, x = (c - side / 2 for c in grid.coordinates)
     heights = -fall(y[:, None], x)
-    return rc.press(rc.Surface(heights, grid), 1.0, depth=depth + heights.max())
+    body = rc.half_space(grid, 1.0, method=method)
+    return rc.press(rc.Surface(heights, grid), 1.0, depth=depth + heights.max(), operator=body)
 
 
 def on_rings(fall: Shape, n: int, radius: float, depth: float) -> rc.Solution:
@@ -99,11 +118,10 @@ def on_springs(fall: Shape, n: int, half: float, depth: float) -> rc.Solution:
     )
 
 
-def flat(region: Callable[[Array, Array], Array], n: int, side: float) -> float:
+def flat(region: npt.NDArray[np.bool_], grid: rc.Grid, method: Method) -> float:
     """Return the stiffness of a flat region of cells."""
-    grid = rc.Grid((n, n), side / n)
-    y, x = (c - side / 2 for c in grid.coordinates)
-    return rc.contact_stiffness(region(y[:, None], x), grid, 1.0, tolerance=1e-9)
+    body = rc.half_space(grid, 1.0, method=method)
+    return rc.contact_stiffness(region, grid, 1.0, operator=body, tolerance=1e-9)
 
 
 def flat_rings(inner: float, n: int) -> float:
@@ -127,8 +145,10 @@ def bodies_of_revolution() -> Iterator[Case]:
         def exact(s: float, n: float = n, kappa: float = kappa) -> float:
             return n / (n + 1) * kappa * (0.5 * s) ** (n + 1)
 
-        def surface(cells: int, s: float, f: Shape = fall, d: Callable[[float], float] = depth) -> float:
-            return on_surface(lambda y, x: f(np.hypot(y, x)), cells, 1.4, d(s)).force
+        def surface(
+            cells: int, s: float, method: Method = "fft", f: Shape = fall, d: Callable[[float], float] = depth
+        ) -> float:
+            return on_surface(lambda y, x: f(np.hypot(y, x)), cells, 1.4, d(s), method).force
 
         def rings(cells: int, s: float, f: Shape = fall, d: Callable[[float], float] = depth) -> float:
             return on_rings(f, cells, 1.0, d(s)).force
@@ -149,8 +169,9 @@ def elliptic() -> Iterator[Case]:
     def contact(s: float) -> hertz.EllipticContact:
         return hertz.elliptic(modulus=1.0, radii=(1.0, 2.0), force=s**3)
 
-    def force(cells: int, s: float) -> float:
-        return on_surface(lambda y, x: x**2 / 2 + y**2 / 4, cells, 3.2, float(contact(s).depth)).force
+    def force(cells: int, s: float, method: Method = "fft") -> float:
+        depth = float(contact(s).depth)
+        return on_surface(lambda y, x: x**2 / 2 + y**2 / 4, cells, 3.2, depth, method).force
 
     yield Case("Hertz, elliptic 1:2", "surface", "force", SURFACE, force, lambda s: s**3)
 
@@ -215,10 +236,10 @@ def punches() -> Iterator[Case]:
     """Flat regions: stiffness."""
     yield Case("flat disc", "ring", "stiffness", RINGS, lambda n, s: flat_rings(0.0, n), lambda s: 2.0, False)
 
-    def disc(n: int, s: float) -> float:
-        radius = 0.9 * s
-        k = flat(lambda y, x: np.hypot(y, x) < radius, n, 2.2)
-        return k
+    def disc(n: int, s: float, method: Method = "fft") -> float:
+        grid = rc.Grid((n, n), 2.2 / n)
+        y, x = (c - 1.1 for c in grid.coordinates)
+        return flat(np.hypot(y[:, None], x) < 0.9 * s, grid, method)
 
     yield Case("flat disc", "surface", "stiffness", SURFACE, disc, lambda s: 1.8 * s)
     yield Case(
@@ -231,18 +252,17 @@ def punches() -> Iterator[Case]:
     square = float(punch.square(1.0, 1.0))
     yield Case(
         "square", "surface", "stiffness", SURFACE,
-        lambda n, s: rc.contact_stiffness(np.ones((n, n), bool), rc.Grid((n, n), 1 / n), 1.0, tolerance=1e-9),
+        lambda n, s, method="fft": flat(np.ones((n, n), bool), rc.Grid((n, n), 1 / n), method),
         lambda s: square, False,
     )  # fmt: skip
     triangle = float(punch.triangle(1.0, 1.0))
     height = math.sqrt(3) / 2
 
-    def equilateral(n: int, s: float) -> float:
+    def equilateral(n: int, s: float, method: Method = "fft") -> float:
         # Rows of a height that divides the triangle's, cells cut by its sides when their middle lies inside.
         grid = rc.Grid((n, n), (height / n, 1.0 / n))
         y, x = grid.coordinates[0][:, None], grid.coordinates[1] - 0.5
-        inside = np.abs(x) < (height - y) / (2 * height)
-        return rc.contact_stiffness(inside, grid, 1.0, tolerance=1e-9)
+        return flat(np.abs(x) < (height - y) / (2 * height), grid, method)
 
     yield Case(
         "equilateral triangle", "surface", "stiffness", SURFACE, equilateral, lambda s: triangle, False
@@ -256,11 +276,10 @@ def punches() -> Iterator[Case]:
 
     two = float(punch.two_discs(1.0, 0.8, 3.2))
 
-    def discs(n: int, s: float) -> float:
+    def discs(n: int, s: float, method: Method = "fft") -> float:
         grid = rc.Grid((n // 2, n), 6.0 / n)
         y, x = (c - length / 2 for c, length in zip(grid.coordinates, grid.lengths, strict=True))
-        region = np.hypot(y[:, None], np.abs(x) - 1.6 * s) < 0.8 * s
-        return rc.contact_stiffness(region, grid, 1.0, tolerance=1e-9)
+        return flat(np.hypot(y[:, None], np.abs(x) - 1.6 * s) < 0.8 * s, grid, method)
 
     yield Case("two discs, s = 4a", "surface", "stiffness", (64, 128, 256, 512), discs, lambda s: two * s)
 
@@ -297,8 +316,20 @@ fit have a clean expansion in the cell: there the limit takes all terms that the
 | body | geometry | quantity | cells | errors | order | limit | exact |
 |---|---|---|---|---|---|---|---|"""
 
+OTHER = """
+## Other ways to sum
+
+On a free surface `half_space(..., method=...)` sums the same displacements over the cells in four ways. Above it is
+by Fourier transforms. The others have the same order, limit and error, for they solve the same equations: here is the
+largest relative difference of the quantity to that by transforms (in brackets: cells a side), to be held against the
+tolerance of the solves, 1e-8, and of the flat regions, 1e-9. A multilevel sum is inexact by itself; what it says is
+corrected until the exact sum certifies it, and flat regions are left to the exact sum altogether.
+
+| body | quantity | multilevel | moving grid | full matrix |
+|---|---|---|---|---|"""
+
 TAIL = """
-Remarks
+## Remarks
 
 * A smooth contact converges with the square of the cell in force and depth, a sharp one with the cell itself: half
   a cell along its edge is missing. Of the square about 0.345/n is missing.
@@ -307,17 +338,23 @@ Remarks
 * The equilateral triangle has no closed form; the value beside it is `roughcontact.theory.punch.TRIANGLE`, good to its
   fifth digit. Its cells are as high as to fit into the triangle.
 * On a surface discs are staircases; the area of their cells is not that of the disc, and jumps.
-* `half_space(..., method=...)` sums the same displacements in other ways: see `benchmarks/operators.py` for those.
+* What the ways to sum cost in time and memory: `benchmarks/operators.py`.
 * The toroid's last column is an asymptote for a thin ring, not an exact value: its limit is the better number.
 """
 
 
 def main() -> None:
     """Write the page to standard output."""
+    groups = (bodies_of_revolution, elliptic, cylinders, punches, toroid)
+    cases = [case for group in groups for case in group()]
     sys.stdout.write(HEAD + "\n")
-    for group in (bodies_of_revolution, elliptic, cylinders, punches, toroid):
-        for case in group():
-            sys.stdout.write(row(case) + "\n")
+    for case in cases:
+        sys.stdout.write(row(case) + "\n")
+        sys.stdout.flush()
+    sys.stdout.write(OTHER + "\n")
+    for case in cases:
+        if case.geometry == "surface":
+            sys.stdout.write(sums(case) + "\n")
             sys.stdout.flush()
     sys.stdout.write(TAIL)
 

@@ -1,0 +1,129 @@
+"""The page about the thesis' figures says what the exported averages say."""
+
+import importlib.util
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+import xarray
+
+from roughcontact.study.study import Study
+from roughcontact.thesis.figures import FIGURES, is_ensemble, module, verdicts
+
+ROOT = Path(__file__).parent.parent
+FOLDER = ROOT / "docs" / "reproduction"
+ENSEMBLES = [name for name in FIGURES if is_ensemble(module(name))]
+SIMPLE = [name for name in FIGURES if name not in ENSEMBLES]
+
+
+@pytest.fixture(scope="module")
+def script():
+    """Return the script that writes the page, as a module."""
+    spec = importlib.util.spec_from_file_location("reproduction", ROOT / "benchmarks" / "reproduction.py")
+    found = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = found  # where data classes look for it
+    spec.loader.exec_module(found)
+    yield found
+    del sys.modules[spec.name]
+
+
+@pytest.fixture(scope="module")
+def page():
+    return FOLDER.with_suffix(".md").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def bare(tmp_path):
+    """Return a folder without averages."""
+    for name in ("captions.toml", "simple.json"):
+        shutil.copy(FOLDER / name, tmp_path)
+    return tmp_path
+
+
+def section(page, name):
+    """Return the lines of the section of a figure."""
+    return page.split(f"\n## {heading(name)}\n")[1].split("\n## ")[0]
+
+
+def heading(name):
+    return f"Figure {name[3:]}" if name.startswith("fig") else f"Outlook, {name.removeprefix('outlook-')}"
+
+
+def test_the_page_is_what_the_script_writes(script, page):
+    assert script.page() == page
+
+
+def test_every_figure_has_a_section_and_every_link_leads_somewhere(page):
+    assert re.findall(r"^## ((?:Figure|Outlook,) .+)$", page, re.M) == [heading(name) for name in FIGURES]
+    for link in re.findall(r"\]\(([^#)]+)\)", page):
+        assert (FOLDER.parent / link).exists(), link
+    anchors = {heading(name).lower().replace(",", "").replace(" ", "-") for name in FIGURES}
+    assert set(re.findall(r"\]\(#([^)]+)\)", page)) <= anchors
+    for name in FIGURES:
+        assert ("**Missing:**" in section(page, name)) != (
+            f"(reproduction/{name}.png)" in section(page, name)
+        )
+
+
+def test_what_was_not_computed_is_said_to_be_missing(script, bare):
+    written = script.page(bare)
+    for name in FIGURES:
+        assert ("**Missing:**" in section(written, name)) == (name in ENSEMBLES)
+    [told] = re.findall(r"^\*\*Missing\*\*.*$", written, re.M)
+    assert re.findall(r"\[(\w+)\]", told) == [heading(name).split()[-1] for name in ENSEMBLES]
+
+
+def test_a_scale_is_that_of_the_studies_and_not_of_fewer_samples(script):
+    found = module("fig37")
+    for scale in ("small", "thesis"):
+        [study] = found.studies(scale)
+        assert script.scale_of(found, (study,)) == scale
+        assert script.scale_of(found, (study.with_samples(study.samples + 1),)) == scale
+        assert script.scale_of(found, (study.with_samples(study.samples - 1),)) == "other"
+        other = Study(**(dict(study) | {"seed": study.seed + 1}))
+        assert script.scale_of(found, (other,)) == "other"
+
+
+def test_averages_are_taken_over_with_what_they_are_and_without_a_place(script, bare, tmp_path, monkeypatch):
+    [study] = module("fig37").studies("small")
+    monkeypatch.setattr("roughcontact.thesis.fig37.verdicts", lambda data: ())
+    attrs = {"studies": [study.to_toml()], "history": "now: roughcontact thesis fig37 --out /some/where"}
+    counts = {"cases_done": [17], "cases_failed": [1], "cases_missing": [2], "cases_seconds": [1e4]}
+    source = tmp_path / "averages"
+    source.mkdir()
+    xarray.Dataset({"force": ("load", [1.0, 2.0])}, attrs=attrs | counts).to_netcdf(source / "fig37.nc")
+    script.collect(source, bare)
+    kept = script.read(bare / "fig37.nc")
+    assert "/some" not in str(kept.attrs)
+    assert script.studies_of(kept) == (study,)
+    written = script.page(bare)
+    text = section(written, "fig37")
+    assert "**On the small scale**" in text
+    assert "20 samples, case `curve`, seed 1; " in text
+    assert "**17 of 20 cases: 1 failed, 2 missing**, 2.8 hours of computing in all" in text
+    assert "`roughcontact thesis fig37 --scale small --out DIR`" in text
+    assert "Cases failed or are missing: figure [37]" in written
+
+
+def test_averages_that_do_not_say_what_they_are_are_refused(script, bare, tmp_path):
+    source = tmp_path / "averages"
+    source.mkdir()
+    xarray.Dataset({"force": ("load", [1.0, 2.0])}).to_netcdf(source / "fig37.nc")
+    with pytest.raises(SystemExit, match="--as-is"):
+        script.collect(source, bare)
+
+
+def test_figures_without_an_ensemble_are_those_that_are_kept(script):
+    kept = script.read_simple(FOLDER)
+    assert list(kept) == SIMPLE
+    assert {name: each["seed"] for name, each in kept.items()} == {name: module(name).SEED for name in SIMPLE}
+
+
+@pytest.mark.parametrize("name", ["fig13", "fig15", "fig19", "fig36", "fig43", "fig46"])
+def test_what_is_kept_of_a_quick_figure_is_what_it_finds(script, name):
+    # What is found may end in a rounding error, which is another on another machine.
+    found, kept = module(name), script.read_simple(FOLDER)[name]["verdicts"]
+    now = [(each.claim, each.thesis, each.holds) for each in verdicts(found, found.case(found.SEED))]
+    assert now == [(each["claim"], each["thesis"], each["holds"]) for each in kept]
