@@ -1,8 +1,8 @@
 """Which figures of the thesis there are, and the module of each.
 
-A module named ``fig`` and a number is a figure of the thesis, one named ``outlook_`` and a word answers a question that its
-outlook asks. A simple one computes what it draws from a seed, in seconds. That of
-an ensemble names studies, averages what they export, and draws the averages.
+A module named ``fig`` and a number is a figure of the thesis, one named ``outlook_`` and a word answers a question of
+its outlook. A simple one computes what it draws from a seed, in seconds. That of an ensemble names studies, averages
+what they export, and draws the averages.
 """
 
 from __future__ import annotations
