@@ -45,6 +45,14 @@ def test_a_traction_under_its_force_stays():
     np.testing.assert_array_equal(under_force(traction, limit, traction.sum(axis=1)), traction)
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_large_tractions_meet_the_force_as_well(seed):
+    """To what the sum of the limits allows, whatever the size of what is projected."""
+    traction, limit, total = draw(seed)
+    found = under_force(1e6 * traction, limit, total)
+    np.testing.assert_allclose(found.sum(axis=1), total, rtol=0, atol=3e-14 * limit.sum())
+
+
 def test_what_breaks_the_law():
     """Below the limit all slip; at it, what is not opposed to the traction; beyond it, everything."""
     traction = np.array([[0.5, 1.0, 1.0, 1.0, 1.1], [0.0, 0.0, 0.0, 0.0, 0.0]])

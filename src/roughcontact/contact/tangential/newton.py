@@ -30,10 +30,10 @@ class SlipNewton:
     slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, just as far as
     the guess deserves; its end is projected on the limits.
 
-    Many cells that flip together act on each other over the whole contact, which no guess by cells sees: they go too
-    far, flip back, and so on. So an iteration that does not take the residual down counts as no more than a direction,
-    and the energy is made to fall: see `descended`. Since the residual can only halve so often, and falling energy
-    leads to the minimum, this ends at the answer.
+    Where many cells flip at once, each takes the others for what they were, and all go too far together: left alone,
+    they flip back and forth for ever. So an iteration that does not take the residual down counts as no more than a
+    direction, and the energy is made to fall instead: see `descended`. The residual falls but so often until it is
+    within the tolerance, and energy that goes on falling leads to its minimum: this ends at the answer.
     """
 
     max_steps: int = 5000
@@ -48,7 +48,7 @@ class SlipNewton:
             if trial.residual <= step.tolerance:
                 trial, steps = _certified(step, trial, steps)
             if trial.residual <= max(step.tolerance, FALL * least):
-                state, idle = trial, 0
+                state, lowest, idle = trial, math.inf, 0
             else:
                 state, steps = _certified(step, state, steps)
                 trial, steps = _certified(step, trial, steps)
