@@ -46,9 +46,9 @@ class ActiveSet:
 
     Regions of up to `dense_limit` cells (of a half-space that has tiles 1200 at most) are solved by a factorisation,
     larger ones by conjugate gradients, on the tiles that they touch where that costs less (in single precision then,
-    whatever `single` says), just as far as the present guess of the region deserves. For the half-space the influence matrix is an
-    inverse M-matrix and the flipping ends; for others nothing proves it, so that a run without progress is
-    handed to Polonsky and Keer's method.
+    whatever `single` says), just as far as the present guess of the region deserves. For the half-space the influence
+    matrix is an inverse M-matrix and the flipping ends; for others nothing proves it, so that a run without progress
+    is handed to Polonsky and Keer's method.
     """
 
     max_steps: int = 5000

@@ -22,7 +22,7 @@ Mask = npt.NDArray[np.bool_]
 
 FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
 GAIN = 1e-3  # what one round on patches can take off an error
-LEAST = 12_000  # cells of a plane whose transforms cost more than tiles (benchmarks/patches.py)
+LEAST = 12_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
 
 
 def patch_on(operator: Operator, region: Mask, previous: PatchOperator | None = None) -> PatchOperator | None:
