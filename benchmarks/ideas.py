@@ -74,7 +74,7 @@ def main(n):
         "no window": (everything[1:],),
         "no list": (("positive", "coarsened", "approximate_inverse"),),
         "means": (everything, pooled_by_mean),
-        "single": (everything, cascade.pooled, rc.ActiveSet(single=True)),
+        "double": ((*everything, "patches"),),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
     for name, surface, force in cases(n):

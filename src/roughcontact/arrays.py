@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.threads import limit_threads, spread, threads
+
 __all__ = [
     "Placed",
     "beside",
@@ -19,6 +21,7 @@ __all__ = [
     "inner",
     "is_array",
     "is_numpy",
+    "largest",
     "namespace",
     "numbers",
     "on_host",
@@ -30,6 +33,7 @@ Array = npt.NDArray[np.float64]
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
 # to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
 SLAB = 32
+LARGE = 2**19  # cells of a transform from which on several threads are worth waking
 CELLS = 2**15  # of a slab: of few rows, as on a line, more columns go at once
 
 
@@ -94,6 +98,14 @@ def numbers(array: Any) -> Array:
 def inner(a: Any, b: Any) -> float:
     """Return the sum of the products of the entries of two arrays."""
     return float(np.vdot(a, b)) if isinstance(a, np.ndarray) else float(namespace(a).sum(a * b))
+
+
+def largest(array: Any) -> float:
+    """Return the largest size of an entry; not a number if one is none."""
+    if isinstance(array, np.ndarray):
+        return max(float(array.max()), -float(array.min()))
+    xp = namespace(array)
+    return max(float(xp.max(array)), -float(xp.min(array)))
 
 
 class Placed:
@@ -196,7 +208,7 @@ def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
     time.
     """
     if is_numpy(field):
-        return _by_slabs(field, multiply, padded)
+        return _on_host(field, multiply, padded)
     xp = namespace(field)
     (*_, ny, nx), (my, mx) = field.shape, padded
     spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
@@ -204,14 +216,29 @@ def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
     return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2)[..., :ny, :], n=mx, axis=-1)[..., :nx]  # type: ignore[no-any-return]
 
 
-def _by_slabs(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
     *_, ny, nx = field.shape
     my, mx = padded
-    spectrum = scipy.fft.rfft(field, n=mx, axis=-1)
-    slab = max(SLAB, CELLS // my)
-    for start in range(0, spectrum.shape[-1], slab):
-        part = slice(start, start + slab)
-        column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
-        multiply(column, part)
-        spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
-    return np.asarray(scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True)[..., :nx])
+    workers = threads() if my * mx >= LARGE else 1
+    if my == ny:  # nothing is padded along y: no part of the spectrum is empty
+        spectrum = scipy.fft.fft(
+            scipy.fft.rfft(field, n=mx, axis=-1, workers=workers), axis=-2, overwrite_x=True, workers=workers
+        )
+        multiply(spectrum, slice(None))
+        spectrum = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True, workers=workers)
+    else:
+        spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
+
+        def by_columns(part: slice) -> None:
+            column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
+            multiply(column, part)
+            spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
+
+        with limit_threads(workers):
+            spread(by_columns, _parts(spectrum.shape[-1], max(SLAB, CELLS // my)))
+    answer: Array = scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True, workers=workers)
+    return answer if mx == nx else np.ascontiguousarray(answer[..., :nx])
+
+
+def _parts(length: int, size: int) -> list[slice]:
+    return [slice(start, start + size) for start in range(0, length, size)]

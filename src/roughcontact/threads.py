@@ -1,14 +1,67 @@
-"""How many threads the linear algebra takes."""
+"""How many threads work is done by."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
+from typing import TypeVar
 
 from threadpoolctl import ThreadpoolController
 
-__all__ = ["one_blas_thread"]
+__all__ = ["limit_threads", "one_blas_thread", "spread", "threads"]
+
+T = TypeVar("T")
+
+MOST = 8  # transforms wait for memory: more threads than this find none
+
+_limit: ContextVar[int | None] = ContextVar("threads", default=None)
+
+
+def threads() -> int:
+    """Return how many threads there are for large transforms.
+
+    As many as the process may use cores, 8 at most, or fewer if ``OMP_NUM_THREADS`` says so; one within a case of a
+    study, of which others run beside it.
+    """
+    limit = _limit.get()
+    return _available() if limit is None else limit
+
+
+@contextmanager
+def limit_threads(count: int) -> Iterator[None]:
+    """Use so many threads meanwhile."""
+    token = _limit.set(count)
+    try:
+        yield
+    finally:
+        _limit.reset(token)
+
+
+def spread(work: Callable[[T], None], items: Sequence[T]) -> None:
+    """Do some work on all items, on several threads if there are any.
+
+    What is done to one item must not hang on what is done to another: so it does not hang on the number of threads.
+    """
+    count = min(threads(), len(items))
+    if count < 2:
+        for item in items:
+            work(item)
+        return
+
+    def share(first: int) -> None:
+        for item in items[first::count]:
+            work(item)
+
+    others = [_pool().submit(share, first) for first in range(1, count)]
+    try:
+        share(0)
+    finally:
+        for other in others:
+            other.result()
 
 
 @contextmanager
@@ -23,5 +76,21 @@ def one_blas_thread() -> Iterator[None]:
 
 
 @cache
+def _available() -> int:
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    asked = os.environ.get("OMP_NUM_THREADS", "")
+    return max(1, min(MOST, cores, int(asked) if asked.isdigit() and int(asked) else cores))
+
+
+@cache
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
+
+
+@cache
 def _controller() -> ThreadpoolController:
     return ThreadpoolController()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_pool.cache_clear)  # a forked process has none of these threads

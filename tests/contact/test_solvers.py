@@ -119,10 +119,10 @@ def test_the_residual_belongs_to_the_returned_pressure():
 def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     """A run without progress is handed over, and the answer still certified."""
     import roughcontact.contact.active_set as module
-    from roughcontact.contact.conjugate_gradient import Relaxed
+    from roughcontact.contact.iterative import RegionPressed
 
-    def stuck(operator, separation, control, region, pressure, displacement, **settings):
-        return Relaxed(pressure, displacement, 0.0, 1.0, 1)
+    def stuck(driver, separation, control, region, pressure, displacement, **settings):
+        return RegionPressed(pressure, 1)
 
     monkeypatch.setattr(module, "press_region", stuck)
     rough = surface((32, 32))

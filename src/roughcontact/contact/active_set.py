@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.by_patches import GAIN, factorised, patch_on, press_by_patches
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
+from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised
 from roughcontact.contact.hard import press_hard
 from roughcontact.contact.iterative import press_region
 from roughcontact.contact.measure import Measure
@@ -23,7 +23,6 @@ from roughcontact.contact.status import Status
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.operator import Operator, is_semidefinite
-from roughcontact.halfspace.patches import PatchOperator
 
 __all__ = ["ActiveSet"]
 
@@ -33,27 +32,22 @@ Mask = npt.NDArray[np.bool_]
 
 LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
 SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
-STUCK = 3  # rounds without progress after which patches are no longer trusted
-DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved that is but a guess
+STUCK = 3  # rounds without progress after which only exact products are trusted
 
 
 @dataclass(frozen=True, slots=True)
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    With `single` regions are solved in single precision, their errors found in double precision, which certifies:
-    more products, each of them cheaper (benchmarks/ideas.py).
-
     Regions of up to `dense_limit` cells (of a half-space that has tiles 1200 at most) are solved by a factorisation,
-    larger ones by conjugate gradients, on the tiles that they touch where that costs less (in single precision then,
-    whatever `single` says), just as far as the present guess of the region deserves. For the half-space the influence
-    matrix is an inverse M-matrix and the flipping ends; for others nothing proves it, so that a run without progress
-    is handed to Polonsky and Keer's method.
+    larger ones by conjugate gradients in single precision, on the tiles that they touch where that costs less, just as
+    far as the present guess of the region deserves; products in double precision certify. For the half-space the
+    influence matrix is an inverse M-matrix and the flipping ends; for others nothing proves it, so that a run without
+    progress is handed to Polonsky and Keer's method.
     """
 
     max_steps: int = 5000
     dense_limit: int = DENSE_LIMIT
-    single: bool = False
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure from an `initial` one, on the given terms.
@@ -76,21 +70,18 @@ class ActiveSet:
         dense_limit = factorised(operator, self.dense_limit) if is_numpy(separation) else 0
         given = terms.depth
         p = start_pressure(measure, separation, control, initial, own)
-        u, fresh, steps = operator.apply(p), True, 1
+        u, steps = operator.apply(p), 1
         tangent: Tangent | None = None
         best, idle = np.inf, 0
-        patch: PatchOperator | None = None
+        driver: Driver | None = None
         guessed = True
         while True:
             d = measure.mean(u + separation, p > 0) if given is None else given
             gap = u + separation - d
             scale = judge.scale(u)
             r = judge.residual(p, u, gap)
-            if r <= tolerance and fresh:
+            if r <= tolerance:
                 return State(p, d, r, steps, Status.CONVERGED, tangent)
-            if r <= tolerance:  # the certificate stands on a product of the returned pressure
-                u, fresh, steps = operator.apply(p), True, steps + 1
-                continue
             idle = 0 if r < 0.9 * best else idle + 1
             best = min(best, r)
             if steps >= self.max_steps or idle > 12:
@@ -106,7 +97,7 @@ class ActiveSet:
                 guessed = False
             count, size = int(xp.count_nonzero(region)), math.prod(region.shape)
             if not count:  # too shallow a depth for this grid
-                p, u, fresh = xp.zeros_like(p), xp.zeros_like(p), True
+                p, u = xp.zeros_like(p), xp.zeros_like(p)
                 continue
             if singular and count == size and given is not None:
                 # Up to the mean separation one cell may always go without pressure; with all of them the
@@ -121,33 +112,21 @@ class ActiveSet:
                     continue
                 p = _scatter(pressed.cells, pressed.pressure, region.shape)
                 tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
-                u, fresh, steps = operator.apply(p), True, steps + 1
+                steps += 1
             else:
-                goal = 0.3 * tolerance
-                if not bool(xp.all(region == (p > 0))):
-                    # A region that still changes deserves no more than a part.
-                    goal = max(goal, min(DEPTH_OF_SOLVE * r, 1e-2))
-                limit, left = scale * goal, self.max_steps - steps
-                patch = patch_on(operator, region | (p > 0), patch) if idle < STUCK else None
-                if patch is None:
-                    relaxed = press_region(
-                        operator,
-                        separation,
-                        control,
-                        region,
-                        p,
-                        u,
-                        limit=limit,
-                        max_steps=left,
-                        single=self.single,
-                    )
-                else:
-                    limit = max(limit, scale * GAIN * r)
-                    relaxed = press_by_patches(
-                        patch, operator, separation, control, region, p, u, limit=limit, max_steps=left
-                    )
-                p, u, tangent = relaxed.pressure, relaxed.displacement, None
-                fresh, steps = patch is not None, steps + relaxed.steps
+                driver = driver_on(operator, region | (p > 0), driver) if idle < STUCK else Plane(operator)
+                pressed_region = press_region(
+                    driver,
+                    separation,
+                    control,
+                    region,
+                    p,
+                    u,
+                    limit=scale * max(0.3 * tolerance, driver.gain * r),
+                    max_steps=self.max_steps - steps,
+                )
+                p, tangent, steps = pressed_region.pressure, None, steps + pressed_region.steps + 1
+            u = operator.apply(p)
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, p)
         return replace(rest, steps=rest.steps + steps)
 
@@ -165,7 +144,7 @@ def _sifted(
     A product with their matrix grows with the square of their number, its factorisation with the third power.
     """
     area = float(operator.weights)  # the same for all: who comes here has asked
-    part = DenseOperator(Grid(len(cells), area), operator.as_matrix(cells))
+    part = Plane(DenseOperator(Grid(len(cells), area), operator.as_matrix(cells)))
     start = pressure.ravel()[cells]
     found = press_region(
         part,

@@ -2,122 +2,112 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
+from roughcontact.arrays import largest, namespace
+from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.operator import Invertible, Linear
 
-__all__ = ["Relaxed", "relax"]
+__all__ = ["Direction", "Relaxed", "relax"]
 
 Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Direction:
+    """The last direction of pressure, and the displacement that it causes."""
+
+    pressure: Array
+    displacement: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relaxed:
-    """A pressure on a region, its displacement everywhere, the depth, the largest error inside, and the cost."""
+    """A change of pressure on a region, the lacking displacement that it leaves, its largest inside, and the cost."""
 
-    pressure: Array
-    displacement: Array
-    depth: float
-    error: float
+    change: Array
+    lacking: Array
+    largest: float
     steps: int
+    last: Direction | None
 
 
 def relax(
-    operator: Linear,
-    region: Mask,
-    separation: Array,
-    pressure: Array,
-    displacement: Array,
+    driver: Driver,
+    inside: Array,
+    lacking: Array,
     *,
-    depth: float | None,
+    conserve: bool,
     limit: float,
     max_steps: int,
+    last: Direction | None = None,
 ) -> Relaxed:
-    """Solve ``displacement = depth - separation`` on the `region` (thesis, A.1.3 as corrected).
+    """Find the change of pressure on a region that gives it the displacement it lacks (thesis, A.1.3 as corrected).
 
     Parameters
     ----------
-    operator : Linear
-    region : bool array
-        Cells that carry pressure.
-    separation : array
-        Undeformed gap [m]; only its values on the region matter.
-    pressure, displacement : array
-        Where to start [Pa], zero outside the region, and its image under the operator [m].
-    depth : float or None
-        Given depth [m]; without it the force of the starting pressure is kept and the depth is found.
+    driver : Driver
+        It works in the precision of the fields.
+    inside : array
+        One on the cells of the region, zero elsewhere.
+    lacking : array
+        Displacement that is lacking [m], finite; outside the region it counts for nothing and is carried on.
+    conserve : bool
+        Whether the change has no resultant. Then a displacement that is lacking everywhere alike is none.
     limit : float
-        Stop when the largest error on the region [m] is no more than this.
+        Stop when the largest lack on the region [m] is no more than this.
     max_steps : int
         Largest number of products.
+    last : Direction, optional
+        Where another solve left off, on nearly the same region: what follows leaves it alone.
 
     Notes
     -----
-    At given force the iteration runs in the space of pressures without resultant, where the operator is
-    positive definite whatever the boundary condition.
+    Where the force is kept the iteration runs in the space of pressures without resultant, where the operator is
+    positive definite whatever the boundary condition. Each direction is made conjugate to the one before by their
+    products themselves, so that neither a driver that is none too exact nor a region that has changed a little mislead.
     """
-    measure, xp = Measure(operator.weights), namespace(pressure)
-    target = xp.where(region, separation, 0.0)
-    p, u = xp.asarray(pressure, copy=True), xp.asarray(displacement, copy=True)
-
-    def errors() -> tuple[Array, float]:
-        gap = xp.where(region, u + target, 0.0)
-        d = measure.mean(gap, region) if depth is None else depth
-        return xp.where(region, d - gap, 0.0), d
-
-    ones = xp.where(region, xp.ones_like(p), 0.0) if depth is None else None
-    precondition = _preconditioner(operator, region, measure, ones)
-    r, d = errors()
-    z = precondition(r)
-    t = xp.asarray(z, copy=True)
-    rho = measure.dot(r, z)
-    steps = 0
-    while (error := float(xp.max(xp.abs(r)))) > limit and steps < max_steps and rho > 0:
-        v = operator.apply(t)
-        q = xp.where(region, v, 0.0)
-        if depth is None:
-            q = xp.where(region, q - measure.mean(q, region), 0.0)
-        curvature = measure.dot(t, q)
+    measure, xp = Measure(driver.weights), namespace(lacking)
+    area = measure.total(inside)
+    change, steps = xp.zeros_like(lacking), 0
+    r = lacking - measure.dot(inside, lacking) / area if conserve else xp.asarray(lacking, copy=True)
+    error = r * inside
+    size = largest(error)
+    if not size > limit:
+        return Relaxed(change, r, size, steps, last)
+    uniform, resultant = None, 1.0
+    if conserve:
+        uniform = driver.approximate_inverse(inside)
+        uniform *= inside
+        resultant = measure.total(uniform)
+    t = last.pressure * inside if last is not None else xp.zeros_like(r)
+    v = last.displacement if last is not None else r
+    curvature = measure.dot(t, v)
+    while size > limit and steps < max_steps:
+        z = driver.approximate_inverse(error)
+        z *= inside
+        if not measure.dot(error, z) > 0:
+            break
+        if curvature:
+            t *= -measure.dot(z, v) / curvature
+        t += z
+        if uniform is not None:
+            t -= measure.total(t) / resultant * uniform
+        v = driver.apply(t)
+        curvature = measure.dot(t, v)
         if not curvature > 0:  # rounding has eaten the direction
             break
-        alpha = rho / curvature
-        p += alpha * t
-        u += alpha * v
-        r -= alpha * q
-        z = precondition(r)
-        rho, previous = measure.dot(r, z), rho
-        t *= rho / previous
-        t += z
+        alpha = measure.dot(error, t) / curvature
+        change += alpha * t
+        v *= alpha
+        curvature *= alpha
+        if conserve:
+            v -= measure.dot(inside, v) / area
+        r -= v
+        error = r * inside
+        size = largest(error)
         steps += 1
-    r, d = errors()
-    return Relaxed(p, u, d, error, steps)
-
-
-def _preconditioner(
-    operator: Linear, region: Mask, measure: Measure, ones: Array | None
-) -> Callable[[Array], Array]:
-    """Return a map from errors [m] to directions of pressure [Pa] on the region.
-
-    Given `ones` on the region, the directions have no resultant: at given force.
-    """
-    xp = namespace(region)
-    if not isinstance(operator, Invertible):
-        return lambda r: xp.asarray(r, copy=True)
-    if ones is None:
-        return lambda r: xp.where(region, operator.approximate_inverse(r), 0.0)
-    uniform = xp.where(region, operator.approximate_inverse(ones), 0.0)
-    share = 1 / measure.total(uniform)
-
-    def without_resultant(r: Array) -> Array:
-        z: Array = xp.where(region, operator.approximate_inverse(r), 0.0)
-        z -= measure.total(z) * share * uniform
-        return z
-
-    return without_resultant
+    return Relaxed(change, r, size, steps, Direction(t, v) if steps else last)

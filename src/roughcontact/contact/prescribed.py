@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_array, is_numpy, namespace
-from roughcontact.contact.by_patches import GAIN, factorised, patch_on, relax_by_patches
+from roughcontact.arrays import is_array, is_numpy, largest, namespace
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
+from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box, embed
 from roughcontact.halfspace.operator import Operator, is_semidefinite
@@ -145,50 +145,30 @@ def _solve(
     steps = 0
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
-    displacement = operator.apply(start)
-    steps += 1
-    patch = patch_on(operator, region)
-    error = _error(displacement, wanted, region)
-    while steps < max_steps and error > limit:
+    xp, before = namespace(wanted), math.inf
+    driver: Driver | None = None
+    while True:
+        lacking = xp.where(region, wanted - operator.apply(start), 0.0)
+        steps, error = steps + 1, largest(lacking)
+        if not error > limit or steps >= max_steps:
+            return start, error, steps
+        if driver is None:
+            driver = driver_on(operator, region)
+        elif not error < before / 2:
+            if not driver.gain:
+                return start, error, steps
+            driver = Plane(operator)  # the other has done what it could
         before = error
-        if patch is None:
-            found = relax(
-                operator,
-                region,
-                -wanted,
-                start,
-                displacement,
-                depth=0.0,
-                limit=0.5 * limit,
-                max_steps=max_steps - steps,
-            )
-            # The image is tracked, and checked by a fresh product.
-            start, displacement = found.pressure, operator.apply(found.pressure)
-            steps += found.steps + 1
-        else:
-            found = relax_by_patches(
-                patch,
-                operator,
-                region,
-                -wanted,
-                start,
-                displacement,
-                limit=max(0.5 * limit, GAIN * error),
-                max_steps=max_steps - steps,
-            )
-            start, displacement, steps = found.pressure, found.displacement, steps + found.steps
-        error = _error(displacement, wanted, region)
-        if not error < before / 2:
-            if patch is None:
-                break
-            patch = None  # they have done what they could
-    return start, error, steps
-
-
-def _error(displacement: Array, wanted: Array, region: Mask) -> float:
-    """Return the largest error on the region [m]."""
-    xp = namespace(wanted)
-    return float(xp.max(xp.where(region, xp.abs(displacement - wanted), 0.0)))
+        part = driver.gather(lacking / error)  # so that single precision holds all numbers
+        found = relax(
+            driver,
+            xp.astype(driver.gather(region), part.dtype),
+            part,
+            conserve=False,
+            limit=max(0.5 * limit / error, driver.gain),
+            max_steps=max_steps - steps,
+        )
+        start, steps = start + error * driver.scatter(found.change), steps + found.steps
 
 
 def _first(

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import convolve, fast_even_length
+from roughcontact.arrays import Placed, convolve, fast_even_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.half_periodic_kernel import repeated_love
@@ -92,6 +93,7 @@ class HalfPeriodicOperator:
     grid: Grid
     influence: Tables
     positive: bool = True
+    keeps_precision: ClassVar[bool] = True
 
     @property
     def modulus(self) -> float:
@@ -117,7 +119,7 @@ class HalfPeriodicOperator:
         return lengths[0], lengths[1]
 
     @cached_property
-    def _multiplier(self) -> Array:
+    def _multiplier(self) -> Placed:
         """Transform of the kernel, which is even: real, rows and columns from 0 up."""
         along = self._row.axis
         shape = [n // 2 + 1 for n in self._padded]
@@ -126,18 +128,18 @@ class HalfPeriodicOperator:
         table = self.influence.table(self.grid.shape)
         even[: table.shape[0], : table.shape[1]] = table
         even = scipy.fft.dct(even, type=1, axis=1 - along, overwrite_x=True)
-        return np.ascontiguousarray(scipy.fft.rfft(even, axis=along, overwrite_x=True).real)
+        return Placed(np.ascontiguousarray(scipy.fft.rfft(even, axis=along, overwrite_x=True).real))
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         return convolve(pressure, self._multiplier, self._padded)
 
     @cached_property
-    def _inverse(self) -> tuple[Array, tuple[int, int]]:
+    def _inverse(self) -> tuple[Placed, tuple[int, int]]:
         lengths = [fast_even_length(n) for n in self.grid.shape]
         lengths[self._row.axis] = self.grid.shape[self._row.axis]
         box = (lengths[0], lengths[1])
-        return self.influence.inverse(box), box
+        return Placed(self.influence.inverse(box)), box
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""

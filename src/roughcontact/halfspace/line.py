@@ -13,6 +13,7 @@ from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.influence import Periodic, Strip, Tables
 from roughcontact.halfspace.multilevel import MultilevelOperator
+from roughcontact.halfspace.operator import keeps_precision
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 from roughcontact.halfspace.sums import Sum, Summed, summed
 from roughcontact.material import Solid, as_modulus
@@ -60,6 +61,11 @@ class LineOperator:
     def exact(self) -> LineOperator | None:
         """The same body without the error of its sum; None if there is none to speak of."""
         return LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None
+
+    @property
+    def keeps_precision(self) -> bool:
+        """Whether products with fields in single precision are in single precision."""
+        return keeps_precision(self.plane)
 
     @property
     def weights(self) -> float:

@@ -20,6 +20,7 @@ __all__ = [
     "geometry_of",
     "is_positive",
     "is_semidefinite",
+    "keeps_precision",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -45,10 +46,10 @@ class Operator(Protocol):
     Symmetric under its weights. On a free grid positive definite; on a periodic one semidefinite, since a
     constant pressure moves nothing.
 
-    What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`. Each
-    makes solves faster and none changes an answer. One whose sum is not exact has the `exact` one, by which answers
-    are certified. One that is not a half-space under a surface says so by
-    its `geometry`, on which the units of the answers hang.
+    What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`,
+    `keeps_precision`, `patches`. Each makes solves faster and none changes an answer. One whose sum is not exact has
+    the `exact` one, by which answers are certified. One that is not a half-space under a surface says so by its
+    `geometry`, on which the units of the answers hang.
     """
 
     @property
@@ -97,6 +98,11 @@ def is_semidefinite(operator: Operator) -> bool:
     An operator may say so; else its grid does.
     """
     return bool(getattr(operator, "semidefinite", all(operator.grid.periodic)))
+
+
+def keeps_precision(operator: Operator) -> bool:
+    """Whether products with fields in single precision are in single precision; no, unless the operator says so."""
+    return bool(getattr(operator, "keeps_precision", False))
 
 
 @runtime_checkable

@@ -20,6 +20,7 @@ from roughcontact.halfspace.influence import Love, Periodic
 from roughcontact.halfspace.near_far import DECAY, FreeSplit, InverseSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.tiles import SIDE, Tiles
+from roughcontact.threads import spread
 
 __all__ = ["PatchOperator", "Patches"]
 
@@ -27,10 +28,12 @@ Array = npt.NDArray[np.float64]
 Single = npt.NDArray[Any]  # of single precision
 Cells = npt.NDArray[np.intp]
 Pair = tuple[int, int]
+Pairs = list[tuple[Pair, Cells, Cells]]
 Split = FreeSplit | PeriodicSplit | InverseSplit
 
 REACH = 2  # tiles: how far the near part of the influence goes
 REACH_INVERSE = 1
+GROUP = 256  # tiles whose sums one thread adds up: as many as its cache holds
 STEPS = (1, 2, 4)  # cells from node to node: no more than the width of what the far part smooths
 
 
@@ -57,32 +60,47 @@ class TileSum:
     Attributes
     ----------
     parts : Parts
-    pairs : list of (offset, to, from)
-        The pairs of tiles of each offset.
+    groups : list of lists of (offset, to, from)
+        For some tiles each, the pairs of each offset that lead to them.
     nodes : Nodes
     """
 
     parts: Parts
-    pairs: list[tuple[Pair, Cells, Cells]]
+    groups: list[Pairs]
     nodes: Nodes
 
-    def apply(self, values: Array) -> Array:
+    @classmethod
+    def over(cls, tiles: Tiles, parts: Parts, nodes: Nodes, periodic: bool) -> TileSum:
+        """Return the sum over tiles."""
+        pairs = tiles.neighbours(parts.reach, periodic)
+        ends = np.arange(GROUP, len(tiles), GROUP)
+        groups: list[Pairs] = [[] for _ in range(len(ends) + 1)]
+        for offset, to, of in pairs:  # in the order of the tiles that they lead to
+            cuts = np.searchsorted(to, ends)
+            for group, *some in zip(groups, np.split(to, cuts), np.split(of, cuts), strict=True):
+                if len(some[0]):
+                    group.append((offset, some[0], some[1]))
+        return cls(parts, groups, nodes)
+
+    def apply(self, values: Single) -> Single:
         """Return the sum, shape (tiles, SIDE * SIDE)."""
-        size = float(np.abs(values).max(initial=0.0)) or 1.0  # so that single precision holds any number
-        single = (values / size).astype(np.float32)
         parts, nodes = self.parts, self.nodes
-        waves: Single = convolve(nodes.spread(single), parts.far, parts.lengths)
+        waves: Single = convolve(nodes.spread(values), parts.far, parts.lengths)
         sums = nodes.gather(waves)
-        for offset, to, of in self.pairs:
-            sums[to] += single[of] @ parts.blocks[offset]
-        return size * sums.astype(np.float64)
+
+        def add_near(pairs: Pairs) -> None:
+            for offset, to, of in pairs:
+                sums[to] += values[of] @ parts.blocks[offset]
+
+        spread(add_near, self.groups)
+        return sums
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PatchOperator:
-    """A half-space between the cells of tiles, about.
+    """A half-space between the cells of tiles, about: it drives solves.
 
-    Fields have the shape ``(tiles, SIDE * SIDE)``; `tiles` brings them there and back.
+    Fields have the shape ``(tiles, SIDE * SIDE)`` and single precision.
 
     Attributes
     ----------
@@ -90,18 +108,31 @@ class PatchOperator:
     weights : float
         Area of a cell [m^2].
     forward, inverse : TileSum
+    gain : float
+        What a round of a solve can take off an error: splines and cut err by less.
     """
 
     tiles: Tiles
     weights: float
     forward: TileSum
     inverse: TileSum
+    gain: float = 1e-3
 
-    def apply(self, pressure: Array) -> Array:
+    def gather(self, field: Any) -> Any:
+        """Return a field of the plane on the tiles, numbers in single precision; zero beyond the edge."""
+        values = self.tiles.gather(field)
+        return values if values.dtype == bool else values.astype(np.float32)
+
+    def scatter(self, values: Any) -> Any:
+        """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
+        field = self.tiles.scatter(values)
+        return field if field.dtype == bool else field.astype(np.float64)
+
+    def apply(self, pressure: Single) -> Single:
         """Return the displacement [m] under `pressure` [Pa]."""
         return self.forward.apply(pressure)
 
-    def approximate_inverse(self, displacement: Array) -> Array:
+    def approximate_inverse(self, displacement: Single) -> Single:
         """Return a pressure [Pa] that would cause about this `displacement` [m]."""
         return self.inverse.apply(displacement)
 
@@ -129,9 +160,7 @@ class Patches:
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""
         nodes = Nodes.under(tiles, self._step, self._periodic)
-        forward, inverse = (
-            TileSum(parts, tiles.neighbours(parts.reach, self._periodic), nodes) for parts in self._parts
-        )
+        forward, inverse = (TileSum.over(tiles, parts, nodes, self._periodic) for parts in self._parts)
         return PatchOperator(tiles, self.grid.cell_area, forward, inverse)
 
     @cached_property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -37,6 +38,7 @@ class FreeOperator:
     grid: Grid
     influence: Tables
     positive: bool = True
+    keeps_precision: ClassVar[bool] = True
 
     @property
     def modulus(self) -> float | None:
@@ -112,6 +114,7 @@ class PeriodicOperator:
     grid: Grid
     influence: Periodic
     positive: bool = False
+    keeps_precision: ClassVar[bool] = True
 
     @property
     def modulus(self) -> float | None:

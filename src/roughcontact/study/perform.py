@@ -14,6 +14,7 @@ from threadpoolctl import ThreadpoolController
 from roughcontact.study.key import generator
 from roughcontact.study.record import require_record
 from roughcontact.study.task import Outcome, Task
+from roughcontact.threads import limit_threads
 
 __all__ = ["perform"]
 
@@ -24,7 +25,7 @@ def perform(task: Task) -> Outcome:
     """Return what comes of a task, computed on one thread; an exception makes it a failed one, and goes no further."""
     start = time.perf_counter()
     try:
-        with _one_thread():
+        with limit_threads(1), _one_thread():
             record = task.case.run(task.parameters, generator(task.seed, task.sample))
         require_record(record, task.case.fields)
     except (Exception, SystemExit) as error:

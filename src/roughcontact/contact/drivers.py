@@ -1,0 +1,115 @@
+"""What drives a solve on a region: an operator that need not be exact, since products with the exact one certify."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import is_numpy, namespace
+from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
+from roughcontact.halfspace.patches import PatchOperator
+from roughcontact.halfspace.tiles import Tiles, count
+
+__all__ = ["Driver", "Plane", "driver_on", "factorised"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
+LEAST = 12_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
+SINGLE = 4_000  # cells from which on half the numbers are half the work
+SAFE = (
+    1e-25  # influences between this and its inverse, and squares of answers, are numbers of single precision
+)
+
+
+class Driver(Linear, Invertible, Protocol):
+    """A symmetric map between some cells, in some precision, its preconditioner, and the way there and back."""
+
+    @property
+    def gain(self) -> float:
+        """What one round can take off an error; 0 where the products are exact."""
+        ...
+
+    def gather(self, field: Any) -> Any:
+        """Return a field of the plane on the cells of the driver, numbers in its precision."""
+        ...
+
+    def scatter(self, values: Any) -> Any:
+        """Return the field of the plane that has `values` on these cells and is zero elsewhere, in double precision."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plane:
+    """All cells of an operator, in double precision."""
+
+    operator: Linear
+    gain: float = 0.0
+
+    @property
+    def weights(self) -> float | Array:
+        """Force of a unit pressure on each cell [m^2]."""
+        return self.operator.weights
+
+    def gather(self, field: Any) -> Any:
+        """Return the field."""
+        return field
+
+    def scatter(self, values: Any) -> Any:
+        """Return the field."""
+        return values
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa]."""
+        return self.operator.apply(pressure)
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]; itself, where nothing is known."""
+        if isinstance(self.operator, Invertible):
+            return self.operator.approximate_inverse(displacement)
+        itself: Array = namespace(displacement).asarray(displacement, copy=True)
+        return itself
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SinglePlane(Plane):
+    """All cells of an operator, in single precision."""
+
+    gain: float = 1e-4  # seven digits, of which a product loses one or two
+
+    def gather(self, field: Any) -> Any:
+        """Return the field in single precision."""
+        xp = namespace(field)
+        return field if xp.isdtype(field.dtype, "bool") else xp.astype(field, xp.float32)
+
+    def scatter(self, values: Any) -> Any:
+        """Return the field in double precision."""
+        xp = namespace(values)
+        return values if xp.isdtype(values.dtype, "bool") else xp.astype(values, xp.float64)
+
+
+def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) -> Driver:
+    """Return what solves on a region at the least cost, the previous driver if it still does."""
+    if isinstance(previous, PatchOperator) and previous.tiles.hold(region):
+        return previous
+    own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
+    if not SAFE < own < 1 / SAFE:
+        return Plane(operator)
+    patches = getattr(operator, "patches", None)
+    if patches is not None and is_numpy(region) and region.size >= LEAST:
+        tiles = Tiles.of(region)
+        if len(tiles) < patches.cover * count(region.shape[0]) * count(region.shape[1]):
+            patch: PatchOperator = patches.on(tiles)
+            return patch
+    single = keeps_precision(operator) and math.prod(region.shape) >= SINGLE
+    return previous if isinstance(previous, Plane) else (SinglePlane if single else Plane)(operator)
+
+
+def factorised(operator: Operator, limit: int) -> int:
+    """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
+    return min(limit, FACTORISED) if getattr(operator, "patches", None) is not None else limit
