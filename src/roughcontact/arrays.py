@@ -19,12 +19,15 @@ __all__ = [
     "fast_even_length",
     "filtered",
     "inner",
+    "irfft2",
     "is_array",
     "is_numpy",
     "largest",
+    "multiply_even",
     "namespace",
     "numbers",
     "on_host",
+    "rfft2",
     "wants_gradient",
 ]
 
@@ -179,14 +182,44 @@ def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) 
         Lengths ``(My, Mx)`` of the transforms, at least those of the field.
     """
     factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
-    xp, (my, _) = namespace(field), padded
-    upper = my // 2 + 1
 
     def multiply(spectrum: Any, columns: slice) -> None:
-        spectrum[:upper, :] *= factors[:, columns]
-        spectrum[upper:, :] *= xp.flip(factors[1 : my - upper + 1, columns], axis=0)
+        _multiply_even(spectrum, factors[:, columns])
 
     return filtered(field, multiply, padded)
+
+
+def multiply_even(spectrum: Any, multiplier: Placed) -> None:
+    """Multiply a spectrum, shape (My, Mx//2 + 1), in place by a real even one, shape (My//2 + 1, Mx//2 + 1)."""
+    _multiply_even(spectrum, multiplier.beside(spectrum.real))
+
+
+def _multiply_even(spectrum: Any, factors: Any) -> None:
+    upper = factors.shape[0]
+    spectrum[:upper, :] *= factors
+    spectrum[upper:, :] *= namespace(factors).flip(factors[1 : spectrum.shape[0] - upper + 1, :], axis=0)
+
+
+def rfft2(field: Array, lengths: tuple[int, int]) -> Any:
+    """Return the spectrum of a real field, padded by zeros to `lengths`, shape ``(My, Mx//2 + 1)``."""
+    if is_numpy(field):
+        return scipy.fft.rfft2(field, s=lengths, workers=_workers(lengths))
+    xp, (my, mx) = namespace(field), lengths
+    return xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
+
+
+def irfft2(spectrum: Any, lengths: tuple[int, int]) -> Array:
+    """Return the real field of a spectrum, which is overwritten, shape `lengths`."""
+    if is_numpy(spectrum):
+        workers = _workers(lengths)
+        return np.asarray(scipy.fft.irfft2(spectrum, s=lengths, overwrite_x=True, workers=workers))
+    xp, (my, mx) = namespace(spectrum), lengths
+    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2), n=mx, axis=-1)  # type: ignore[no-any-return]
+
+
+def _workers(lengths: tuple[int, int]) -> int:
+    """Return how many threads a transform takes."""
+    return threads() if lengths[0] * lengths[1] >= LARGE else 1
 
 
 def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
@@ -219,15 +252,13 @@ def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
 def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
     *_, ny, nx = field.shape
     my, mx = padded
-    workers = threads() if my * mx >= LARGE else 1
-    if my == ny:  # nothing is padded along y: no part of the spectrum is empty
-        spectrum = scipy.fft.fft(
-            scipy.fft.rfft(field, n=mx, axis=-1, workers=workers), axis=-2, overwrite_x=True, workers=workers
-        )
+    workers = _workers(padded)
+    spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
+    if my == ny:  # no part of the spectrum is empty
+        spectrum = scipy.fft.fft(spectrum, axis=-2, overwrite_x=True, workers=workers)
         multiply(spectrum, slice(None))
         spectrum = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True, workers=workers)
     else:
-        spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
 
         def by_columns(part: slice) -> None:
             column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)

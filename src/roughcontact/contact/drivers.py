@@ -9,18 +9,19 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
 from roughcontact.halfspace.patches import PatchOperator
+from roughcontact.halfspace.split_plane import SplitPlane
 from roughcontact.halfspace.tiles import Tiles, count
 
-__all__ = ["Driver", "Plane", "driver_on", "factorised"]
+__all__ = ["Driver", "Plane", "driver_on", "factorised", "first_product"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
-LEAST = 12_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
+LEAST = 60_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
 SINGLE = 4_000  # cells from which on half the numbers are half the work
 SAFE = (
     1e-25  # influences between this and its inverse, and squares of answers, are numbers of single precision
@@ -78,9 +79,9 @@ class Plane:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SinglePlane(Plane):
-    """All cells of an operator, in single precision."""
+    """All cells of an operator, in single precision, by its quick products if it has any."""
 
-    gain: float = 1e-4  # seven digits, of which a product loses one or two
+    gain: float = 1e-4  # seven digits, of which a product loses one or two, a quick one three
 
     def gather(self, field: Any) -> Any:
         """Return the field in single precision."""
@@ -92,13 +93,17 @@ class SinglePlane(Plane):
         xp = namespace(values)
         return values if xp.isdtype(values.dtype, "bool") else xp.astype(values, xp.float64)
 
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa]."""
+        quick: SplitPlane | None = getattr(self.operator, "quick", None)
+        return (self.operator if quick is None else quick).apply(pressure)
+
 
 def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) -> Driver:
     """Return what solves on a region at the least cost, the previous driver if it still does."""
     if isinstance(previous, PatchOperator) and previous.tiles.hold(region):
         return previous
-    own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
-    if not SAFE < own < 1 / SAFE:
+    if not _tame(operator):
         return Plane(operator)
     patches = getattr(operator, "patches", None)
     if patches is not None and is_numpy(region) and region.size >= LEAST:
@@ -106,8 +111,26 @@ def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) 
         if len(tiles) < patches.cover * count(region.shape[0]) * count(region.shape[1]):
             patch: PatchOperator = patches.on(tiles)
             return patch
-    single = keeps_precision(operator) and math.prod(region.shape) >= SINGLE
-    return previous if isinstance(previous, Plane) else (SinglePlane if single else Plane)(operator)
+    return previous if isinstance(previous, Plane) else _plane(operator)
+
+
+def first_product(operator: Operator, pressure: Array) -> tuple[Array, bool]:
+    """Return about the displacement [m] under a first guess of the pressure [Pa], and whether it is exact."""
+    size = largest(pressure)
+    driver = _plane(operator) if size > 0 and _tame(operator) else Plane(operator)
+    if not driver.gain:
+        return operator.apply(pressure), True
+    return size * driver.scatter(driver.apply(driver.gather(pressure / size))), False
+
+
+def _tame(operator: Operator) -> bool:
+    """Whether its influences are numbers of single precision."""
+    return SAFE < float(operator.as_matrix(np.zeros(1, np.intp))[0, 0]) < 1 / SAFE
+
+
+def _plane(operator: Operator) -> Plane:
+    single = keeps_precision(operator) and math.prod(operator.grid.shape) >= SINGLE
+    return SinglePlane(operator) if single else Plane(operator)
 
 
 def factorised(operator: Operator, limit: int) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -13,9 +14,9 @@ from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body, ContactProblem, Control, Force
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import lock, solve_state
-from roughcontact.contact.state import Solver
+from roughcontact.contact.state import Solver, Tangent
 from roughcontact.contact.stiffness import FrozenContact, frozen_contact, yields_not
-from roughcontact.contact.window import Windows, embed
+from roughcontact.contact.window import Windows, embed, take
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import Operator, geometry_of
@@ -127,13 +128,16 @@ def suggested_forces(
 def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
     windows = Windows(problem.operator)
     guess: tuple[Array, float] | None = None
+    last: Tangent | None = None
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here = problem.under(control)
         state, place = solve_state(here, solver, guess, windows)
-        frozen = frozen_contact(
-            windows.part(place), yields_not(state.pressure, problem.hardness), tangent=state.tangent
-        )
         shape = problem.grid.shape
+        frozen = frozen_contact(
+            windows.part(place),
+            yields_not(state.pressure, problem.hardness),
+            tangent=state.tangent or (last and Tangent(take(last.pressure, place), math.inf)),
+        )
         pressure = embed(state.pressure, place, shape)
         lock(pressure)
         solution = Solution(
@@ -145,6 +149,7 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
             state.steps,
             FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, place, shape)),
         )
+        last = Tangent(solution.frozen.tangent, math.inf)  # that of another region: where to start
         yield solution
         if following is not None:
             guess = _predict(solution, following)

@@ -14,7 +14,7 @@ from roughcontact.arrays import is_array, is_numpy, largest, namespace
 from roughcontact.contact.cascade import coarse_operator, pooled
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
-from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised
+from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.window import bounding_box, embed
 from roughcontact.halfspace.operator import Operator, is_semidefinite
@@ -28,13 +28,26 @@ Mask = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prescribed:
-    """A pressure [Pa], zero outside the region, its force [N], its residual and the products it took.
+    """A pressure that gives a region a prescribed displacement, about.
 
-    `residual` is the largest error of the displacement on the region, relative to its largest value.
+    Attributes
+    ----------
+    pressure : array
+        Pressure [Pa], zero outside the region.
+    force : float
+        Its sum over the region [N].
+    work : float
+        Sum of force times prescribed displacement [J], twice the elastic energy: wrong by the square of the residual,
+        where the force is wrong by the residual.
+    residual : float
+        Largest error of the displacement on the region, relative to its largest value.
+    steps : int
+        Products with the operator.
     """
 
     pressure: Array
     force: float
+    work: float
     residual: float
     steps: int
 
@@ -108,8 +121,8 @@ def prescribe(
     _check("initial pressure", initial, region)
     field = xp.zeros(region.shape, dtype=xp.float64, device=region.device) if initial is None else initial
     target = xp.where(region, xp.zeros_like(field) + displacement, 0.0)
-    largest = float(xp.max(xp.abs(target)))
-    if not 0 < largest < math.inf:
+    size = largest(target)
+    if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
         raise ValueError("the initial pressure must be finite [Pa]")
@@ -120,10 +133,11 @@ def prescribe(
     inside, wanted = region[box], target[box]
     start = None if initial is None else xp.where(region, initial, 0.0)[box]
     with one_blas_thread():
-        pressure, error, steps = _solve(part, inside, wanted, start, tolerance * largest, max_steps)
-    measure = Measure(operator.weights)
+        pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
+    # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
+    work = Measure(part.weights).dot(pressure, wanted + lacking)
     whole = embed(pressure, box, region.shape)
-    return Prescribed(whole, measure.total(whole), error / largest, steps)
+    return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
 
 
 def _check(name: str, given: Any, region: Mask) -> None:
@@ -140,23 +154,27 @@ def _check(name: str, given: Any, region: Mask) -> None:
 
 def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
-) -> tuple[Array, float, int]:
-    """Return pressure, largest error [m] on a fresh product, and the number of products."""
+) -> tuple[Array, Array, int]:
+    """Return pressure, the displacement that is lacking by a fresh product [m], and the number of products."""
     steps = 0
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
     xp, before = namespace(wanted), math.inf
     driver: Driver | None = None
+    u, exact = first_product(operator, start)
     while True:
-        lacking = xp.where(region, wanted - operator.apply(start), 0.0)
+        lacking = xp.where(region, wanted - u, 0.0)
         steps, error = steps + 1, largest(lacking)
         if not error > limit or steps >= max_steps:
-            return start, error, steps
+            if exact:
+                return start, lacking, steps
+            u, exact = operator.apply(start), True
+            continue
         if driver is None:
             driver = driver_on(operator, region)
         elif not error < before / 2:
             if not driver.gain:
-                return start, error, steps
+                return start, lacking, steps
             driver = Plane(operator)  # the other has done what it could
         before = error
         part = driver.gather(lacking / error)  # so that single precision holds all numbers
@@ -169,6 +187,7 @@ def _solve(
             max_steps=max_steps - steps,
         )
         start, steps = start + error * driver.scatter(found.change), steps + found.steps
+        u, exact = operator.apply(start), True
 
 
 def _first(

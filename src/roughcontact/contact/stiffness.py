@@ -77,9 +77,9 @@ def frozen_contact(
         return FrozenContact(
             Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure
         )
-    initial = None if tangent is None else tangent.pressure
+    initial = None if tangent is None else xp.where(region, tangent.pressure, 0.0)
     answer = prescribe(operator, region, 1.0, tolerance, initial=initial)
-    return FrozenContact(answer.force, answer.residual, answer.pressure)
+    return FrozenContact(answer.work, answer.residual, answer.pressure)  # work per square of displacement
 
 
 def contact_stiffness(

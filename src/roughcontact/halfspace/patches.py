@@ -2,14 +2,14 @@
 
 Tiles cover the region. Between tiles that lie close together a small matrix for each of their offsets does the near
 part of the influence; nodes every few cells, and a transform of these, do the far part. What single precision, the cut
-and splines of sixth order leave out is some 1e-3 of the answer at most: it drives solves that exact products certify.
+and splines of sixth order leave out is some 1e-5 of the answer: it drives solves that exact products certify.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -31,8 +31,9 @@ Pair = tuple[int, int]
 Pairs = list[tuple[Pair, Cells, Cells]]
 Split = FreeSplit | PeriodicSplit | InverseSplit
 
-REACH = 2  # tiles: how far the near part of the influence goes
+REACH = 3  # tiles: how far the near part of the influence goes
 REACH_INVERSE = 1
+SMOOTH_INVERSE = 2  # tiles: what the far part of the inverse smooths, as a reach
 GROUP = 256  # tiles whose sums one thread adds up: as many as its cache holds
 STEPS = (1, 2, 4)  # cells from node to node: no more than the width of what the far part smooths
 
@@ -116,7 +117,7 @@ class PatchOperator:
     weights: float
     forward: TileSum
     inverse: TileSum
-    gain: float = 1e-3
+    gain: float = 3e-5
 
     def gather(self, field: Any) -> Any:
         """Return a field of the plane on the tiles, numbers in single precision; zero beyond the edge."""
@@ -146,10 +147,13 @@ class Patches:
     kernel : Love or Periodic
         Its boundary condition is the one that counts.
     grid : Grid
+    cover : float
+        Part of the plane's tiles up to which they cost less than the plane (benchmarks/patches.py).
     """
 
     kernel: Love | Periodic
     grid: Grid
+    cover: ClassVar[float] = 0.1
 
     @property
     def possible(self) -> bool:
@@ -170,32 +174,26 @@ class Patches:
         ny, nx = node_shape((self.grid.shape[0], self.grid.shape[1]), step, self._periodic)
         split: Split
         if isinstance(kernel, Periodic):
-            split, lengths, box = PeriodicSplit(kernel, self._reach), (ny, nx), (ny, nx)
+            split, lengths, box = PeriodicSplit(kernel, self._reach(REACH)), (ny, nx), (ny, nx)
         else:
-            split = FreeSplit(kernel, self._reach)
+            split = FreeSplit(kernel, self._reach(REACH))
             # So much room that neither the far side of the influence nor a spline comes round.
             lengths = fast_even_length(2 * ny + ORDER), fast_even_length(2 * nx + ORDER)
             box = fast_even_length(ny), fast_even_length(nx)
-        inverse = InverseSplit(kernel.modulus, (dy, dx), self._reach)
+        inverse = InverseSplit(kernel.modulus, (dy, dx), self._reach(SMOOTH_INVERSE))
         return Parts.of(split, REACH, step, lengths), Parts.of(inverse, REACH_INVERSE, step, box)
-
-    @property
-    def cover(self) -> float:
-        """Part of the plane's tiles from which on transforms of the plane cost no more (benchmarks/patches.py)."""
-        return 0.3 if self._periodic else 0.7
 
     @property
     def _periodic(self) -> bool:
         return isinstance(self.kernel, Periodic)
 
-    @property
-    def _reach(self) -> float:
-        return REACH * SIDE * min(self.grid.spacing)
+    def _reach(self, tiles: int) -> float:
+        return tiles * SIDE * min(self.grid.spacing)
 
     @property
     def _step(self) -> Pair:
         """Cells from node to node along each axis, divisors of a tile; 0 where none is short enough."""
-        widest = (self._reach / DECAY / d for d in self.grid.spacing)
+        widest = (self._reach(SMOOTH_INVERSE) / DECAY / d for d in self.grid.spacing)
         down, across = (max((s for s in STEPS if s <= w), default=0) for w in widest)
         return down, across
 

@@ -1,0 +1,83 @@
+"""How many threads there are, and that answers do not hang on them."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact import arrays
+from roughcontact.threads import limit_threads, spread, threads
+
+
+def test_within_a_limit():
+    outside = threads()
+    with limit_threads(3):
+        assert threads() == 3
+        with limit_threads(1):
+            assert threads() == 1
+        assert threads() == 3
+    assert threads() == outside
+
+
+@pytest.mark.parametrize(
+    ("asked", "given"), [("1", 1), ("0", None), ("many", None), ("1000", None), ("", None)]
+)
+def test_the_environment_may_ask_for_fewer(asked, given):
+    code = "from roughcontact.threads import threads; print(threads())"
+    environment = os.environ | {"OMP_NUM_THREADS": asked}
+    found = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    assert int(found.stdout) == (given or min(cores, 8))
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_all_is_done_once(count):
+    done = []
+    with limit_threads(count):
+        spread(done.append, range(17))
+    assert sorted(done) == list(range(17))
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_what_fails_is_told(count):
+    def work(item):
+        if item == 7:
+            raise ArithmeticError("seven")
+
+    with limit_threads(count), pytest.raises(ArithmeticError, match="seven"):
+        spread(work, range(9))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_answers_do_not_hang_on_their_number(monkeypatch, periodic):
+    monkeypatch.setattr(arrays, "LARGE", 1)
+    grid = rc.Grid((140, 260), 1e-3, periodic)
+    rough = rc.self_affine(grid, 0.8, 1e-4, np.random.default_rng(0))
+    answers = []
+    for count in (1, 3):
+        with limit_threads(count):
+            answers.append(rc.press(rough, 1e9, force=2e3, solver=rc.ActiveSet(dense_limit=0)))
+    np.testing.assert_array_equal(answers[0].pressure, answers[1].pressure)
+    assert answers[0].depth == answers[1].depth
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_has_threads_of_its_own():
+    code = (
+        "import os, sys\n"
+        "from roughcontact.threads import limit_threads, spread\n"
+        "with limit_threads(2):\n"
+        "    spread(lambda item: None, range(4))\n"
+        "    child = os.fork()\n"
+        "    if not child:\n"
+        "        done = []\n"
+        "        spread(done.append, range(4))\n"
+        "        os._exit(len(done))\n"
+        "    sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 4)\n"
+    )
+    subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=True, timeout=60)
