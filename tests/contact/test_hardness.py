@@ -5,6 +5,11 @@ import oracles
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact import hard
+from roughcontact.contact.polonsky_keer import PolonskyKeer
+from roughcontact.contact.problem import Force, Terms
+from roughcontact.contact.state import State
+from roughcontact.contact.status import Status
 
 MODULUS = 2.0
 SOLVERS = {"active set": rc.ActiveSet(), "Polonsky-Keer": rc.PolonskyKeer()}
@@ -149,13 +154,35 @@ def test_random_problems(seed):
 
 def test_a_flat_body_by_the_depth_that_carries_the_force(monkeypatch):
     """At depth 0 a flat surface bears everywhere and carries nothing: the search must begin below it."""
-    from roughcontact.contact import hard
-
     grid = rc.Grid((8, 8), 1.0)
     flat, force, hardness = rc.Surface(np.zeros((8, 8)), grid), 0.9 * 64 * 1e-3, 1e-3
     plain = rc.press(flat, MODULUS, force=force, hardness=hardness)
-    monkeypatch.setattr(hard, "FLOWING", 0.0)
-    by_depth = rc.press(flat, MODULUS, force=force, hardness=hardness)
-    assert by_depth.depth == pytest.approx(plain.depth, rel=1e-7)
+    terms = Terms(Force(force), hardness=hardness)
+    elastic = rc.press(flat, MODULUS, force=force).pressure
+    circling = State(elastic, 0.0, 1.0, 0, Status.STAGNATED)
+    run = PolonskyKeer.run
+
+    def at_depth_only(self, operator, separation, terms, initial):
+        return circling if terms.depth is None else run(self, operator, separation, terms, initial)
+
+    monkeypatch.setattr(PolonskyKeer, "run", at_depth_only)
+    half = rc.half_space(grid, MODULUS)
+    pressure, _ = hard._by_depth(half, np.zeros((8, 8)), terms, PolonskyKeer())
+    assert pressure.sum() == pytest.approx(force, rel=1e-8)
+    np.testing.assert_allclose(pressure, plain.pressure, rtol=1e-6)
+    monkeypatch.undo()
     with pytest.raises(rc.ConvergenceError):
         rc.press(flat, MODULUS, force=force, hardness=hardness, solver=rc.ActiveSet(max_steps=1))
+
+
+@pytest.mark.parametrize("share", [0.5, 0.2, 0.05])
+@pytest.mark.parametrize("load", [{"force": 3e-3}, {"depth": 0.02}], ids=str)
+def test_soft_bodies_take_few_products(share, load):
+    """The cells that give way are found as those in contact are; the projected method takes thousands."""
+    grid = rc.Grid((128, 128), 1 / 128)
+    rough = rc.self_affine(grid, hurst=0.7, rms=0.01, rng=np.random.default_rng(0))
+    slope = np.sqrt(sum(np.mean(d**2) for d in np.gradient(rough.heights, 1 / 128)))
+    iterative = rc.ActiveSet(dense_limit=0)
+    soft = rc.press(rough, 1.0, **load, hardness=share * slope, solver=iterative)
+    assert soft.steps < 300  # the search for a depth that carries the force took up to 20 000
+    assert (soft.pressure == share * slope).sum() > 100

@@ -121,7 +121,7 @@ def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     import roughcontact.contact.active_set as module
     from roughcontact.contact.iterative import RegionPressed
 
-    def stuck(driver, separation, control, region, pressure, displacement, **settings):
+    def stuck(driver, separation, terms, region, pressure, displacement, **settings):
         return RegionPressed(pressure, 1)
 
     monkeypatch.setattr(module, "press_region", stuck)

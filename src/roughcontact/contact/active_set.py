@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.contact.bounds import depth_of, within
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.hard import press_hard
@@ -16,7 +17,7 @@ from roughcontact.contact.iterative import press_region
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.polonsky_keer import PolonskyKeer
-from roughcontact.contact.problem import Control, Terms
+from roughcontact.contact.problem import Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
@@ -32,6 +33,7 @@ Mask = npt.NDArray[np.bool_]
 
 LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
 SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
+FLOWING = 0.5  # of the force: where more exceeds the hardness, hardly a cell is left between the bounds
 STUCK = 3  # rounds without progress after which only exact products are trusted
 
 
@@ -52,32 +54,51 @@ class ActiveSet:
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure from an `initial` one, on the given terms.
 
-        With a hardness that the answer would exceed, that answer is where Polonsky and Keer's method starts.
+        With a hardness that the elastic answer would exceed, that answer is where to start.
         """
-        if terms.hardness < np.inf:
-            elastic = self.run(operator, separation, replace(terms, hardness=np.inf), initial)
-            if float(namespace(separation).max(elastic.pressure)) <= terms.hardness:
-                return elastic
-            rest = press_hard(operator, separation, terms, elastic.pressure, self.max_steps)
-            return replace(rest, steps=rest.steps + elastic.steps)
         measure = Measure(operator.weights)
-        control, tolerance = terms.control, terms.tolerance
-        judge = Judge.of(operator, terms)
+        if terms.hardness < math.inf:
+            elastic = self.run(operator, separation, replace(terms, hardness=math.inf), initial)
+            xp = namespace(separation)
+            if float(xp.max(elastic.pressure)) <= terms.hardness:
+                return elastic
+            excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
+            start, steps = within(measure, elastic.pressure, separation, terms), elastic.steps
+            if measure.total(excess) < FLOWING * measure.total(elastic.pressure):
+                state = self._flip(operator, separation, terms, start)
+                if state.status.converged:
+                    return replace(state, steps=steps + state.steps)
+                start, steps = state.pressure, steps + state.steps
+            state = press_hard(operator, separation, terms, start, self.max_steps)
+            return replace(state, steps=steps + state.steps)
+        own = Judge.of(operator, terms).self_influence
+        p = start_pressure(measure, separation, terms.control, initial, own)
+        state = self._flip(operator, separation, terms, p)
+        if state.status.converged:
+            return state
+        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, state.pressure)
+        return replace(rest, steps=rest.steps + state.steps)
+
+    def _flip(self, operator: Operator, separation: Array, terms: Terms, p: Array) -> State:
+        """Return what guessing the region again and again leads to: converged, or stagnated."""
+        measure, judge = Measure(operator.weights), Judge.of(operator, terms)
+        control, tolerance, given, hardness = terms.control, terms.tolerance, terms.depth, terms.hardness
         own = judge.self_influence
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         xp = namespace(separation)
-        # Factorisations are made on the host.
-        dense_limit = factorised(operator, self.dense_limit) if is_numpy(separation) else 0
-        given = terms.depth
-        p = start_pressure(measure, separation, control, initial, own)
+        # Factorisations are made on the host, and know no hardness.
+        direct = is_numpy(separation) and hardness == math.inf
+        dense_limit = factorised(operator, self.dense_limit) if direct else 0
         (u, exact), steps = first_product(operator, p), 1
         tangent: Tangent | None = None
         best, idle = np.inf, 0
         driver: Driver | None = None
         guessed = True
         while True:
-            d = measure.mean(u + separation, p > 0) if given is None else given
-            gap = u + separation - d
+            held = p >= hardness
+            level = u + separation
+            d = depth_of(measure, level, p, (p > 0) & ~held) if given is None else given
+            gap = level - d
             scale = judge.scale(u)
             r = judge.residual(p, u, gap)
             if r <= tolerance and exact:
@@ -88,17 +109,20 @@ class ActiveSet:
             idle = 0 if r < 0.9 * best else idle + 1
             best = min(best, r)
             if steps >= self.max_steps or idle > 12:
-                break
-            region = (p > 0) | (gap < -0.5 * tolerance * scale)
+                return State(p, d, r, steps, Status.STAGNATED)
+            allowed = 0.5 * tolerance * scale
+            region = (((p > 0) | (gap < -allowed)) & ~held) | (held & (gap > allowed))
             if guessed:
                 # From other cells or another load: keep what a projected step of one cell leaves of it.
                 wrong = region & (p * own < gap)
                 region &= ~wrong
                 if dense_limit and self._worth_sifting(region, wrong, measure):
                     limit = LOOSE * r * scale
-                    region = _sifted(operator, separation, control, np.flatnonzero(region), p, limit)
+                    region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
                 guessed = False
             count, size = int(xp.count_nonzero(region)), math.prod(region.shape)
+            if not count and bool(xp.any(held)):  # where all give way no region tells the depth
+                return State(p, d, r, steps, Status.STAGNATED)
             if not count:  # too shallow a depth for this grid
                 p, u = xp.zeros_like(p), xp.zeros_like(p)
                 continue
@@ -118,20 +142,20 @@ class ActiveSet:
                 steps += 1
             else:
                 driver = driver_on(operator, region | (p > 0), driver) if idle < STUCK else Plane(operator)
-                pressed_region = press_region(
+                found = press_region(
                     driver,
                     separation,
-                    control,
+                    terms,
                     region,
                     p,
                     u,
                     limit=scale * max(0.3 * tolerance, driver.gain * r),
                     max_steps=self.max_steps - steps,
                 )
-                p, tangent, steps = pressed_region.pressure, None, steps + pressed_region.steps + 1
+                p, tangent, steps = found.pressure, None, steps + found.steps + 1
+                if hardness < math.inf:
+                    p = within(measure, p, gap, terms)
             u, exact = operator.apply(p), True
-        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, p)
-        return replace(rest, steps=rest.steps + steps)
 
     def _worth_sifting(self, region: Mask, wrong: Mask, measure: Measure) -> bool:
         """Whether a guess is bad, and its matrix large: one load to the next is a good guess."""
@@ -140,7 +164,7 @@ class ActiveSet:
 
 
 def _sifted(
-    operator: Operator, separation: Array, control: Control, cells: Cells, pressure: Array, limit: float
+    operator: Operator, separation: Array, terms: Terms, cells: Cells, pressure: Array, limit: float
 ) -> Mask:
     """Return the region of those guessed cells that press when their problem is solved loosely.
 
@@ -152,7 +176,7 @@ def _sifted(
     found = press_region(
         part,
         separation.ravel()[cells],
-        control,
+        terms,
         np.ones(len(cells), dtype=bool),
         start,
         part.apply(start),

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
+from roughcontact.contact.bounds import depth_of
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
-from roughcontact.contact.polonsky_keer import depth_of
 from roughcontact.contact.problem import Terms
 from roughcontact.contact.state import Solver, State
 from roughcontact.contact.status import Status

@@ -1,4 +1,4 @@
-"""Bodies that give way under a hardness: from the elastic answer, or from the depth that carries the force."""
+"""Bodies that give way under a hardness: by projection, or from the depth that carries the force."""
 
 from __future__ import annotations
 
@@ -19,26 +19,20 @@ __all__ = ["press_hard"]
 
 Array = npt.NDArray[np.float64]
 
-FLOWING = 0.3  # of the force: if more exceeds the hardness, most cells will give way
 TRIALS = 80  # depths: by halving alone, more than the digits of a depth
 CLOSE = 1e-9  # of the force: then the cells at the bounds are the right ones, but for some at the very edge
 
 
-def press_hard(operator: Operator, separation: Array, terms: Terms, elastic: Array, max_steps: int) -> State:
-    """Press on terms with a hardness that the `elastic` pressure [Pa] exceeds.
+def press_hard(operator: Operator, separation: Array, terms: Terms, start: Array, max_steps: int) -> State:
+    """Press on terms with a hardness, from a `start` of the pressure [Pa].
 
     Where nearly every cell in contact gives way, too few are left to tell the depth at a given force, and the
     projected method may run in circles. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
-    if terms.depth is not None:
-        return solver.run(operator, separation, terms, elastic)
-    xp, beyond = namespace(elastic), elastic - terms.hardness
-    excess = xp.where(beyond > 0, beyond, 0.0)
-    if Measure(operator.weights).total(excess) < FLOWING * terms.control.value:
-        state = solver.run(operator, separation, terms, elastic)
-        if state.status.converged:
-            return state
+    state = solver.run(operator, separation, terms, start)
+    if state.status.converged or terms.depth is not None:
+        return state
     pressure, steps = _by_depth(operator, separation, terms, solver)
     state = solver.run(operator, separation, terms, pressure)
     return replace(state, steps=state.steps + steps)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from roughcontact.arrays import largest, namespace
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.problem import Control, Force
+from roughcontact.contact.problem import Force, Terms
 
 __all__ = ["RegionPressed", "press_region"]
 
@@ -25,7 +26,7 @@ NEVER = -1e30  # a lack of displacement that brings no cell into contact
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RegionPressed:
-    """A pressure [Pa], nowhere negative and zero outside its region, and the products that it took."""
+    """A pressure [Pa] between zero and the hardness, and the products that it took."""
 
     pressure: Array
     steps: int
@@ -34,7 +35,7 @@ class RegionPressed:
 def press_region(
     driver: Driver,
     separation: Array,
-    control: Control,
+    terms: Terms,
     region: Mask,
     pressure: Array,
     displacement: Array,
@@ -42,99 +43,97 @@ def press_region(
     limit: float,
     max_steps: int,
 ) -> RegionPressed:
-    """Press on a region alone and let go of cells that would pull, until none does.
+    """Press on a region, let go of cells that would pull, hold those that give way, and add those that penetrate.
 
-    The counterpart of `press_cells`: both end with a pressure that is nowhere negative, so that cells are
-    added only to a region whose answer is known. (Adding while letting go, as the method does where each
-    region is solved exactly, runs in circles where it is not.)
+    Cells are let go of until none pulls before any is added: adding and letting go at once, as is right where each
+    region is solved exactly, runs in circles where it is not.
 
     Parameters
     ----------
     driver : Driver
-        It holds the region and all cells under pressure. Only changes of pressure pass through it: of them alone it
-        gets some part wrong.
-    separation, control
+        It has all cells of the region and all under pressure. Only changes of pressure pass through it: of them alone
+        it gets some part wrong.
+    separation, terms
         The problem.
     region : bool array
-        Cells that may carry pressure.
+        Cells whose pressure is free. Of the others those under the hardness keep it, the rest carries nothing.
     pressure, displacement : array
-        Where to start [Pa], and its exact image [m].
+        Where to start [Pa], and its image [m].
     limit : float
         Largest error of the displacement on the cells that are kept [m].
     max_steps : int
         Largest number of products.
     """
     measure, xp = Measure(driver.weights), namespace(pressure)
-    conserve = isinstance(control, Force)
+    conserve, hardness = terms.depth is None, terms.hardness
     level = separation + displacement
-    depth = measure.mean(level, region) if conserve else control.value
+    depth = measure.mean(level, region) if terms.depth is None else terms.depth
     finite = xp.isfinite(level)
     lacking = xp.where(finite, depth - level, 0.0)
-    unit = (
-        largest(xp.where(region, lacking, 0.0)) or limit or 1.0
-    )  # so that single precision holds all numbers
-    lacking /= unit
-    lacking = xp.where(driver.gather(finite), driver.gather(lacking), NEVER)
-    kept, base = driver.gather(region), driver.gather(pressure / unit)
-    force = control.value / unit if conserve else None
-    change, p, goal = xp.zeros_like(base), base, limit / unit
-    dropped = (base > 0) & ~kept
+    # In this unit single precision holds all numbers.
+    unit = largest(xp.where(region, lacking, 0.0)) or limit or 1.0
+    lacking = xp.where(driver.gather(finite), driver.gather(lacking / unit), NEVER)
+    kept, base, ceiling = driver.gather(region), driver.gather(pressure / unit), hardness / unit
+    held = driver.gather((pressure >= hardness) & ~region)
+    goal = limit / unit
+    change, p, low, high = xp.zeros_like(base), base, (base > 0) & ~kept & ~held, kept & ~kept
     target, last, steps, rounds = max(goal, DEPTH_OF_SOLVE), None, 0, 0
     while steps < max_steps and rounds < ROUNDS:
-        inside = xp.astype(kept, base.dtype)
-        if bool(xp.any(dropped)):
-            lost = _without(p, dropped, inside, measure, force)
-            change += lost
-            lacking -= driver.apply(lost)
+        inside, some, error = xp.astype(kept, base.dtype), bool(xp.any(kept)), 0.0
+        if conserve and not some:  # none is left to take the force
+            break
+        if bool(xp.any(low | high)):
+            moved = xp.where(low, -p, 0.0)
+            if hardness < math.inf:
+                moved = xp.where(high, ceiling - p, moved)
+            if conserve:
+                moved = _shared(moved, p, inside, measure)
+            change += moved
+            lacking -= driver.apply(moved)
             steps += 1
-        found = relax(
-            driver,
-            inside,
-            lacking,
-            conserve=conserve,
-            limit=target,
-            max_steps=max_steps - steps,
-            last=last,
-        )
-        change += found.change
-        lacking, last, steps = found.lacking, found.last, steps + found.steps
+        if some:
+            found = relax(
+                driver,
+                inside,
+                lacking,
+                conserve=conserve,
+                limit=target,
+                max_steps=max_steps - steps,
+                last=last,
+            )
+            change += found.change
+            lacking, last, error, steps = found.lacking, found.last, found.largest, steps + found.steps
         p = base + change
-        dropped = (p < 0) & kept
-        if bool(xp.any(dropped)):
-            kept = kept & ~dropped
-            if not bool(xp.any(kept)):
-                break
+        low, high = kept & (p < 0), kept & (p > ceiling)
+        if bool(xp.any(low | high)):
+            kept, held = kept & ~(low | high), held | high
             continue
-        added = (lacking > 0.5 * goal) & ~kept
+        added = ((lacking > 0.5 * goal) & ~kept & ~held) | ((lacking < -0.5 * goal) & held)
         if bool(xp.any(added)):
-            worst = max(found.largest, float(xp.max(xp.where(added, lacking, 0.0))))
+            worst = max(error, largest(xp.where(added, lacking, 0.0)))
             target = max(goal, DEPTH_OF_SOLVE * worst)
-            kept, rounds = kept | added, rounds + 1
-        elif target > goal and found.largest <= target:
+            kept, held, rounds = kept | added, held & ~added, rounds + 1
+        elif target > goal and error <= target:
             target = goal
         else:
             break
     p = pressure + unit * driver.scatter(change)
     p = xp.where(driver.scatter(kept) & (p > 0), p, 0.0)
-    if isinstance(control, Force):
+    if hardness < math.inf:
+        p = xp.where(driver.scatter(held), hardness, p)
+    elif isinstance(terms.control, Force):
         total = measure.total(p)
         if not total > 0:  # nothing came of it
             return RegionPressed(pressure, steps)
-        p *= control.value / total
+        p *= terms.control.value / total
     return RegionPressed(p, steps)
 
 
-def _without(p: Array, dropped: Mask, inside: Array, measure: Measure, force: float | None) -> Array:
-    """Return the change of pressure that takes it from some cells and gives the force, if kept, to the others."""
-    xp = namespace(p)
-    change: Array = xp.where(dropped, -p, 0.0)
-    if force is not None:
-        carrying = p * inside
-        total = measure.total(carrying)
-        # Ratios of small numbers: in single precision the whole is not known as well as its part.
-        change += (
-            carrying * (-measure.total(change) / total)
-            if total > 0
-            else inside * (force / measure.total(inside))
-        )
-    return change
+def _shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:
+    """Return a change of pressure together with what keeps the force, shared by the cells inside."""
+    carrying = p * inside
+    total = measure.total(carrying)
+    if not total > 0:  # new cells only
+        carrying, total = inside, measure.total(inside)
+    # A ratio of sums of the same size: in single precision a whole is not known as well as its part.
+    return change + carrying * (-measure.total(change) / total)
