@@ -62,9 +62,9 @@ class Judge:
         ):
             return Certificate(np.inf, np.inf, cells, np.nan)
         displacement = self.displacement(pressure)
-        gap = displacement + (heights.max() - heights)  # plus a depth that is not known
-        highest = gap[contact].max()
-        depth = (highest + gap.min()) / 2
+        gap = displacement + (np.nanmax(heights) - heights)  # plus a depth that is not known
+        highest = gap[contact].max()  # not a number under pressure where nothing was measured
+        depth = (highest + np.nanmin(gap)) / 2
         residual = (highest - depth) / np.abs(displacement).max()
         carried = pressure.sum() * self._cell_area
         return Certificate(float(residual), float(abs(carried / force - 1)), cells, float(depth))

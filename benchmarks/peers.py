@@ -46,10 +46,16 @@ def main() -> int:
             print_rows([row for row in rows if (row.case, row.n) == (case, n)])
             for name in sorted({p.name for p in programs} - {p.name for p in fits}):
                 print(f"  {name}: not shown (would take longer than {args.limit:g} s)")
-    if args.json:
+    if args.json or args.pictures:
         record = {"machine": _machine(args.threads), "programs": {p.name: p.version for p in programs}}
         record |= {"not_shown": hidden, "rows": [row.record() for row in rows]}
-        args.json.write_text(json.dumps(record, indent=1) + "\n")
+        if args.json:
+            args.json.write_text(json.dumps(record, indent=1) + "\n")
+        if args.pictures:
+            from pictures import draw
+
+            for path in draw(record, args.pictures):
+                print(path)
     return worst(rows)
 
 
@@ -91,6 +97,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--threads", type=int, default=min(2, os.cpu_count() or 1), help="for every program")
     parser.add_argument("--limit", type=float, default=120.0, help="leave out what would take longer [s]")
     parser.add_argument("--json", type=Path, help="also write every measurement to this file")
+    parser.add_argument("--pictures", type=Path, help="also draw time against n and load into this folder")
     args = parser.parse_args()
     if unknown := set(args.peers) - set(PEERS):
         parser.error(f"unknown peers {', '.join(sorted(unknown))}; there are {', '.join(PEERS)}")
