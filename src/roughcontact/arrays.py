@@ -27,6 +27,7 @@ __all__ = [
     "namespace",
     "numbers",
     "on_host",
+    "require_numpy",
     "rfft2",
     "wants_gradient",
 ]
@@ -36,6 +37,7 @@ Array = npt.NDArray[np.float64]
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
 # to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
 SLAB = 32
+ROWS = 2**18  # cells of the padded rows that are transformed in one go
 LARGE = 2**19  # cells of a transform from which on several threads are worth waking
 CELLS = 2**15  # of a slab: of few rows, as on a line, more columns go at once
 
@@ -61,6 +63,12 @@ def is_array(value: Any) -> bool:
 def is_numpy(array: Any) -> bool:
     """Whether an array lives on the host, where SciPy can work on it."""
     return isinstance(array, np.ndarray)
+
+
+def require_numpy(field: object, method: str) -> None:
+    """Raise a TypeError for an array of another library, whose sum by `method` would come back as one of NumPy."""
+    if not isinstance(field, np.ndarray):
+        raise TypeError(f"{method} is for NumPy's arrays; 'fft' is for those of {type(field)} too")
 
 
 def wants_gradient(array: Any) -> bool:
@@ -253,22 +261,36 @@ def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
     *_, ny, nx = field.shape
     my, mx = padded
     workers = _workers(padded)
-    spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
     if my == ny:  # no part of the spectrum is empty
+        spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
         spectrum = scipy.fft.fft(spectrum, axis=-2, overwrite_x=True, workers=workers)
         multiply(spectrum, slice(None))
         spectrum = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True, workers=workers)
-    else:
+        whole: Array = scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True, workers=workers)
+        return whole if mx == nx else np.ascontiguousarray(whole[..., :nx])
+    # Rows and columns are padded a few at a time: the padded plane is never there as a whole.
+    kind = np.complex64 if field.dtype == np.float32 else np.complex128
+    spectrum = np.empty((*field.shape[:-1], mx // 2 + 1), kind)
+    answer = np.empty(field.shape, spectrum.real.dtype)
 
-        def by_columns(part: slice) -> None:
-            column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
-            multiply(column, part)
-            spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
+    def along_rows(part: slice) -> None:
+        spectrum[..., part, :] = scipy.fft.rfft(field[..., part, :], n=mx, axis=-1)
 
-        with limit_threads(workers):
-            spread(by_columns, _parts(spectrum.shape[-1], max(SLAB, CELLS // my)))
-    answer: Array = scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True, workers=workers)
-    return answer if mx == nx else np.ascontiguousarray(answer[..., :nx])
+    def along_columns(part: slice) -> None:
+        column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
+        multiply(column, part)
+        spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
+
+    def back_along_rows(part: slice) -> None:
+        whole = scipy.fft.irfft(spectrum[..., part, :], n=mx, axis=-1, overwrite_x=True)
+        answer[..., part, :] = whole[..., :nx]
+
+    rows = _parts(ny, max(1, ROWS // mx))
+    with limit_threads(workers):
+        spread(along_rows, rows)
+        spread(along_columns, _parts(spectrum.shape[-1], max(SLAB, CELLS // my)))
+        spread(back_along_rows, rows)
+    return answer
 
 
 def _parts(length: int, size: int) -> list[slice]:

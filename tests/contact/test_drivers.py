@@ -168,7 +168,14 @@ def test_one_driver_takes_off_what_it_says(rough):
         unit = float(np.abs(lacking).max())
         inside = driver.gather(region).astype(np.float32)
         found = relax(
-            driver, inside, driver.gather(lacking / unit), conserve=False, limit=driver.gain, max_steps=200
+            driver,
+            inside,
+            driver.narrow(driver.gather(lacking / unit)),
+            conserve=False,
+            limit=driver.gain,
+            max_steps=200,
         )
-        left = np.where(region, lacking - operator.apply(unit * driver.scatter(found.change)), 0.0)
+        left = np.where(
+            region, lacking - operator.apply(unit * driver.scatter(found.change).astype(float)), 0.0
+        )
         assert np.abs(left).max() <= 10 * driver.gain * unit

@@ -95,10 +95,10 @@ class ActiveSet:
         driver: Driver | None = None
         guessed = True
         while True:
-            held = p >= hardness
-            level = u + separation
-            d = depth_of(measure, level, p, (p > 0) & ~held) if given is None else given
-            gap = level - d
+            carrying, held = p > 0, p >= hardness
+            gap = u + separation
+            d = depth_of(measure, gap, p, carrying & ~held) if given is None else given
+            gap -= d
             scale = judge.scale(u)
             r = judge.residual(p, u, gap)
             if r <= tolerance and exact:
@@ -111,7 +111,9 @@ class ActiveSet:
             if steps >= self.max_steps or idle > 12:
                 return State(p, d, r, steps, Status.STAGNATED)
             allowed = 0.5 * tolerance * scale
-            region = (((p > 0) | (gap < -allowed)) & ~held) | (held & (gap > allowed))
+            region = carrying | (gap < -allowed)
+            if hardness < math.inf:
+                region = (region & ~held) | (held & (gap > allowed))
             if guessed:
                 # From other cells or another load: keep what a projected step of one cell leaves of it.
                 wrong = region & (p * own < gap)
@@ -120,6 +122,7 @@ class ActiveSet:
                     limit = LOOSE * r * scale
                     region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
                 guessed = False
+            del gap  # planes are large: none is kept beyond its use
             count, size = int(xp.count_nonzero(region)), math.prod(region.shape)
             if not count and bool(xp.any(held)):  # where all give way no region tells the depth
                 return State(p, d, r, steps, Status.STAGNATED)
@@ -141,7 +144,7 @@ class ActiveSet:
                 tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
                 steps += 1
             else:
-                driver = driver_on(operator, region | (p > 0), driver) if idle < STUCK else Plane(operator)
+                driver = driver_on(operator, region | carrying, driver) if idle < STUCK else Plane(operator)
                 found = press_region(
                     driver,
                     separation,
@@ -154,7 +157,8 @@ class ActiveSet:
                 )
                 p, tangent, steps = found.pressure, None, steps + found.steps + 1
                 if hardness < math.inf:
-                    p = within(measure, p, gap, terms)
+                    p = within(measure, p, u + separation, terms)
+            del u
             u, exact = operator.apply(p), True
 
     def _worth_sifting(self, region: Mask, wrong: Mask, measure: Measure) -> bool:

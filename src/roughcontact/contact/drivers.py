@@ -37,11 +37,15 @@ class Driver(Linear, Invertible, Protocol):
         ...
 
     def gather(self, field: Any) -> Any:
-        """Return a field of the plane on the cells of the driver, numbers in its precision."""
+        """Return a field of the plane on the cells of the driver."""
         ...
 
     def scatter(self, values: Any) -> Any:
-        """Return the field of the plane that has `values` on these cells and is zero elsewhere, in double precision."""
+        """Return the field of the plane that has `values` on these cells and is zero elsewhere."""
+        ...
+
+    def narrow(self, values: Any) -> Any:
+        """Return numbers in the precision of the driver."""
         ...
 
 
@@ -65,6 +69,10 @@ class Plane:
         """Return the field."""
         return values
 
+    def narrow(self, values: Any) -> Any:
+        """Return the field."""
+        return values
+
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         return self.operator.apply(pressure)
@@ -83,15 +91,10 @@ class SinglePlane(Plane):
 
     gain: float = 1e-4  # seven digits, of which a product loses one or two, a quick one three
 
-    def gather(self, field: Any) -> Any:
+    def narrow(self, values: Any) -> Any:
         """Return the field in single precision."""
-        xp = namespace(field)
-        return field if xp.isdtype(field.dtype, "bool") else xp.astype(field, xp.float32)
-
-    def scatter(self, values: Any) -> Any:
-        """Return the field in double precision."""
         xp = namespace(values)
-        return values if xp.isdtype(values.dtype, "bool") else xp.astype(values, xp.float64)
+        return xp.astype(values, xp.float32)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -120,7 +123,8 @@ def first_product(operator: Operator, pressure: Array) -> tuple[Array, bool]:
     driver = _plane(operator) if size > 0 and _tame(operator) else Plane(operator)
     if not driver.gain:
         return operator.apply(pressure), True
-    return size * driver.scatter(driver.apply(driver.gather(pressure / size))), False
+    xp = namespace(pressure)
+    return size * xp.astype(driver.apply(driver.narrow(pressure / size)), xp.float64), False
 
 
 def _tame(operator: Operator) -> bool:

@@ -66,15 +66,16 @@ def press_region(
     """
     measure, xp = Measure(driver.weights), namespace(pressure)
     conserve, hardness = terms.depth is None, terms.hardness
-    level = separation + displacement
-    depth = measure.mean(level, region) if terms.depth is None else terms.depth
-    finite = xp.isfinite(level)
-    lacking = xp.where(finite, depth - level, 0.0)
+    kept, start = driver.gather(region), driver.gather(pressure)
+    level = driver.gather(separation) + driver.gather(displacement)
+    depth = measure.mean(level, kept) if terms.depth is None else terms.depth
+    # What was not measured is never touched; nor is what a driver has beyond the edge.
+    there = driver.gather(xp.isfinite(separation))
+    lacking = xp.where(there, depth - level, 0.0)
     # In this unit single precision holds all numbers.
-    unit = largest(xp.where(region, lacking, 0.0)) or limit or 1.0
-    lacking = xp.where(driver.gather(finite), driver.gather(lacking / unit), NEVER)
-    kept, base, ceiling = driver.gather(region), driver.gather(pressure / unit), hardness / unit
-    held = driver.gather((pressure >= hardness) & ~region)
+    unit = largest(xp.where(kept, lacking, 0.0)) or limit or 1.0
+    lacking = driver.narrow(xp.where(there, lacking / unit, NEVER))
+    base, ceiling, held = driver.narrow(start / unit), hardness / unit, (start >= hardness) & ~kept
     goal = limit / unit
     change, p, low, high = xp.zeros_like(base), base, (base > 0) & ~kept & ~held, kept & ~kept
     target, last, steps, rounds = max(goal, DEPTH_OF_SOLVE), None, 0, 0
@@ -117,16 +118,16 @@ def press_region(
             target = goal
         else:
             break
-    p = pressure + unit * driver.scatter(change)
-    p = xp.where(driver.scatter(kept) & (p > 0), p, 0.0)
+    p = start + unit * xp.astype(change, xp.float64)
+    p = xp.where(kept & (p > 0), p, 0.0)
     if hardness < math.inf:
-        p = xp.where(driver.scatter(held), hardness, p)
+        p = xp.where(held, hardness, p)
     elif isinstance(terms.control, Force):
         total = measure.total(p)
         if not total > 0:  # nothing came of it
             return RegionPressed(pressure, steps)
         p *= terms.control.value / total
-    return RegionPressed(p, steps)
+    return RegionPressed(driver.scatter(p), steps)
 
 
 def _shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
+from roughcontact.arrays import largest, namespace
 from roughcontact.contact.problem import Force, Terms
 from roughcontact.halfspace.operator import Operator
 
@@ -52,8 +52,7 @@ class Judge:
 
     def scale(self, displacement: Array) -> float:
         """Return what residuals are relative to [m]: the largest displacement."""
-        xp = namespace(displacement)
-        return float(xp.max(xp.abs(displacement))) if math.prod(displacement.shape) else 0.0
+        return largest(displacement) if math.prod(displacement.shape) else 0.0
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
         """Return the largest violation of the conditions of contact, relative to the largest displacement.
@@ -64,17 +63,19 @@ class Judge:
         """
         xp = namespace(pressure)
         # Negative or beyond the hardness, infinite or no number: one of these comparisons is false.
-        if not bool(xp.all((pressure >= 0) & (pressure <= self.hardness) & (pressure < math.inf))):
+        strongest = float(xp.max(pressure))
+        if not (float(xp.min(pressure)) >= 0 and strongest <= self.hardness and strongest < math.inf):
             return math.inf
-        violations = xp.where(pressure > 0, xp.abs(gap), -gap)
-        if self.hardness < math.inf:
-            violations = xp.where(pressure == self.hardness, gap, violations)
-        violation = float(xp.max(violations))
+        # Nowhere may it be negative; where there is pressure, not positive either.
+        lifted = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
+        yielding = self.hardness < math.inf
+        lowest = float(xp.min(xp.where(pressure == self.hardness, 0.0, gap) if yielding else gap))
+        violation = max(-lowest, lifted)
         if math.isnan(violation):
             return math.inf
         if violation <= 0:
             return 0.0
         scale = self.scale(displacement)
         relative = violation / scale if scale > 0 else math.inf
-        rounding = self.allowance * self.self_influence * float(xp.max(pressure))
+        rounding = self.allowance * self.self_influence * strongest
         return min(relative, UNITS) if violation <= rounding else relative

@@ -177,7 +177,7 @@ def _solve(
                 return start, lacking, steps
             driver = Plane(operator)  # the other has done what it could
         before = error
-        part = driver.gather(lacking / error)  # so that single precision holds all numbers
+        part = driver.narrow(driver.gather(lacking) / error)  # so that single precision holds all numbers
         found = relax(
             driver,
             xp.astype(driver.gather(region), part.dtype),
@@ -186,7 +186,8 @@ def _solve(
             limit=max(0.5 * limit / error, driver.gain),
             max_steps=max_steps - steps,
         )
-        start, steps = start + error * driver.scatter(found.change), steps + found.steps
+        start = start + driver.scatter(error * xp.astype(found.change, xp.float64))
+        steps += found.steps
         u, exact = operator.apply(start), True
 
 

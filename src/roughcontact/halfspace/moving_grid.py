@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.spectral import FreeOperator
@@ -61,10 +62,7 @@ class MovingGridOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        if not isinstance(pressure, np.ndarray):  # else it would come back as one
-            raise TypeError(
-                f"the moving grid is for NumPy's arrays; 'fft' is for those of {type(pressure)} too"
-            )
+        require_numpy(pressure, "the moving grid")
         ny, nx = self.grid.shape
         influence, displacement = self._shifted, np.zeros((ny, nx))
         for i, j in np.argwhere(pressure):

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.levels import Hierarchy, Kernel
@@ -79,10 +80,7 @@ class MultilevelOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        if not isinstance(pressure, np.ndarray):  # else it would come back as one
-            raise TypeError(
-                f"the multilevel sum is for NumPy's arrays; 'fft' is for those of {type(pressure)} too"
-            )
+        require_numpy(pressure, "the multilevel sum")
         return self._hierarchy.product(np.ascontiguousarray(pressure, dtype=np.float64))
 
     def approximate_inverse(self, displacement: Array) -> Array:

@@ -120,14 +120,16 @@ class PatchOperator:
     gain: float = 3e-5
 
     def gather(self, field: Any) -> Any:
-        """Return a field of the plane on the tiles, numbers in single precision; zero beyond the edge."""
-        values = self.tiles.gather(field)
-        return values if values.dtype == bool else values.astype(np.float32)
+        """Return a field of the plane on the tiles, zero beyond the edge."""
+        return self.tiles.gather(field)
 
     def scatter(self, values: Any) -> Any:
         """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
-        field = self.tiles.scatter(values)
-        return field if field.dtype == bool else field.astype(np.float64)
+        return self.tiles.scatter(values)
+
+    def narrow(self, values: Any) -> Any:
+        """Return numbers in single precision."""
+        return values.astype(np.float32)
 
     def apply(self, pressure: Single) -> Single:
         """Return the displacement [m] under `pressure` [Pa]."""

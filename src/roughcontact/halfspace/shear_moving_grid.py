@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear_sums import FreeShear
 
@@ -51,10 +52,7 @@ class MovingGridShear:
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] under `traction` [Pa]."""
-        if not isinstance(traction, np.ndarray):  # else it would come back as one
-            raise TypeError(
-                f"the moving grid is for NumPy's arrays; 'fft' is for those of {type(traction)} too"
-            )
+        require_numpy(traction, "the moving grid")
         ny, nx = self.grid.shape
         influence, displacement = self._shifted, np.zeros((2, ny, nx))
         for i, j in np.argwhere(traction.any(axis=0)):

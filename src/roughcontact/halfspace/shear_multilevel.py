@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.levels import Hierarchy, Kernel
 from roughcontact.halfspace.multilevel import check_settings
@@ -76,10 +77,7 @@ class MultilevelShear:
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement [m] under `traction` [Pa]."""
-        if not isinstance(traction, np.ndarray):  # else it would come back as one
-            raise TypeError(
-                f"the multilevel sum is for NumPy's arrays; 'fft' is for those of {type(traction)} too"
-            )
+        require_numpy(traction, "the multilevel sum")
         x, y = np.ascontiguousarray(traction, dtype=np.float64)
         xx, yy, xy = self._hierarchies
         return np.stack([xx.product(x) + xy.product(y), xy.product(x) + yy.product(y)])

@@ -7,19 +7,36 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.plot.raster import TICK
-from roughcontact.thesis.asperity_ensembles import SPOTS, law_exponent
+from roughcontact.thesis.asperity_ensembles import CHOSEN as _SHARED
+from roughcontact.thesis.asperity_ensembles import SPOTS, asperity_averages, asperity_study, law_exponent
 from roughcontact.thesis.stiffness_view import stiffness_axes
+from roughcontact.thesis.verdict import Verdict
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-__all__ = ["draw_one", "words_of"]
+    from roughcontact.study.study import Study
+    from roughcontact.thesis.figures import Scale
 
+__all__ = ["CHOSEN", "SIZE", "averages_of", "draw", "linear", "studies", "words_of"]
+
+CHOSEN = (*_SHARED, "25 surfaces, on the small scale 8, all shown")
+SIZE = (5.8, 4.4)
 _SPOTS, _CLASSICAL, _SLOPE = "#c8290b", "#0072b2", "#2e8b2e"
 
 
-def draw_one(figure: Figure, averages: xarray.Dataset) -> None:
+def studies(scale: Scale) -> tuple[Study, ...]:
+    """Return the study of asperities that figures 31 to 33 share."""
+    return (asperity_study(scale),)
+
+
+def averages_of(asperities: xarray.Dataset, hurst: float) -> xarray.Dataset:
+    """Return every realisation of one fractal dimension, with means and power laws."""
+    return asperity_averages(asperities.sel(hurst=[hurst])).isel(hurst=0)
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw every realisation with interaction, the classical model, and the slope."""
     axes = figure.subplots()
     stiffness_axes(axes)
@@ -56,4 +73,11 @@ def words_of(averages: xarray.Dataset, prefix: str = "") -> str:
     return (
         f"{float(averages[f'{prefix}exponent']):.3f}{error} at forces from {float(averages['window_low']):.1g} to "
         f"{float(averages['window_high']):.2g}"
+    )
+
+
+def linear(averages: xarray.Dataset, here: str) -> Verdict:
+    """Return whether the model of Greenwood and Williamson is linear, `here` in words."""
+    return Verdict(
+        "the original model is linear", "slope 1", here, float(averages["classical_exponent"]) > 0.85
     )

@@ -8,7 +8,8 @@ import numpy as np
 
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.thesis.asperity_ensembles import CHOSEN as _SHARED
-from roughcontact.thesis.asperity_ensembles import asperity_averages, asperity_study, law_exponent
+from roughcontact.thesis.asperity_ensembles import asperity_averages, law_exponent
+from roughcontact.thesis.asperity_view import studies
 from roughcontact.thesis.stiffness_view import hurst_colours, quiet, stiffness_axes
 from roughcontact.thesis.verdict import Verdict
 
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import Scale
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -27,11 +26,6 @@ TITLE = "interacting asperities of surfaces of several fractal dimensions"
 HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
 CHOSEN = (*_SHARED, "D_f = 2.1, 2.3, 2.5, 2.7, 2.9; means over 25 surfaces, on the small scale 8")
 SIZE = (7.4, 4.0)
-
-
-def studies(scale: Scale) -> tuple[Study, ...]:
-    """Return the study of asperities that figures 31 to 33 share."""
-    return (asperity_study(scale),)
 
 
 def averages(asperities: xarray.Dataset) -> xarray.Dataset:
