@@ -12,6 +12,8 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.contact import cascade
 
+EXTRAS = ("positive", "between", "coarsened", "approximate_inverse", "keeps_precision", "quick", "patches")
+
 
 @dataclass(frozen=True)
 class Without:
@@ -21,8 +23,7 @@ class Without:
     kept: tuple
 
     def __getattr__(self, name):
-        extras = {"positive", "between", "coarsened", "approximate_inverse"}
-        if name in extras - set(self.kept):
+        if name in set(EXTRAS) - set(self.kept):
             raise AttributeError(name)
         value = getattr(self.inner, name)
         if name in ("restrict", "coarsened"):
@@ -67,14 +68,18 @@ def measure(surface, force, kept, pooled=cascade.pooled, solver=None):
 
 
 def main(n):
-    everything = ("positive", "between", "coarsened", "approximate_inverse")
+    def without(*names):
+        return (tuple(name for name in EXTRAS if name not in names),)
+
     variants = {
-        "all": (everything,),
-        "no |q|": (everything[:-1],),
-        "no window": (everything[1:],),
-        "no list": (("positive", "coarsened", "approximate_inverse"),),
-        "means": (everything, pooled_by_mean),
-        "double": ((*everything, "patches"),),
+        "all": (EXTRAS,),
+        "no |q|": without("approximate_inverse"),
+        "no window": without("positive"),
+        "no list": without("between"),
+        "means": (EXTRAS, pooled_by_mean),
+        "no tiles": without("patches"),
+        "no split": without("quick"),
+        "double": without("keeps_precision", "patches"),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
     for name, surface, force in cases(n):

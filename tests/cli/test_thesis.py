@@ -55,6 +55,17 @@ def test_an_ensemble_leaves_picture_averages_and_a_store_that_goes_on(invoke, tm
     assert again.stdout == as_is.stdout == answer.stdout
 
 
+@pytest.mark.parametrize(("end", "status"), [(KeyboardInterrupt(), 130), (SystemExit(143), 143)], ids=repr)
+def test_stopped_it_says_how_to_go_on(invoke, tmp_path, few, monkeypatch, end, status):
+    def stopped(*arguments):
+        raise end
+
+    monkeypatch.setattr("roughcontact.thesis.reproduce.run_study", stopped)
+    answer = invoke("thesis", "fig37", "--out", tmp_path, "--workers", "1")
+    assert answer.exit_code == status
+    assert "very finished case is stored. To go on: roughcontact" in answer.stderr
+
+
 def test_a_seed_and_a_scale_are_other_stores(invoke, tmp_path, few):
     for more in (("--seed", "3"), ("--scale", "thesis")):
         assert invoke("thesis", "fig37", "--out", tmp_path, "--workers", "1", *more).exit_code == 0

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from roughcontact.cli.errors import UsageError, note, reported
-from roughcontact.cli.exits import INTERRUPTED, MISSED, TERMINATED
+from roughcontact.cli.exits import MISSED
 from roughcontact.cli.output import command_line
+from roughcontact.cli.resumable import resumable
 from roughcontact.cli.study_engine import Engine, engine_of, options_of, working
 from roughcontact.cli.study_report import tell
 
@@ -97,7 +98,7 @@ def run(
         with working():
             engine = engine_of(executor, workers, scheduler)
         again = [*options_of(executor, workers, scheduler), *(["--retry"] if retry else [])]
-        with working(), _resumable(_command("run", folder, *again)), progress(study.name) as show:
+        with working(), resumable(_command("run", folder, *again)), progress(study.name) as show:
             summary = run_study(study, folder, engine, retry=retry, on_progress=show)
         tell(study, folder, summary, as_json=as_json)
         if summary.failed:
@@ -191,17 +192,3 @@ def _own_cases() -> Iterator[None]:
         yield
     finally:
         sys.path.remove(here)
-
-
-@contextmanager
-def _resumable(command: str) -> Iterator[None]:
-    """Say how to go on where the run is stopped."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        typer.echo(f"Stopped; every finished case is stored. To go on: {command}", err=True)
-        raise typer.Exit(INTERRUPTED) from None
-    except SystemExit as end:
-        if end.code == TERMINATED:
-            typer.echo(f"Every finished case is stored. To go on: {command}", err=True)
-        raise

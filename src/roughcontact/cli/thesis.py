@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 import typer
 
 from roughcontact.cli.errors import UsageError, note, reported
-from roughcontact.cli.exits import INTERRUPTED
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.quantity import parse_seed
 from roughcontact.cli.report import print_facts, screen
+from roughcontact.cli.resumable import resumable
 
 if TYPE_CHECKING:
     import xarray
@@ -145,12 +145,8 @@ def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> N
 
     executor = Serial() if workers == 1 else Processes(workers or None)
     for study in studies:
-        try:
-            with progress(f"{name}, {study.name}") as show:
-                summary = run_study(study, folder, executor, show)
-        except KeyboardInterrupt:
-            typer.echo(f"Stopped; every finished case is stored. To go on: {command_line()}", err=True)
-            raise typer.Exit(INTERRUPTED) from None
+        with resumable(command_line()), progress(f"{name}, {study.name}") as show:
+            summary = run_study(study, folder, executor, show)
         if summary.failed:
             cases = f"{summary.failed} case{'s' if summary.failed > 1 else ''}"
             command = shlex.join(
