@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from programs import limit_threads
-from quiet import disturbed, waited
+from quiet import disturbed, others, waited
 
 POINTS, LOWEST, HIGHEST = 100, 1e-4, 0.07  # loads, evenly spaced in the logarithm, as dimensionless forces
 CHECKED = (0, 33, 66, 99)  # loads at which answers are certified and compared
@@ -107,10 +107,10 @@ def work(name: str, n: int, seed: int, tolerance: float) -> dict[str, Any]:
     make(fractal(64, 0, hurst=0.8, load=HIGHEST), forces[-2:], tolerance)[0]()  # imports and first calls
     run, points = make(fractal(n, seed, hurst=0.8, load=HIGHEST), forces, tolerance)
     before = peak()
-    waiting, start = waited(), time.perf_counter()
+    waiting, taken, start = waited(), others(), time.perf_counter()
     result = run()
     seconds = time.perf_counter() - start
-    noise = disturbed(seconds, waited() - waiting)
+    noise = disturbed(seconds, waited() - waiting, others() - taken)
     memory = peak()
     return {
         "seconds": seconds,

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from cases import Problem
 from certificate import Certificate, Judge
 from programs import Program
-from quiet import disturbed, waited
+from quiet import disturbed, others, waited
 
 __all__ = ["AGREEMENT", "CERTIFICATE", "Entry", "Settings", "compare"]
 
@@ -70,7 +70,7 @@ def compare(problem: Problem, programs: list[Program], settings: Settings, repea
 def _run(program: Program, problem: Problem, tolerance: float) -> tuple[Array, float | None, float, bool]:
     """Return pressure [Pa], depth [m], time [s] and whether it was falsified; kernels are made inside the time."""
     heights = problem.heights.copy()
-    waiting, start = waited(), time.perf_counter()
+    waiting, taken, start = waited(), others(), time.perf_counter()
     pressure, depth = program.adapter.solve(
         heights,
         problem.spacing,
@@ -80,7 +80,7 @@ def _run(program: Program, problem: Problem, tolerance: float) -> tuple[Array, f
         tolerance=tolerance,
     )
     seconds = time.perf_counter() - start
-    return pressure, depth, seconds, disturbed(seconds, waited() - waiting)
+    return pressure, depth, seconds, disturbed(seconds, waited() - waiting, others() - taken)
 
 
 def _certify(entry: Entry, program: Program, problem: Problem, judge: Judge, goal: float) -> None:

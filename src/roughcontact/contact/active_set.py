@@ -118,7 +118,7 @@ class ActiveSet:
                 # From other cells or another load: keep what a projected step of one cell leaves of it.
                 wrong = region & (p * own < gap)
                 region &= ~wrong
-                if dense_limit and self._worth_sifting(region, wrong, measure):
+                if _worth_sifting(region, wrong, measure, dense_limit):
                     limit = LOOSE * r * scale
                     region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
                 guessed = False
@@ -161,10 +161,13 @@ class ActiveSet:
             del u
             u, exact = operator.apply(p), True
 
-    def _worth_sifting(self, region: Mask, wrong: Mask, measure: Measure) -> bool:
-        """Whether a guess is bad, and its matrix large: one load to the next is a good guess."""
-        count = int(region.sum())
-        return wrong.sum() > count / 100 and SIFTED < count <= self.dense_limit and not measure.varies
+
+def _worth_sifting(region: Mask, wrong: Mask, measure: Measure, limit: int) -> bool:
+    """Whether a guess is bad, and its matrix large, not too large: one load to the next is a good guess."""
+    if not limit:
+        return False
+    count = int(region.sum())
+    return wrong.sum() > count / 100 and SIFTED < count <= limit and not measure.varies
 
 
 def _sifted(
