@@ -199,7 +199,7 @@ def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) 
 
 def multiply_even(spectrum: Any, multiplier: Placed) -> None:
     """Multiply a spectrum, shape (My, Mx//2 + 1), in place by a real even one, shape (My//2 + 1, Mx//2 + 1)."""
-    _multiply_even(spectrum, multiplier.beside(spectrum.real))
+    _multiply_even(spectrum, multiplier.beside(namespace(spectrum).real(spectrum)))
 
 
 def _multiply_even(spectrum: Any, factors: Any) -> None:
