@@ -159,7 +159,7 @@ def test_who_drives():
 
 
 def test_one_driver_takes_off_what_it_says(rough):
-    """`gain`: a change of pressure that one makes leaves no more than this of an error."""
+    """`gain`: a change of pressure that one makes leaves this of an error, and what its products get wrong."""
     operator = rc.half_space(rough.grid, 1e9)
     region = rough.heights > np.quantile(rough.heights, 0.8)
     patch = operator.patches.on(drivers.Tiles.of(region))
@@ -175,7 +175,8 @@ def test_one_driver_takes_off_what_it_says(rough):
             limit=driver.gain,
             max_steps=200,
         )
-        left = np.where(
-            region, lacking - operator.apply(unit * driver.scatter(found.change).astype(float)), 0.0
-        )
-        assert np.abs(left).max() <= 10 * driver.gain * unit
+        change = unit * driver.scatter(found.change).astype(float)
+        left = np.where(region, lacking - operator.apply(change), 0.0)
+        # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).
+        wrong = 1.5e-4 * operator.apply(np.abs(change)).max()
+        assert np.abs(left).max() <= driver.gain * unit + wrong

@@ -2,7 +2,7 @@
 
 Tiles cover the region. Between tiles that lie close together a small matrix for each of their offsets does the near
 part of the influence; nodes every few cells, and a transform of these, do the far part. What single precision, the cut
-and splines of sixth order leave out is some 1e-5 of the answer: it drives solves that exact products certify.
+and splines of sixth order leave out is some 1e-4 of the answer at most: it drives solves that exact products certify.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class PatchOperator:
         Area of a cell [m^2].
     forward, inverse : TileSum
     gain : float
-        What a round of a solve can take off an error: splines and cut err by less.
+        How far a round of a solve takes an error down; exact products find what it gets wrong.
     """
 
     tiles: Tiles
