@@ -11,8 +11,18 @@ import numpy as np
 
 import roughcontact as rc
 from roughcontact.contact import cascade
+from roughcontact.machine import library
 
-EXTRAS = ("positive", "between", "coarsened", "approximate_inverse", "keeps_precision", "quick", "patches")
+EXTRAS = (
+    "positive",
+    "between",
+    "coarsened",
+    "approximate_inverse",
+    "local_inverse",
+    "keeps_precision",
+    "quick",
+    "patches",
+)
 
 
 @dataclass(frozen=True)
@@ -56,15 +66,17 @@ def pooled_by_mean(separation, factors):
     return blocks.mean(axis=tuple(range(1, blocks.ndim, 2)))
 
 
-def measure(surface, force, kept, pooled=cascade.pooled, solver=None):
+def measure(surface, force, kept, pooled=cascade.pooled, available=library.is_available):
     extras = Without(rc.half_space(surface.grid, 1.0), kept)
-    before, cascade.pooled = cascade.pooled, pooled
+    before = cascade.pooled, library.is_available
+    cascade.pooled, library.is_available = pooled, available
     try:
+        rc.press(surface, 1.0, force=1e-3 * force, operator=extras)  # whatever is loaded late is loaded now
         start = time.process_time()
-        solution = rc.press(surface, 1.0, force=force, operator=extras, solver=solver)
+        solution = rc.press(surface, 1.0, force=force, operator=extras)
         return f"{solution.steps:4d} {time.process_time() - start:7.3f} s"
     finally:
-        cascade.pooled = before
+        cascade.pooled, library.is_available = before
 
 
 def main(n):
@@ -73,13 +85,14 @@ def main(n):
 
     variants = {
         "all": (EXTRAS,),
-        "no |q|": without("approximate_inverse"),
+        "no inverse": without("approximate_inverse", "local_inverse", "patches"),
+        "|q| by FFT": without("local_inverse"),
         "no window": without("positive"),
         "no list": without("between"),
         "means": (EXTRAS, pooled_by_mean),
         "no tiles": without("patches"),
-        "no split": without("quick"),
         "double": without("keeps_precision", "patches"),
+        "no machine": (EXTRAS, cascade.pooled, lambda: False),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
     for name, surface, force in cases(n):

@@ -27,6 +27,7 @@ __all__ = [
     "namespace",
     "numbers",
     "on_host",
+    "require_floating",
     "require_numpy",
     "rfft2",
     "wants_gradient",
@@ -69,6 +70,13 @@ def require_numpy(field: object, method: str) -> None:
     """Raise a TypeError for an array of another library, whose sum by `method` would come back as one of NumPy."""
     if not isinstance(field, np.ndarray):
         raise TypeError(f"{method} is for NumPy's arrays; 'fft' is for those of {type(field)} too")
+
+
+def require_floating(field: Any) -> None:
+    """Raise a ValueError for an array of another library than NumPy, which converts itself, of whole numbers."""
+    if is_numpy(field) or namespace(field).isdtype(field.dtype, ("real floating", "complex floating")):
+        return
+    raise ValueError(f"a field must hold floating numbers, not {field.dtype}: convert it to float64")
 
 
 def wants_gradient(array: Any) -> bool:
@@ -141,9 +149,7 @@ class Placed:
             return self.host
         import array_api_compat
 
-        if not namespace(array).isdtype(array.dtype, ("real floating", "complex floating")):
-            raise ValueError(f"a field must hold floating numbers, not {array.dtype}: convert it to float64")
-
+        require_floating(array)
         device = array_api_compat.device(array)
         key = (type(array), str(device), str(array.dtype))
         if key not in self._copies:

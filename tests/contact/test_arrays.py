@@ -66,15 +66,6 @@ def test_whole_numbers_of_other_libraries_are_refused(library, name):
         operator.apply(library.put(np.ones(operator.grid.shape), "int64"))
 
 
-def test_quick_products_stay_where_they_are(library):
-    operator = rc.half_space(rc.Grid((250, 260), 1e-3), 1e9)
-    field = np.random.default_rng(0).random((250, 260)).astype(np.float32)
-    there = operator.quick.apply(library.put(field.copy(), "float32"))
-    assert library.is_there(there)
-    here = operator.quick.apply(field)
-    np.testing.assert_allclose(library.get(there), here, rtol=0, atol=1e-5 * here.max())
-
-
 def test_large_planes_are_pressed_where_they_are(library):
     grid = rc.Grid((250, 260), 1 / 250)
     rough = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(3))

@@ -45,7 +45,8 @@ def rough(request):
 def used(request, monkeypatch):
     """Let one kind of driver stand in wherever it can, and count its products."""
     kind = request.param
-    monkeypatch.setattr(Patches, "cover", 2.0 if kind is PatchOperator else 0.0)
+    for part in ("cover", "filled"):
+        monkeypatch.setattr(Patches, part, 2.0 if kind is PatchOperator else 0.0)
     monkeypatch.setattr(drivers, "LEAST", 0)
     counts = [0]
     apply = kind.apply

@@ -16,7 +16,7 @@ __all__ = ["coarse_guess", "coarse_operator", "pooled"]
 
 Array = npt.NDArray[np.float64]
 
-COARSEST = 16  # cells along the longer side at which a problem is solved from nothing
+COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
 COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import namespace
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.passes import passes_for
 
 __all__ = ["Direction", "Relaxed", "relax"]
 
@@ -71,43 +72,25 @@ def relax(
     products themselves, so that neither a driver that is none too exact nor a region that has changed a little mislead.
     """
     measure, xp = Measure(driver.weights), namespace(lacking)
-    area = measure.total(inside)
-    change, steps = xp.zeros_like(lacking), 0
+    area, steps = measure.total(inside), 0
     r = lacking - measure.dot(inside, lacking) / area if conserve else xp.asarray(lacking, copy=True)
-    error = r * inside
-    size = largest(error)
+    before = (None, None) if last is None else (last.pressure, last.displacement)
+    fields = passes_for(driver, measure, inside, r, *before)
+    size = fields.size()
     if not size > limit:
-        return Relaxed(change, r, size, steps, last)
-    uniform, resultant = None, 1.0
-    if conserve:
-        uniform = driver.approximate_inverse(inside)
-        uniform *= inside
-        resultant = measure.total(uniform)
-    t = last.pressure * inside if last is not None else xp.zeros_like(r)
-    v = last.displacement if last is not None else r
-    curvature = measure.dot(t, v)
+        return Relaxed(fields.change, r, size, steps, last)
+    resultant = fields.share() if conserve else 1.0
+    curvature, level, _, force = fields.measure(fields.v)
     while size > limit and steps < max_steps:
-        z = driver.approximate_inverse(error)
-        z *= inside
-        if not measure.dot(error, z) > 0:
+        mean = level / area if conserve else 0.0
+        descent, overlap, total = fields.precondition()
+        if not descent > 0:
             break
-        if curvature:
-            t *= -measure.dot(z, v) / curvature
-        t += z
-        if uniform is not None:
-            t -= measure.total(t) / resultant * uniform
-        v = driver.apply(t)
-        curvature = measure.dot(t, v)
+        beta = -(overlap - mean * total) / curvature if curvature else 0.0
+        t = fields.turn(beta, (total + beta * force) / resultant)
+        curvature, level, descent, force = fields.measure(driver.apply(t))
         if not curvature > 0:  # rounding has eaten the direction
             break
-        alpha = measure.dot(error, t) / curvature
-        change += alpha * t
-        v *= alpha
-        curvature *= alpha
-        if conserve:
-            v -= measure.dot(inside, v) / area
-        r -= v
-        error = r * inside
-        size = largest(error)
+        size = fields.advance(descent / curvature, level / area if conserve else 0.0)
         steps += 1
-    return Relaxed(change, r, size, steps, Direction(t, v) if steps else last)
+    return Relaxed(fields.change, fields.r, size, steps, Direction(fields.t, fields.v) if steps else last)

@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace
+from roughcontact.convolution import Convolution
+from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
-from roughcontact.halfspace.patches import PatchOperator
-from roughcontact.halfspace.split_plane import SplitPlane
+from roughcontact.halfspace.patches import Patches, PatchOperator
 from roughcontact.halfspace.tiles import Tiles, count
 
 __all__ = ["Driver", "Plane", "driver_on", "factorised", "first_product"]
@@ -61,6 +62,11 @@ class Plane:
         """Force of a unit pressure on each cell [m^2]."""
         return self.operator.weights
 
+    @property
+    def local_inverse(self) -> LocalInverse | None:
+        """What preconditions in machine code, if there is such a thing."""
+        return getattr(self.operator, "local_inverse", None)
+
     def gather(self, field: Any) -> Any:
         """Return the field."""
         return field
@@ -87,9 +93,9 @@ class Plane:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SinglePlane(Plane):
-    """All cells of an operator, in single precision, by its quick products if it has any."""
+    """All cells of an operator, in single precision."""
 
-    gain: float = 1e-4  # seven digits, of which a product loses one or two, a quick one three
+    gain: float = 1e-4  # seven digits, of which a product loses one or two
 
     def narrow(self, values: Any) -> Any:
         """Return the field in single precision."""
@@ -98,8 +104,8 @@ class SinglePlane(Plane):
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        quick: SplitPlane | None = getattr(self.operator, "quick", None)
-        return (self.operator if quick is None else quick).apply(pressure)
+        quick: Convolution | None = getattr(self.operator, "quick", None)
+        return self.operator.apply(pressure) if quick is None else quick.apply(pressure)
 
 
 def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) -> Driver:
@@ -108,20 +114,32 @@ def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) 
         return previous
     if not _tame(operator):
         return Plane(operator)
-    patches = getattr(operator, "patches", None)
-    if patches is not None and is_numpy(region) and region.size >= LEAST:
-        tiles = Tiles.of(region)
-        if len(tiles) < patches.cover * count(region.shape[0]) * count(region.shape[1]):
-            patch: PatchOperator = patches.on(tiles)
-            return patch
+    found = _tiles_of(operator, region)
+    if found is not None:
+        patches, tiles = found
+        patch: PatchOperator = patches.on(tiles)
+        return patch
     return previous if isinstance(previous, Plane) else _plane(operator)
+
+
+def _tiles_of(operator: Operator, region: Mask) -> tuple[Patches, Tiles] | None:
+    """Return the tiles of a region, and what works on them; None where the whole plane costs less."""
+    patches: Patches | None = getattr(operator, "patches", None)
+    if patches is None or not is_numpy(region) or region.size < LEAST:
+        return None
+    if np.count_nonzero(region) > patches.filled * region.size:
+        return None
+    tiles = Tiles.of(region)
+    few = patches.cover * count(region.shape[0]) * count(region.shape[1])
+    return (patches, tiles) if len(tiles) < few else None
 
 
 def first_product(operator: Operator, pressure: Array) -> tuple[Array, bool]:
     """Return about the displacement [m] under a first guess of the pressure [Pa], and whether it is exact."""
     size = largest(pressure)
     driver = _plane(operator) if size > 0 and _tame(operator) else Plane(operator)
-    if not driver.gain:
+    # Where tiles will drive, no kernel of single precision is made for the plane.
+    if not driver.gain or _tiles_of(operator, pressure > 0) is not None:
         return operator.apply(pressure), True
     xp = namespace(pressure)
     return size * xp.astype(driver.apply(driver.narrow(pressure / size)), xp.float64), False

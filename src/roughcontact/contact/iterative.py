@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy.typing as npt
 from roughcontact.arrays import largest, namespace
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
+from roughcontact.contact.free_cells import free_cells, shared
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Force, Terms
 
@@ -75,27 +75,26 @@ def press_region(
     # In this unit single precision holds all numbers.
     unit = largest(xp.where(kept, lacking, 0.0)) or limit or 1.0
     lacking = driver.narrow(xp.where(there, lacking / unit, NEVER))
-    base, ceiling, held = driver.narrow(start / unit), hardness / unit, (start >= hardness) & ~kept
+    base, held = driver.narrow(start / unit), (start >= hardness) & ~kept
     goal = limit / unit
-    change, p, low, high = xp.zeros_like(base), base, (base > 0) & ~kept & ~held, kept & ~kept
+    free = free_cells(kept, held, hardness / unit, measure, base)
+    change, left = xp.zeros_like(base), (base > 0) & ~kept & ~held
+    moved = xp.where(left, -base, 0.0) if bool(xp.any(left)) else None
+    if moved is not None and conserve:
+        moved = shared(moved, base, free.inside, measure)
     target, last, steps, rounds = max(goal, DEPTH_OF_SOLVE), None, 0, 0
     while steps < max_steps and rounds < ROUNDS:
-        inside, some, error = xp.astype(kept, base.dtype), bool(xp.any(kept)), 0.0
+        some, error = bool(xp.any(free.inside)), 0.0
         if conserve and not some:  # none is left to take the force
             break
-        if bool(xp.any(low | high)):
-            moved = xp.where(low, -p, 0.0)
-            if hardness < math.inf:
-                moved = xp.where(high, ceiling - p, moved)
-            if conserve:
-                moved = _shared(moved, p, inside, measure)
+        if moved is not None:
             change += moved
             lacking -= driver.apply(moved)
             steps += 1
         if some:
             found = relax(
                 driver,
-                inside,
+                free.inside,
                 lacking,
                 conserve=conserve,
                 limit=target,
@@ -104,37 +103,24 @@ def press_region(
             )
             change += found.change
             lacking, last, error, steps = found.lacking, found.last, found.largest, steps + found.steps
-        p = base + change
-        low, high = kept & (p < 0), kept & (p > ceiling)
-        if bool(xp.any(low | high)):
-            kept, held = kept & ~(low | high), held | high
+        moved = free.let_go(base, change, conserve)
+        if moved is not None:
             continue
-        added = ((lacking > 0.5 * goal) & ~kept & ~held) | ((lacking < -0.5 * goal) & held)
-        if bool(xp.any(added)):
-            worst = max(error, largest(xp.where(added, lacking, 0.0)))
-            target = max(goal, DEPTH_OF_SOLVE * worst)
-            kept, held, rounds = kept | added, held & ~added, rounds + 1
+        worst = free.take_in(lacking, 0.5 * goal)
+        if worst:
+            target = max(goal, DEPTH_OF_SOLVE * max(error, worst))
+            rounds += 1
         elif target > goal and error <= target:
             target = goal
         else:
             break
     p = start + unit * xp.astype(change, xp.float64)
-    p = xp.where(kept & (p > 0), p, 0.0)
-    if hardness < math.inf:
-        p = xp.where(held, hardness, p)
+    p = xp.where((free.inside > 0) & (p > 0), p, 0.0)
+    if free.held is not None:
+        p = xp.where(free.held, hardness, p)
     elif isinstance(terms.control, Force):
         total = measure.total(p)
         if not total > 0:  # nothing came of it
             return RegionPressed(pressure, steps)
         p *= terms.control.value / total
     return RegionPressed(driver.scatter(p), steps)
-
-
-def _shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:
-    """Return a change of pressure together with what keeps the force, shared by the cells inside."""
-    carrying = p * inside
-    total = measure.total(carrying)
-    if not total > 0:  # new cells only
-        carrying, total = inside, measure.total(inside)
-    # A ratio of sums of the same size: in single precision a whole is not known as well as its part.
-    return change + carrying * (-measure.total(change) / total)

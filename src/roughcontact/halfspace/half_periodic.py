@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import Placed, convolve, fast_even_length
+from roughcontact.arrays import fast_even_length
+from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.half_periodic_kernel import repeated_love
@@ -113,14 +114,12 @@ class HalfPeriodicOperator:
 
     @cached_property
     def _padded(self) -> tuple[int, int]:
-        # As on a free grid, offsets n - 1 and -(n - 1) may share a place; the period stays what it is.
-        lengths = [fast_even_length(2 * n - 2) for n in self.grid.shape]
+        lengths = [padded_length(n) for n in self.grid.shape]  # the period stays what it is
         lengths[self._row.axis] = self.grid.shape[self._row.axis]
         return lengths[0], lengths[1]
 
     @cached_property
-    def _multiplier(self) -> Placed:
-        """Transform of the kernel, which is even: real, rows and columns from 0 up."""
+    def _product(self) -> Convolution:
         along = self._row.axis
         shape = [n // 2 + 1 for n in self._padded]
         shape[along] = self.grid.shape[along]
@@ -128,22 +127,23 @@ class HalfPeriodicOperator:
         table = self.influence.table(self.grid.shape)
         even[: table.shape[0], : table.shape[1]] = table
         even = scipy.fft.dct(even, type=1, axis=1 - along, overwrite_x=True)
-        return Placed(np.ascontiguousarray(scipy.fft.rfft(even, axis=along, overwrite_x=True).real))
+        multiplier = np.ascontiguousarray(scipy.fft.rfft(even, axis=along, overwrite_x=True).real)
+        return Convolution(multiplier, self._padded)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        return convolve(pressure, self._multiplier, self._padded)
+        return self._product.apply(pressure)
 
     @cached_property
-    def _inverse(self) -> tuple[Placed, tuple[int, int]]:
+    def _inverse(self) -> Convolution:
         lengths = [fast_even_length(n) for n in self.grid.shape]
         lengths[self._row.axis] = self.grid.shape[self._row.axis]
         box = (lengths[0], lengths[1])
-        return Placed(self.influence.inverse(box)), box
+        return Convolution(self.influence.inverse(box), box)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
-        return convolve(displacement, *self._inverse)
+        return self._inverse.apply(displacement)
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""

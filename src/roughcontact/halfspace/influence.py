@@ -15,6 +15,7 @@ from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables"]
 
+NEARLY = 0.95  # of a side of the whole grid
 NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
 
 Array = npt.NDArray[np.float64]
@@ -155,6 +156,11 @@ class Tables:
             )
             self._largest = self.influence.table(room)
         return self._largest[: shape[0], : shape[1]]
+
+    def done_with(self, shape: tuple[int, ...]) -> None:
+        """Let go of the table if a window of this shape is nearly all: planes are large, hardly another will come."""
+        if all(n > NEARLY * end for n, end in zip(shape, self.limit, strict=True)):
+            self._largest = self._largest[:NEAR, :NEAR].copy()
 
     def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import convolve
+from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Tables
@@ -58,27 +58,25 @@ class LayerOperator:
         return Tables(self.influence, self.grid.shape)
 
     @cached_property
-    def _multiplier(self) -> Array:
-        return self.influence.multiplier()
+    def _product(self) -> Convolution:
+        return Convolution(self.influence.multiplier(), (self.grid.shape[0], self.grid.shape[1]))
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        ny, nx = self.grid.shape
         # The mean apart: where it moves nothing, its rounding moves nothing either.
         mean = float(pressure.mean())
-        displacement = convolve(pressure - mean, self._multiplier, (ny, nx))
+        displacement = self._product.apply(pressure - mean)
         displacement += self.influence.stack.mean * mean - displacement.mean()
         return displacement
 
     @cached_property
-    def _inverse(self) -> Array:
-        ny, nx = self.grid.shape
-        return self.influence.inverse((ny, nx))
+    def _inverse(self) -> Convolution:
+        lengths = self.grid.shape[0], self.grid.shape[1]
+        return Convolution(self.influence.inverse(lengths), lengths)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return the pressure [Pa] that causes this `displacement` [m], but for its mean."""
-        ny, nx = self.grid.shape
-        return convolve(displacement, self._inverse, (ny, nx))
+        return self._inverse.apply(displacement)
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from scipy.special import erf, erfc
 
 from roughcontact.arrays import even_multiplier
-from roughcontact.halfspace.influence import Love, Periodic, definite, wavenumbers
+from roughcontact.halfspace.influence import Love, Periodic, wavenumbers
 
-__all__ = ["DECAY", "FreeSplit", "InverseSplit", "PeriodicSplit"]
+__all__ = ["DECAY", "FreeSplit", "PeriodicSplit"]
 
 Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
@@ -97,37 +97,6 @@ class PeriodicSplit:
     def _mean(self) -> float:
         """What a constant pressure does by the near part, which has no long waves; the far part takes it back."""
         return 2 * self.reach / DECAY / (math.sqrt(math.pi) * self.kernel.modulus)
-
-
-@dataclass(frozen=True, slots=True)
-class InverseSplit:
-    """The pressure that a displacement takes [Pa/m], about: a preconditioner ``E* q/2`` in two parts.
-
-    The near part, which falls with the fifth power of distance, is cut off where it is asked for no more.
-    """
-
-    modulus: float
-    spacing: tuple[float, ...]
-    reach: float
-
-    def near(self, cells: Pair) -> Array:
-        """Return the near part [Pa/m]."""
-        box = tuple(8 * n for n in cells)
-        q = wavenumbers(box, self.spacing)
-        near = _values(self.modulus / 2 * q * (1 - self._smooth(q)), box, cells)
-        # What is cut off would be missed most where it should cancel: long waves are none of the near part's.
-        rest = near[1:, 0].sum() + near[0, 1:].sum() + 2 * near[1:, 1:].sum()
-        near[0, 0] = -2 * rest
-        return near
-
-    def far(self, step: Pair, lengths: Pair) -> Array:
-        """Return the transform of the far part [Pa/m], which repeats itself."""
-        distances = tuple(s * d for s, d in zip(step, self.spacing, strict=True))
-        q = definite(wavenumbers(lengths, distances))
-        return self.modulus / 2 / (step[0] * step[1]) * q * self._smooth(q)
-
-    def _smooth(self, q: Array) -> Array:
-        return np.asarray(np.exp(-((q * (self.reach / DECAY / 2)) ** 2)))
 
 
 def _offsets(cells: Pair) -> tuple[Offsets, Offsets]:

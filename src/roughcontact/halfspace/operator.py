@@ -47,9 +47,9 @@ class Operator(Protocol):
     constant pressure moves nothing.
 
     What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`,
-    `keeps_precision`, `quick`, `patches`. Each makes solves faster and none changes an answer. One whose sum is not
-    exact has the `exact` one, by which answers are certified. One that is not a half-space under a surface says so
-    by its `geometry`, on which the units of the answers hang.
+    `local_inverse`, `keeps_precision`, `quick`, `patches`. Each makes solves faster and none changes an answer. One
+    whose sum is not exact has the `exact` one, by which answers are certified. One that is not a half-space under a
+    surface says so by its `geometry`, on which the units of the answers hang.
     """
 
     @property

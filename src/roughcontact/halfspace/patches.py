@@ -1,8 +1,9 @@
 """The half-space between the cells of a region, about: its cost follows the region, not the domain.
 
-Tiles cover the region. Between tiles that lie close together a small matrix for each of their offsets does the near
-part of the influence; nodes every few cells, and a transform of these, do the far part. What single precision, the cut
-and splines of sixth order leave out is some 1e-4 of the answer at most: it drives solves that exact products certify.
+Tiles cover the region. Between tiles that lie close together a direct sum over the cells that carry something does the
+near part of the influence; nodes every few cells, and a transform of these, do the far part. What single precision, the
+cut and splines of sixth order leave out is some 1e-4 of the answer at most: it drives solves that exact products
+certify.
 """
 
 from __future__ import annotations
@@ -14,86 +15,86 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, convolve, fast_even_length
+from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence import Love, Periodic
-from roughcontact.halfspace.near_far import DECAY, FreeSplit, InverseSplit, PeriodicSplit
+from roughcontact.halfspace.local_inverse import LocalInverse
+from roughcontact.halfspace.near_far import DECAY, FreeSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
-from roughcontact.halfspace.tiles import SIDE, Tiles
+from roughcontact.halfspace.tile_inverse import TileInverse
+from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles
+from roughcontact.machine import library
+from roughcontact.machine.library import address, functions
 from roughcontact.threads import spread
 
 __all__ = ["PatchOperator", "Patches"]
 
 Array = npt.NDArray[np.float64]
 Single = npt.NDArray[Any]  # of single precision
-Cells = npt.NDArray[np.intp]
 Pair = tuple[int, int]
-Pairs = list[tuple[Pair, Cells, Cells]]
-Split = FreeSplit | PeriodicSplit | InverseSplit
+Split = FreeSplit | PeriodicSplit
 
 REACH = 3  # tiles: how far the near part of the influence goes
-REACH_INVERSE = 1
-SMOOTH_INVERSE = 2  # tiles: what the far part of the inverse smooths, as a reach
-GROUP = 256  # tiles whose sums one thread adds up: as many as its cache holds
+GROUP = 512  # tiles whose sums one thread adds up at a time
+SMOOTH = 2 / 3  # of the width of what the far part smooths: how far apart nodes may be
 STEPS = (1, 2, 4)  # cells from node to node: no more than the width of what the far part smooths
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Parts:
-    """The two parts of an influence: matrices between near tiles, and what multiplies the waves of nodes."""
+    """The two parts of an influence.
 
-    reach: int
-    blocks: dict[Pair, Single]
-    far: Placed
-    lengths: Pair
+    Attributes
+    ----------
+    near : array, shape (SIDE**2, SIDE**2)
+        At offsets of cells from the middle.
+    far : Convolution
+        Of fields on nodes.
+    """
+
+    near: Single
+    far: Convolution
 
     @classmethod
-    def of(cls, split: Split, reach: int, step: Pair, lengths: Pair) -> Parts:
+    def of(cls, split: Split, step: Pair, lengths: Pair) -> Parts:
         """Return the parts of a split influence."""
-        far = Placed(sharpened(split.far(step, lengths), lengths))
-        return cls(reach, _blocks(split, reach), far, lengths)
+        far = Convolution(sharpened(split.far(step, lengths), lengths), lengths)
+        return cls(_kernel(split), far)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TileSum:
-    """A sum over the cells of tiles, in single precision.
+    """A sum over the cells of tiles, in single precision; what is near follows the cells that are not zero.
 
     Attributes
     ----------
     parts : Parts
-    groups : list of lists of (offset, to, from)
-        For some tiles each, the pairs of each offset that lead to them.
+    map : TileMap
+        With room for the reach of the near part.
     nodes : Nodes
     """
 
     parts: Parts
-    groups: list[Pairs]
+    map: TileMap
     nodes: Nodes
-
-    @classmethod
-    def over(cls, tiles: Tiles, parts: Parts, nodes: Nodes, periodic: bool) -> TileSum:
-        """Return the sum over tiles."""
-        pairs = tiles.neighbours(parts.reach, periodic)
-        ends = np.arange(GROUP, len(tiles), GROUP)
-        groups: list[Pairs] = [[] for _ in range(len(ends) + 1)]
-        for offset, to, of in pairs:  # in the order of the tiles that they lead to
-            cuts = np.searchsorted(to, ends)
-            for group, *some in zip(groups, np.split(to, cuts), np.split(of, cuts), strict=True):
-                if len(some[0]):
-                    group.append((offset, some[0], some[1]))
-        return cls(parts, groups, nodes)
 
     def apply(self, values: Single) -> Single:
         """Return the sum, shape (tiles, SIDE * SIDE)."""
-        parts, nodes = self.parts, self.nodes
-        waves: Single = convolve(nodes.spread(values), parts.far, parts.lengths)
-        sums = nodes.gather(waves)
+        code, size = functions("tiles", "float32"), len(self.map.places)
+        given = np.ascontiguousarray(values, dtype=np.float32)
+        waves: Single = self.parts.far.apply(self.nodes.spread(given))
+        sums = np.ascontiguousarray(self.nodes.gather(waves))
+        starts, shifts = np.empty(size + 1, np.int64), np.empty(given.size + 1, np.int64)
+        some, found = np.empty(given.size + 1, np.float32), np.empty(1, np.int64)
+        cells = address(starts), address(shifts), address(some)
+        code["list_cells"](size, SIDE, SIDE * SIDE, address(given), *cells, address(found))
+        where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places), size, REACH
+        kernel, total = address(self.parts.near), address(sums)
 
-        def add_near(pairs: Pairs) -> None:
-            for offset, to, of in pairs:
-                sums[to] += values[of] @ parts.blocks[offset]
+        def add_near(start: int) -> None:
+            code["add_near"](start, min(start + GROUP, size), *where, *cells, kernel, total)
 
-        spread(add_near, self.groups)
+        spread(add_near, range(0, size, GROUP))
         return sums
 
 
@@ -108,7 +109,8 @@ class PatchOperator:
     tiles : Tiles
     weights : float
         Area of a cell [m^2].
-    forward, inverse : TileSum
+    forward : TileSum
+    inverse : TileInverse
     gain : float
         How far a round of a solve takes an error down; exact products find what it gets wrong.
     """
@@ -116,7 +118,7 @@ class PatchOperator:
     tiles: Tiles
     weights: float
     forward: TileSum
-    inverse: TileSum
+    inverse: TileInverse
     gain: float = 3e-5
 
     def gather(self, field: Any) -> Any:
@@ -150,66 +152,69 @@ class Patches:
         Its boundary condition is the one that counts.
     grid : Grid
     cover : float
-        Part of the plane's tiles up to which they cost less than the plane (benchmarks/patches.py).
+        Part of the plane's tiles up to which they may cost less than the plane (benchmarks/patches.py).
     """
 
     kernel: Love | Periodic
     grid: Grid
-    cover: ClassVar[float] = 0.1
+    cover: ClassVar[float] = 0.3
+
+    @property
+    def filled(self) -> float:
+        """Part of the plane's cells up to which they do: a product on a periodic plane is not padded."""
+        return 0.03 if self._periodic else 0.1
 
     @property
     def possible(self) -> bool:
-        """Whether cells are not too slender for nodes, and tiles fit the period."""
+        """Whether cells are not too slender for nodes, tiles fit the period, and there is machine code."""
         fits = not self._periodic or not any(n % SIDE for n in self.grid.shape)
-        return fits and 0 not in self._step
+        return fits and 0 not in self._step and library.is_available()
 
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""
         nodes = Nodes.under(tiles, self._step, self._periodic)
-        forward, inverse = (TileSum.over(tiles, parts, nodes, self._periodic) for parts in self._parts)
+        forward = TileSum(self._parts, tiles.map(REACH, self._periodic), nodes)
+        inverse = TileInverse.over(tiles, self.local_inverse, self._periodic)
         return PatchOperator(tiles, self.grid.cell_area, forward, inverse)
 
     @cached_property
-    def _parts(self) -> tuple[Parts, Parts]:
-        """The parts of the influence and of its inverse."""
-        (dy, dx), step, kernel = self.grid.spacing, self._step, self.kernel
+    def local_inverse(self) -> LocalInverse:
+        """The inverse of the whole plane."""
+        shape = self.grid.shape[0], self.grid.shape[1]
+        return LocalInverse.of(self.kernel.modulus, shape, self.grid.spacing)
+
+    @cached_property
+    def _parts(self) -> Parts:
+        """The parts of the influence."""
+        step, kernel = self._step, self.kernel
         ny, nx = node_shape((self.grid.shape[0], self.grid.shape[1]), step, self._periodic)
-        split: Split
         if isinstance(kernel, Periodic):
-            split, lengths, box = PeriodicSplit(kernel, self._reach(REACH)), (ny, nx), (ny, nx)
-        else:
-            split = FreeSplit(kernel, self._reach(REACH))
-            # So much room that neither the far side of the influence nor a spline comes round.
-            lengths = fast_even_length(2 * ny + ORDER), fast_even_length(2 * nx + ORDER)
-            box = fast_even_length(ny), fast_even_length(nx)
-        inverse = InverseSplit(kernel.modulus, (dy, dx), self._reach(SMOOTH_INVERSE))
-        return Parts.of(split, REACH, step, lengths), Parts.of(inverse, REACH_INVERSE, step, box)
+            return Parts.of(PeriodicSplit(kernel, self._reach), step, (ny, nx))
+        # So much room that neither the far side of the influence nor a spline comes round.
+        lengths = padded_length(ny + ORDER // 2 + 1), padded_length(nx + ORDER // 2 + 1)
+        return Parts.of(FreeSplit(kernel, self._reach), step, lengths)
 
     @property
     def _periodic(self) -> bool:
         return isinstance(self.kernel, Periodic)
 
-    def _reach(self, tiles: int) -> float:
-        return tiles * SIDE * min(self.grid.spacing)
+    @property
+    def _reach(self) -> float:
+        return REACH * SIDE * min(self.grid.spacing)
 
     @property
     def _step(self) -> Pair:
         """Cells from node to node along each axis, divisors of a tile; 0 where none is short enough."""
-        widest = (self._reach(SMOOTH_INVERSE) / DECAY / d for d in self.grid.spacing)
+        widest = (SMOOTH * self._reach / DECAY / d for d in self.grid.spacing)
         down, across = (max((s for s in STEPS if s <= w), default=0) for w in widest)
         return down, across
 
 
-@lru_cache(maxsize=32)
-def _blocks(split: Split, reach: int) -> dict[Pair, Single]:
-    """Return the matrices from the cells of one tile to those of another, for each offset up to `reach` tiles."""
-    last = reach * SIDE
-    table = np.zeros((last + SIDE, last + SIDE), dtype=np.float32)
+@lru_cache(maxsize=8)
+def _kernel(split: Split) -> Single:
+    """Return the near part at offsets of cells up to half the side of the kernel."""
+    half, last = SIDE * SIDE // 2, REACH * SIDE
+    table = np.zeros((half + 1, half + 1), dtype=np.float32)
     table[: last + 1, : last + 1] = split.near((last, last))
-    y, x = np.divmod(np.arange(SIDE * SIDE), SIDE)
-    offsets = range(-reach, reach + 1)
-    return {
-        (dy, dx): table[np.abs(y[:, None] + dy * SIDE - y), np.abs(x[:, None] + dx * SIDE - x)]
-        for dy in offsets
-        for dx in offsets
-    }
+    offsets = np.abs(np.arange(-half, half))
+    return table[offsets[:, None], offsets]

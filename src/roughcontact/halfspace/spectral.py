@@ -9,12 +9,13 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, convolve, even_multiplier, fast_even_length, namespace
+from roughcontact.arrays import even_multiplier, fast_even_length, namespace, require_floating
+from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Love, Periodic, Strip, Tables
+from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.halfspace.patches import Patches
-from roughcontact.halfspace.split_plane import LEAST, SplitPlane
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -53,14 +54,11 @@ class FreeOperator:
         return self.grid.cell_area
 
     @cached_property
-    def _padded(self) -> tuple[int, int]:
-        # Offsets n - 1 and -(n - 1) may share a place, since the kernel is even: 2n - 2 is enough.
-        ny, nx = self.grid.shape
-        return fast_even_length(2 * ny - 2), fast_even_length(2 * nx - 2)
-
-    @cached_property
-    def _multiplier(self) -> Placed:
-        return Placed(even_multiplier(self.influence.table(self.grid.shape), self._padded))
+    def _product(self) -> Convolution:
+        padded = padded_length(self.grid.shape[0]), padded_length(self.grid.shape[1])
+        multiplier = even_multiplier(self.influence.table(self.grid.shape), padded)
+        self.influence.done_with(self.grid.shape)
+        return Convolution(multiplier, padded)
 
     @cached_property
     def patches(self) -> Patches | None:
@@ -69,24 +67,25 @@ class FreeOperator:
         patches = Patches(kernel, self.grid) if isinstance(kernel, Love) else None
         return patches if patches is not None and patches.possible else None
 
-    @cached_property
-    def quick(self) -> SplitPlane | None:
-        """What does products of single precision at half the cost; None for another body, or where none does."""
-        kernel, (ny, nx) = self.influence.influence, self.grid.shape
-        return SplitPlane.of(kernel, (ny, nx)) if isinstance(kernel, Love) and ny * nx >= LEAST else None
-
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        return convolve(pressure, self._multiplier, self._padded)
+        return self._product.apply(pressure)
 
     @cached_property
-    def _inverse(self) -> tuple[Placed, tuple[int, int]]:
+    def local_inverse(self) -> LocalInverse | None:
+        """What preconditions in machine code; None for another body than a half-space."""
+        shape = self.grid.shape[0], self.grid.shape[1]
+        modulus, spacing = self.modulus, self.grid.spacing
+        return None if modulus is None or min(shape) == 1 else LocalInverse.of(modulus, shape, spacing)
+
+    @cached_property
+    def _inverse(self) -> Convolution:
         box = (fast_even_length(self.grid.shape[0]), fast_even_length(self.grid.shape[1]))
-        return Placed(self.influence.inverse(box)), box
+        return Convolution(self.influence.inverse(box), box)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
-        return convolve(displacement, *self._inverse)
+        return self._inverse.apply(displacement)
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
@@ -144,27 +143,38 @@ class PeriodicOperator:
         return self.grid.cell_area
 
     @cached_property
-    def _multiplier(self) -> Placed:
-        return Placed(self.influence.multiplier())
+    def _product(self) -> Convolution:
+        return Convolution(self.influence.multiplier(), (self.grid.shape[0], self.grid.shape[1]))
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        ny, nx = self.grid.shape
+        require_floating(pressure)
         # The mean moves nothing; taken out first, its rounding moves nothing either.
-        xp, multiplier = namespace(pressure), self._multiplier.beside(pressure)
-        displacement = convolve(pressure - xp.mean(pressure), multiplier, (ny, nx))
+        xp = namespace(pressure)
+        displacement = self._product.apply(pressure - xp.mean(pressure))
         displacement -= xp.mean(displacement)
         return displacement
 
+    @property
+    def quick(self) -> Convolution:
+        """What does the products of a solve: a mean that moves next to nothing does no harm there."""
+        return self._product
+
     @cached_property
-    def _inverse(self) -> Placed:
-        ny, nx = self.grid.shape
-        return Placed(self.influence.inverse((ny, nx)))
+    def local_inverse(self) -> LocalInverse | None:
+        """What preconditions in machine code; None for another body than a half-space."""
+        shape = self.grid.shape[0], self.grid.shape[1]
+        modulus, spacing = self.modulus, self.grid.spacing
+        return None if modulus is None or min(shape) == 1 else LocalInverse.of(modulus, shape, spacing)
+
+    @cached_property
+    def _inverse(self) -> Convolution:
+        lengths = self.grid.shape[0], self.grid.shape[1]
+        return Convolution(self.influence.inverse(lengths), lengths)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return the pressure [Pa] that causes this `displacement` [m], but for its mean."""
-        ny, nx = self.grid.shape
-        return convolve(displacement, self._inverse, (ny, nx))
+        return self._inverse.apply(displacement)
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""

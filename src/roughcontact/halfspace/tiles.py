@@ -8,13 +8,14 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SIDE", "Tiles"]
+from roughcontact.machine.layout import SIDE
+
+__all__ = ["SIDE", "TileMap", "Tiles", "count"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
+Indices = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
-
-SIDE = 8  # cells: larger tiles are emptier, smaller ones make matrices that are too small to be fast
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,24 +75,31 @@ class Tiles:
         inside = self.cells[self.cells >= 0]
         return int(np.count_nonzero(region)) == int(np.count_nonzero(region.ravel()[inside]))
 
-    def neighbours(self, reach: int, periodic: bool) -> list[tuple[tuple[int, int], Cells, Cells]]:
-        """Return the pairs of tiles at most `reach` tiles apart along either axis.
-
-        Each entry is an offset of tiles, the tiles that have a neighbour there, and those neighbours.
-        """
+    def map(self, reach: int, periodic: bool) -> TileMap:
+        """Return where each tile is, with `reach` tiles of room on each side."""
         down, across = (count(n) for n in self.shape)
-        room = 0 if periodic else reach
-        where = np.full((down + 2 * room, across + 2 * room), -1)
-        where[self.rows + room, self.columns + room] = np.arange(len(self))
-        pairs = []
-        for dy in range(-reach, reach + 1):
-            for dx in range(-reach, reach + 1):
-                y, x = self.rows + room + dy, self.columns + room + dx
-                found = where[y % down, x % across] if periodic else where[y, x]
-                here = np.flatnonzero(found >= 0)
-                if len(here):
-                    pairs.append(((dy, dx), here, found[here]))
-        return pairs
+        numbers = np.full((down, across), len(self), dtype=np.int64)
+        numbers[self.rows, self.columns] = np.arange(len(self))
+        room = {"mode": "wrap"} if periodic else {"constant_values": len(self)}
+        numbers = np.pad(numbers, reach, **room)
+        places = (self.rows + reach) * numbers.shape[1] + self.columns + reach
+        return TileMap(np.ascontiguousarray(numbers), np.asarray(places, dtype=np.int64))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TileMap:
+    """Which tile is where.
+
+    Attributes
+    ----------
+    numbers : int array, shape (down, across)
+        The number of the tile at each place; where there is none, how many there are.
+    places : int array, shape (n,)
+        Flat index in it of each tile.
+    """
+
+    numbers: Indices
+    places: Indices
 
 
 def count(cells: int) -> int:

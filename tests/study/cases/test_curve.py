@@ -104,7 +104,7 @@ def test_a_hardness_is_a_pressure_or_a_part_of_the_slope():
 def test_a_load_that_misses_its_tolerance_keeps_its_mark(monkeypatch):
     hasty = partial(rc.loading_path, solver=rc.PolonskyKeer(max_steps=1))
     monkeypatch.setattr("roughcontact.study.cases.curve.loading_path", hasty)
-    record = run(highest_force=5.0, loads=2)
+    record = run(lowest_force=1.0, highest_force=5.0, loads=2)
     assert (record["status"] == "step limit").all()
     assert not record["resolved"].any()
     assert np.isfinite(record["stiffness"]).all()

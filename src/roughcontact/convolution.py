@@ -1,0 +1,75 @@
+"""Convolutions of a field with an even kernel: in machine code where there is some, else by the field's own library."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import Placed, convolve, fast_even_length, is_numpy
+from roughcontact.machine import library
+
+__all__ = ["Convolution", "padded_length"]
+
+Array = npt.NDArray[np.float64]
+Pair = tuple[int, int]
+
+ROWS = 8  # that machine code takes at once
+
+
+class Convolution:
+    """A product with an even kernel for fields of any library, in double or single precision.
+
+    Parameters
+    ----------
+    multiplier : array, shape (My//2 + 1, Mx//2 + 1)
+        Real transform of the kernel, rows and columns from 0 up, as `roughcontact.arrays.even_multiplier` returns it.
+    lengths : tuple of int
+        ``(My, Mx)`` of the transforms, at least those of the fields.
+    """
+
+    __slots__ = ("_multiplier", "_placed", "_ready", "lengths")
+
+    def __init__(self, multiplier: Array, lengths: Pair) -> None:
+        self.lengths = lengths
+        self._multiplier: Callable[[], Array] = lambda: multiplier
+        self._placed: Placed | None = None
+        self._ready: dict[tuple[Pair, str], Any] = {}
+
+    def apply(self, field: Array) -> Array:
+        """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
+        if is_numpy(field) and field.dtype.kind in "biu":
+            field = field.astype(np.float64)
+        if not _in_machine_code(field, self.lengths):
+            if self._placed is None:
+                self._placed = Placed(self._multiplier())
+            return convolve(field, self._placed.beside(field), self.lengths)
+        key = ((field.shape[0], field.shape[1]), field.dtype.name)
+        if key not in self._ready:
+            from roughcontact.machine.convolution import Convolution
+
+            self._ready[key] = Convolution.of(self._multiplier(), key[0], self.lengths, key[1])
+            if key[1] == "float64":
+                self._multiplier = self._ready[key].kernel  # planes are large: none is kept twice
+        answer: Array = self._ready[key].apply(field)
+        return answer
+
+
+def padded_length(cells: int) -> int:
+    """Return the length of a transform of so many cells that nothing comes round: at least ``2 cells - 2``.
+
+    Offsets ``cells - 1`` and ``-(cells - 1)`` may share a place, since the kernel is even.
+    """
+    if cells < ROWS:
+        return fast_even_length(2 * cells - 2)
+    return 4 * fast_even_length(-(-(2 * cells - 2) // 4))
+
+
+def _in_machine_code(field: Array, lengths: Pair) -> bool:
+    if not is_numpy(field) or field.ndim != 2 or field.shape[0] < ROWS or not library.takes(field):
+        return False
+    from roughcontact.machine.convolution import fits
+
+    return fits(lengths)

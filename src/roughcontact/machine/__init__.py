@@ -1,0 +1,1 @@
+"""Loops in machine code: written here in a small language, translated once by LLVM, kept on disk."""

@@ -1,0 +1,204 @@
+"""A small language for loops over numbers, many at a time, which LLVM translates to machine code.
+
+A function is written by running Python: its loops run once, and what their bodies say is written down. Numbers come in
+lanes, as many as a processor takes in one instruction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any, Generic, TypeVar, overload
+
+from llvmlite import ir
+
+from roughcontact.machine.layout import WIDTH
+from roughcontact.machine.values import INDEX, Index, Indices, Number, Reals, constant, spread_out
+
+__all__ = ["PRECISIONS", "Code", "Variable"]
+
+PRECISIONS = {"float32": (ir.FloatType(), 4), "float64": (ir.DoubleType(), 8)}
+
+
+T = TypeVar("T", Number, Index)
+
+
+@dataclass(frozen=True, slots=True)
+class Variable(Generic[T]):
+    """A number, or a whole number, that changes."""
+
+    place: Any
+    first: T
+
+    def get(self) -> T:
+        """Return what it is."""
+        return replace(self.first, value=self.first.builder.load(self.place))
+
+    def set(self, value: T) -> None:
+        """Make it another."""
+        value.builder.store(value.value, self.place)
+
+
+class Code:
+    """A function that is being written; used as a context, which ends it.
+
+    Parameters
+    ----------
+    module : llvmlite.ir.Module
+        Where it goes.
+    name : str
+        Without the precision, which is added.
+    precision : {"float32", "float64"}
+        Of its real numbers.
+    parameters : str
+        Their kinds, separated by spaces: "index", "indices", "real", "reals", and "doubles" of double precision
+        whatever the others are. The arguments are in `arguments`.
+    """
+
+    def __init__(self, module: Any, name: str, precision: str, parameters: str) -> None:
+        real, size = PRECISIONS[precision]
+        kinds = {
+            "index": INDEX,
+            "indices": INDEX.as_pointer(),
+            "real": real,
+            "reals": real.as_pointer(),
+            "doubles": ir.DoubleType().as_pointer(),
+        }
+        names = parameters.split()
+        kind = ir.FunctionType(ir.VoidType(), [kinds[n] for n in names])
+        self.count = WIDTH // size
+        self.lanes = ir.VectorType(real, self.count)
+        self.function = ir.Function(module, kind, f"{name}_{precision}")
+        self._variables = ir.IRBuilder(self.function.append_basic_block("variables"))
+        self._start = self.function.append_basic_block("start")
+        self.builder = builder = ir.IRBuilder(self._start)
+
+        def argument(name: str, value: Any) -> Any:
+            if name == "index":
+                return Index(value, builder)
+            if name == "indices":
+                return Indices(value, builder)
+            if name == "real":
+                return Number(value, builder)
+            if name == "doubles":
+                return Reals(value, builder, ir.VectorType(ir.DoubleType(), self.count), 8)
+            return Reals(value, builder, self.lanes, size)
+
+        self.arguments = [argument(n, v) for n, v in zip(names, self.function.args, strict=True)]
+
+    def __enter__(self) -> Code:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._variables.branch(self._start)
+        self.builder.ret_void()
+
+    def index(self, value: int) -> Index:
+        """Return a whole number."""
+        return Index(ir.Constant(INDEX, value), self.builder)
+
+    def zero(self) -> Number:
+        """Return zero in each lane."""
+        return Number(constant(self.lanes, 0.0), self.builder)
+
+    def one(self, value: float) -> Number:
+        """Return a single number."""
+        return Number(constant(self.lanes.element, value), self.builder)
+
+    def any_not_zero(self, number: Number) -> Any:
+        """Return the condition that one of the lanes is not zero."""
+        found = self.builder.fcmp_unordered("!=", number.value, constant(self.lanes, 0.0))
+        bits = ir.IntType(self.count)
+        return self.builder.icmp_unsigned("!=", self.builder.bitcast(found, bits), ir.Constant(bits, 0))
+
+    def either(self, one: Any, other: Any) -> Any:
+        """Return the condition that one of two holds."""
+        return self.builder.or_(one, other)
+
+    def for_all(self, number: Number) -> Number:
+        """Return a number in each lane."""
+        return Number(spread_out(number.value, self.lanes, self.builder), self.builder)
+
+    def variable(self, first: T) -> Variable[T]:
+        """Return what changes, and what it is at first."""
+        found = Variable(self._variables.alloca(first.value.type), first)
+        found.set(first)
+        return found
+
+    def range(self, start: Index | int, stop: Index | int, step: Index | int = 1) -> Iterator[Index]:
+        """Loop over whole numbers; what the body says is written once."""
+        builder, first = self.builder, self._index(start)
+        last, by = self._index(stop), self._index(step)
+        before = builder.block
+        head, body, after = (builder.append_basic_block(name) for name in ("head", "body", "after"))
+        builder.branch(head)
+        builder.position_at_end(head)
+        at = builder.phi(INDEX)
+        at.add_incoming(first.value, before)
+        builder.cbranch(builder.icmp_signed("<", at, last.value), body, after)
+        builder.position_at_end(body)
+        yield Index(at, builder)
+        at.add_incoming(builder.add(at, by.value), builder.block)
+        builder.branch(head)
+        builder.position_at_end(after)
+
+    @overload
+    def choose(self, condition: Any, one: Reals, other: Reals) -> Reals: ...
+    @overload
+    def choose(self, condition: Any, one: Index | int, other: Index | int) -> Index: ...
+    def choose(self, condition: Any, one: Any, other: Any) -> Reals | Index:
+        """Return one whole number, or place in memory, where a condition holds, else the other."""
+        if isinstance(one, Reals):
+            return replace(one, pointer=self.builder.select(condition, one.pointer, other.pointer))
+        a, b = self._index(one).value, self._index(other).value
+        return Index(self.builder.select(condition, a, b), self.builder)
+
+    @contextmanager
+    def when(self, condition: Any) -> Iterator[None]:
+        """Do what is in the context only where a condition holds."""
+        with self.builder.if_then(condition):
+            yield
+
+    def call(self, other: Code, *arguments: Any) -> None:
+        """Call another function."""
+        self.builder.call(
+            other.function, [a.pointer if isinstance(a, Reals | Indices) else a.value for a in arguments]
+        )
+
+    def across(self, number: Number, both: Callable[[Number, Number], Number]) -> Number:
+        """Return what all lanes make together."""
+        values = [
+            Number(self.builder.extract_element(number.value, ir.Constant(ir.IntType(32), k)), self.builder)
+            for k in range(self.count)
+        ]
+        return reduce(both, values)
+
+    def transpose(
+        self, source: Reals, at: Index, down: Index, target: Reals, to: Index, across: Index
+    ) -> None:
+        """Copy a square of as many rows as there are lanes, turned: rows become columns.
+
+        Its rows begin at `at` and each `down` further, those of the copy at `to` and each `across` further.
+        """
+        n, builder = self.count, self.builder
+        rows = []
+        for _ in range(n):
+            rows.append(source.take(at).value)
+            at = at + down
+        # Shuffle the rows like cards, number by number: the bits of the places go round by one, log2(n) times.
+        positions = ir.VectorType(ir.IntType(32), n)
+        low, high = (
+            ir.Constant(positions, [x for k in half for x in (k, n + k)])
+            for half in (range(n // 2), range(n // 2, n))
+        )
+        for _ in range(n.bit_length() - 1):
+            pairs = zip(rows[: n // 2], rows[n // 2 :], strict=True)
+            rows = [builder.shuffle_vector(a, b, mask) for a, b in pairs for mask in (low, high)]
+        for row in rows:
+            target.put(to, Number(row, builder))
+            to = to + across
+
+    def _index(self, value: Index | int) -> Index:
+        return value if isinstance(value, Index) else self.index(value)

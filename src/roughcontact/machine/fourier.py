@@ -1,0 +1,307 @@
+"""Machine code for convolutions of real fields with even kernels, by fast Fourier transforms.
+
+A field is taken through in three steps: along the rows, along the columns and back, and back along the rows. A column's
+spectrum is multiplied where it lies, in whatever order its waves are, so that nothing is ever sorted along columns; and
+as many rows or columns as there are lanes go at once.
+
+In between, spectra lie in blocks of columns: number ``((b * rows + y) * 2 + part) * lanes + l`` is the real or the
+imaginary part of wave ``b * lanes + l`` of row y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any
+
+from roughcontact.machine.code import Code
+from roughcontact.machine.layout import HALF
+from roughcontact.machine.values import Index, Number, Reals
+
+__all__ = ["KINDS", "write"]
+
+RADICES = (4, 2, 3, 5, HALF)
+ROWS = "reals index index index index reals index index indices index reals indices reals reals reals"
+KINDS = {
+    "rows_there": ROWS,
+    "columns": "reals index index index index index indices index reals reals indices reals",
+    "rows_back": ROWS,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """A complex number in each lane."""
+
+    re: Number
+    im: Number
+
+    def __add__(self, other: Wave) -> Wave:
+        return Wave(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: Wave) -> Wave:
+        return Wave(self.re - other.re, self.im - other.im)
+
+    def __mul__(self, other: Wave | float) -> Wave:
+        if isinstance(other, Wave):
+            return Wave(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+        return Wave(self.re * other, self.im * other)
+
+    @property
+    def turned(self) -> Wave:
+        """A quarter of a turn back: times -i."""
+        return Wave(self.im, -self.re)
+
+    @property
+    def conjugate(self) -> Wave:
+        """Its conjugate."""
+        return Wave(self.re, -self.im)
+
+    @property
+    def swapped(self) -> Wave:
+        """Both parts in each other's place: what turns a transform into its inverse, before and after."""
+        return Wave(self.im, self.re)
+
+
+def write(module: Any, precision: str) -> None:
+    """Write ``rows_there``, ``columns`` and ``rows_back``."""
+    there, back = (_transform(module, precision, inverse) for inverse in (False, True))
+    _rows_there(module, precision, there)
+    _columns(module, precision, there, back)
+    _rows_back(module, precision, back)
+
+
+def _transform(module: Any, precision: str, inverse: bool) -> Code:
+    """Write the transform of columns of lanes, in place: there in order, out of order when done; or its inverse.
+
+    Parameters: the numbers, how many, the radices and how many they are, and the factors ("twiddles") of each sweep.
+    """
+    name = "inverse" if inverse else "forward"
+    with Code(module, name, precision, "reals index indices index reals") as code:
+        x, n, radices, sweeps, factors = code.arguments
+        length = code.variable(code.index(1) if inverse else n)
+        for k in code.range(0, sweeps):
+            radix = radices[sweeps - 1 - k] if inverse else radices[k]
+            ways = code.choose(radix.equals(HALF), 4, radix)
+            m = length.get() if inverse else length.get() // ways
+            whole = m * ways
+            for r in RADICES:
+                with code.when(radix.equals(r)):
+                    _sweep(code, x, n, m, r, factors, inverse)
+            length.set(whole if inverse else m)
+    return code
+
+
+def _sweep(code: Code, x: Reals, n: Index, m: Index, radix: int, factors: Reals, inverse: bool) -> None:
+    ways, step = radix or 4, m * (2 * code.count)
+    full, whole = 2 if radix == HALF else ways, m * ways
+    start = (n - whole) * 2  # before it lie the factors of the sweeps over longer parts
+    for block in code.range(0, n, whole):
+        for j in code.range(0, m):
+            first, factor = (block + j) * (2 * code.count), start + j * (2 * (ways - 1))
+            turns = [_factor(factors, factor + 2 * q) for q in range(ways - 1)]
+            if inverse:
+                waves = [_take(code, x, first + step * q) for q in range(ways)]
+                waves = [waves[0], *(w * t.conjugate for w, t in zip(waves[1:], turns, strict=True))]
+                waves = [w.swapped for w in _butterfly([w.swapped for w in waves])]
+                waves = waves[:full]
+            else:
+                waves = [_take(code, x, first + step * q) for q in range(full)]
+                waves = _half(waves) if radix == HALF else _butterfly(waves)
+                waves = [waves[0], *(w * t for w, t in zip(waves[1:], turns, strict=True))]
+            for q, wave in enumerate(waves):
+                _put(code, x, first + step * q, wave)
+
+
+def _butterfly(a: Sequence[Wave]) -> list[Wave]:
+    """Return the Fourier transform of a few numbers."""
+    if len(a) == 2:
+        return [a[0] + a[1], a[0] - a[1]]
+    if len(a) == 3:
+        both, apart = a[1] + a[2], ((a[1] - a[2]) * (sqrt(3) / 2)).turned
+        middle = a[0] - both * 0.5
+        return [a[0] + both, middle + apart, middle - apart]
+    if len(a) == 4:
+        even, odd = a[0] + a[2], a[1] + a[3]
+        apart, turned = a[0] - a[2], (a[1] - a[3]).turned
+        return [even + odd, apart + turned, even - odd, apart - turned]
+    # Five (Winograd's cosines and sines of a fifth and two fifths of a turn).
+    c1, c2, s1, s2 = (
+        (sqrt(5) - 1) / 4,
+        -(sqrt(5) + 1) / 4,
+        sqrt(10 + 2 * sqrt(5)) / 4,
+        sqrt(10 - 2 * sqrt(5)) / 4,
+    )
+    near, far = a[1] + a[4], a[2] + a[3]
+    near_apart, far_apart = (a[1] - a[4]).turned, (a[2] - a[3]).turned
+    first, second = a[0] + near * c1 + far * c2, a[0] + near * c2 + far * c1
+    one, two = near_apart * s1 + far_apart * s2, near_apart * s2 - far_apart * s1
+    return [a[0] + near + far, first + one, second + two, second - two, first - one]
+
+
+def _half(a: Sequence[Wave]) -> list[Wave]:
+    """Return the Fourier transform of four numbers of which the last two are zero."""
+    turned = a[1].turned
+    return [a[0] + a[1], a[0] + turned, a[0] - a[1], a[0] - turned]
+
+
+def _rows_there(module: Any, precision: str, transform: Code) -> None:
+    """Write the transform of some rows, and where it goes.
+
+    Parameters: the field, its rows and columns, the first row and the one after the last; the spectrum and the rows
+    that it has room for; half of the columns as padded, radices and factors of their transform, the place of each wave
+    in it, factors of the pairs; and room for one transform as it comes and one in order.
+    """
+    with Code(module, "rows_there", precision, ROWS) as code:
+        (
+            field,
+            ny,
+            nx,
+            begin,
+            end,
+            spectrum,
+            room,
+            half,
+            radices,
+            sweeps,
+            factors,
+            places,
+            turns,
+            raw,
+            waves,
+        ) = code.arguments
+        lanes = code.count
+        for y in code.range(begin, end, lanes):
+            _gather(code, field, ny, nx, y, raw, half)
+            code.call(transform, raw, half, radices, sweeps, factors)
+            for k in code.range(0, half // 2 + 1):
+                a = _take(code, raw, places[k] * (2 * lanes))
+                b = _take(code, raw, places[half - k] * (2 * lanes)).conjugate
+                even, odd = a + b, (a - b).turned * _factor(turns, k * 2)
+                _put(code, waves, k * (2 * lanes), even + odd)
+                _put(code, waves, (half - k) * (2 * lanes), (even - odd).conjugate)
+            for block in code.range(0, (half + lanes) // lanes):
+                for part in (0, lanes):
+                    source, target = (
+                        block * (2 * lanes * lanes) + part,
+                        (block * room + y) * (2 * lanes) + part,
+                    )
+                    step = code.index(2 * lanes)
+                    code.transpose(waves, source, step, spectrum, target, step)
+
+
+def _rows_back(module: Any, precision: str, transform: Code) -> None:
+    """Write the way back; parameters as there."""
+    with Code(module, "rows_back", precision, ROWS) as code:
+        (
+            field,
+            ny,
+            nx,
+            begin,
+            end,
+            spectrum,
+            room,
+            half,
+            radices,
+            sweeps,
+            factors,
+            places,
+            turns,
+            raw,
+            waves,
+        ) = code.arguments
+        lanes = code.count
+        for y in code.range(begin, end, lanes):
+            for block in code.range(0, (half + lanes) // lanes):
+                for part in (0, lanes):
+                    source, target = (
+                        (block * room + y) * (2 * lanes) + part,
+                        block * (2 * lanes * lanes) + part,
+                    )
+                    step = code.index(2 * lanes)
+                    code.transpose(spectrum, source, step, waves, target, step)
+            for k in code.range(0, half // 2 + 1):
+                a = _take(code, waves, k * (2 * lanes))
+                b = _take(code, waves, (half - k) * (2 * lanes)).conjugate
+                # i times what the pair of `rows_there` is
+                even, odd = a + b, (b - a).turned * _factor(turns, k * 2).conjugate
+                _put(code, raw, places[k] * (2 * lanes), even + odd)
+                _put(code, raw, places[half - k] * (2 * lanes), (even - odd).conjugate)
+            code.call(transform, raw, half, radices, sweeps, factors)
+            _scatter(code, raw, field, ny, nx, y)
+
+
+def _columns(module: Any, precision: str, there: Code, back: Code) -> None:
+    """Write the product with a multiplier along some blocks of columns, between transforms there and back.
+
+    Parameters: the spectrum, its rows, how many of them count, the first block and the one after the last; the rows as
+    padded, radices and factors of their transform; the multiplier, block by block, and the row of it that each place
+    takes; and room for one block.
+    """
+    with Code(module, "columns", precision, KINDS["columns"]) as code:
+        spectrum, room, ny, begin, end, my, radices, sweeps, factors, multiplier, places, work = (
+            code.arguments
+        )
+        lanes = code.count
+        for b in code.range(begin, end):
+            part, own = spectrum.at(b * room * (2 * lanes)), multiplier.at(b * (my // 2 + 1) * lanes)
+            # What is not padded is worked on where it lies.
+            whole = ny.equals(my)
+            copied, block = code.choose(whole, 0, ny), code.choose(whole, part, work)
+            for i in code.range(0, copied * 2):
+                block.put(i * lanes, part.take(i * lanes))
+            for i in code.range(ny * 2, my * 2):
+                block.put(i * lanes, code.zero())
+            code.call(there, block, my, radices, sweeps, factors)
+            for i in code.range(0, my):
+                factor = own.take(places[i] * lanes)
+                for at in (i * (2 * lanes), i * (2 * lanes) + lanes):
+                    block.put(at, block.take(at) * factor)
+            code.call(back, block, my, radices, sweeps, factors)
+            for i in code.range(0, copied * 2):
+                part.put(i * lanes, block.take(i * lanes))
+
+
+def _gather(code: Code, field: Reals, ny: Index, nx: Index, y: Index, raw: Reals, half: Index) -> None:
+    """Bring as many rows as there are lanes side by side; neighbours in a row are a real and an imaginary part."""
+    lanes = code.count
+    rows = (ny - y).smaller(code.index(lanes))
+    whole = _whole(code, rows, nx)
+    for x in code.range(0, whole, lanes):
+        code.transpose(field, y * nx + x, nx, raw, x * lanes, code.index(lanes))
+    for x in code.range(whole, half * 2):
+        raw.put(x * lanes, code.zero())
+    for row in code.range(0, rows):
+        for x in code.range(whole, nx):
+            raw.put(x * lanes + row, field.take_one((y + row) * nx + x))
+
+
+def _scatter(code: Code, raw: Reals, field: Reals, ny: Index, nx: Index, y: Index) -> None:
+    """Bring them back."""
+    lanes = code.count
+    rows = (ny - y).smaller(code.index(lanes))
+    whole = _whole(code, rows, nx)
+    for x in code.range(0, whole, lanes):
+        code.transpose(raw, x * lanes, code.index(lanes), field, y * nx + x, nx)
+    for row in code.range(0, rows):
+        for x in code.range(whole, nx):
+            field.put((y + row) * nx + x, raw.take_one(x * lanes + row))
+
+
+def _whole(code: Code, rows: Index, nx: Index) -> Index:
+    """Return how many numbers of a row come in squares: none, where rows are fewer than lanes."""
+    return nx // code.count * code.count * (rows // code.count)
+
+
+def _factor(factors: Reals, at: Index) -> Wave:
+    return Wave(factors.take_for_all(at), factors.take_for_all(at + 1))
+
+
+def _take(code: Code, x: Reals, at: Index) -> Wave:
+    return Wave(x.take(at), x.take(at + code.count))
+
+
+def _put(code: Code, x: Reals, at: Index, wave: Wave) -> None:
+    x.put(at, wave.re)
+    x.put(at + code.count, wave.im)

@@ -1,0 +1,243 @@
+"""Machine code for what conjugate gradients do to fields between products.
+
+Most of a plane is not in contact. So functions go through a list of groups of cells, as many as there are lanes, that
+have some inside the region; what lies elsewhere is neither read nor written. Sums are added up in double precision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import reduce
+from operator import add
+from typing import Any
+
+from roughcontact.machine.code import Code
+from roughcontact.machine.layout import REACH
+from roughcontact.machine.values import Index, Number, Reals
+
+__all__ = ["KINDS", "write"]
+
+# The list of groups, from where to where in it, the single cells after the last whole group, and up to where.
+LIST = "indices index index index index "
+KINDS = {
+    "list_groups": "index reals indices indices",
+    "near": LIST + "index reals reals reals",
+    "weigh": LIST + "reals reals reals reals doubles",
+    "turn": LIST + "reals reals reals real real",
+    "measure": LIST + "reals reals reals reals doubles",
+    "advance": LIST + "reals reals reals reals reals real doubles",
+    "let_go": LIST + "reals reals reals reals doubles",
+    "share_out": LIST + "reals reals reals reals real real",
+    "take_in": "index reals reals real doubles",
+    "lower": "index reals reals real real",
+    "sum_blocks": "index index index reals reals reals",
+    "add_blocks": "index index index reals reals reals",
+}
+Take = Callable[[Reals, Index], Number]
+
+
+def write(module: Any, precision: str) -> None:
+    """Write all of them."""
+    _list_groups(module, precision)
+    _near(module, precision)
+    _conjugate(module, precision)
+    _bound(module, precision)
+    _lower(module, precision)
+    _sum_blocks(module, precision)
+    _add_blocks(module, precision)
+
+
+def _list_groups(module: Any, precision: str) -> None:
+    """List the groups of cells of which some are not zero: where they begin, and how many they are."""
+    with Code(module, "list_groups", precision, KINDS["list_groups"]) as code:
+        n, inside, groups, found = code.arguments
+        count = code.variable(code.index(0))
+        for at in code.range(0, n // code.count * code.count, code.count):
+            groups.put(count.get(), at)
+            some = code.any_not_zero(inside.take(at))
+            count.set(count.get() + code.choose(some, 1, 0))
+        found.put(code.index(0), count.get())
+
+
+def _near(module: Any, precision: str) -> None:
+    """Sum over the cells near each: how long a row is, the field, the answer, and weights of cells to one side.
+
+    Weights are the same on all sides. After the end of a row comes the next; before the first and after the last, the
+    field has as much room, filled with zeros, as the sum looks at.
+    """
+    with Code(module, "near", precision, KINDS["near"]) as code:
+        *cells, nx, field, answer, weights = code.arguments
+
+        def near(at: Index, take: Take) -> Sequence[Number]:
+            total: Number | None = None
+            for dy in range(REACH + 1):
+                for dx in range(REACH + 1):
+                    rows, columns = sorted({dy, -dy}), sorted({dx, -dx})
+                    around = reduce(add, [take(field, at + nx * y + x) for y in rows for x in columns])
+                    place = code.index(dy * (REACH + 1) + dx)
+                    weight = weights.take_for_all(place) if take is Reals.take else weights.take_one(place)
+                    total = around * weight if total is None else total + around * weight
+            assert total is not None
+            answer.put(at, total)
+            return ()
+
+        _through(code, cells, 0, near, None)
+
+
+def _conjugate(module: Any, precision: str) -> None:
+    """Write what changes and measures directions, see `roughcontact.contact.passes`."""
+    with Code(module, "weigh", precision, KINDS["weigh"]) as code:
+        *cells, z, inside, error, v, sums = code.arguments
+
+        def weigh(at: Index, take: Take) -> Sequence[Number]:
+            new = take(z, at) * take(inside, at)
+            z.put(at, new)
+            return take(error, at) * new, new * take(v, at), new
+
+        _through(code, cells, 3, weigh, sums)
+    with Code(module, "turn", precision, KINDS["turn"]) as code:
+        *cells, t, z, uniform, beta, shift = code.arguments
+
+        def turn(at: Index, take: Take) -> Sequence[Number]:
+            b, s = (code.for_all(x) if take is Reals.take else x for x in (beta, shift))
+            t.put(at, take(t, at) * b + take(z, at) - take(uniform, at) * s)
+            return ()
+
+        _through(code, cells, 0, turn, None)
+    with Code(module, "measure", precision, KINDS["measure"]) as code:
+        *cells, t, v, inside, error, sums = code.arguments
+
+        def measure(at: Index, take: Take) -> Sequence[Number]:
+            direction, answer = take(t, at), take(v, at)
+            return direction * answer, take(inside, at) * answer, take(error, at) * direction, direction
+
+        _through(code, cells, 4, measure, sums)
+    with Code(module, "advance", precision, KINDS["advance"]) as code:
+        *cells, change, r, error, t, inside, alpha, sums = code.arguments
+
+        def advance(at: Index, take: Take) -> Sequence[Number]:
+            a = code.for_all(alpha) if take is Reals.take else alpha
+            change.put(at, take(change, at) + take(t, at) * a)
+            wrong = take(r, at) * take(inside, at)
+            error.put(at, wrong)
+            return (wrong.larger(-wrong),)
+
+        _through(code, cells, 1, advance, sums, largest=True)
+
+
+def _bound(module: Any, precision: str) -> None:
+    """Write what lets go of cells and takes them in, see `roughcontact.contact.free_cells`."""
+    with Code(module, "let_go", precision, KINDS["let_go"]) as code:
+        *cells, base, change, inside, moved, sums = code.arguments
+
+        def let_go(at: Index, take: Take) -> Sequence[Number]:
+            p, was = take(base, at) + take(change, at), take(inside, at)
+            pulls = p.is_below(0.0)
+            stays = was.where_not(pulls)
+            inside.put(at, stays)
+            lost = p * (was - stays)
+            moved.put(at, -lost)
+            return was - stays, -lost, p * stays, stays
+
+        _through(code, cells, 4, let_go, sums)
+    with Code(module, "share_out", precision, KINDS["share_out"]) as code:
+        *cells, base, change, inside, moved, share, alike = code.arguments
+
+        def share_out(at: Index, take: Take) -> Sequence[Number]:
+            by, all_ = (code.for_all(x) if take is Reals.take else x for x in (share, alike))
+            p = take(base, at) + take(change, at)
+            moved.put(at, take(moved, at) - take(inside, at) * (p * by + all_))
+            return ()
+
+        _through(code, cells, 0, share_out, None)
+    with Code(module, "take_in", precision, KINDS["take_in"]) as code:
+        n, inside, lacking, least, sums = code.arguments
+        worst = code.variable(code.zero()), code.variable(code.one(0.0))
+        for at, take in _each(code, n):
+            lanes = take is Reals.take
+            some, limit = worst[0 if lanes else 1], code.for_all(least) if lanes else least
+            lack = take(lacking, at)
+            free = take(inside, at)
+            # Of a cell that is free already nothing is asked; of one that lacks too little neither.
+            asked = (lack - lack * free).where_not(lack.is_at_most(limit))
+            inside.put(at, free.larger(asked.sign()))
+            some.set(some.get().larger(asked))
+        both = code.across(worst[0].get(), Number.larger).larger(worst[1].get())
+        sums.put(code.index(0), both.in_double())
+
+
+def _lower(module: Any, precision: str) -> None:
+    """Take ``alpha (v - mean)`` off a whole field."""
+    with Code(module, "lower", precision, KINDS["lower"]) as code:
+        n, r, v, alpha, mean = code.arguments
+        for at, take in _each(code, n):
+            a, m = (code.for_all(x) if take is Reals.take else x for x in (alpha, mean))
+            r.put(at, take(r, at) - (take(v, at) - m) * a)
+
+
+def _sum_blocks(module: Any, precision: str) -> None:
+    """Sum over square blocks: rows and columns of a plane, the side of a block, the plane, the sums, room for a row."""
+    with Code(module, "sum_blocks", precision, KINDS["sum_blocks"]) as code:
+        ny, nx, side, field, blocks, row = code.arguments
+        across = (nx + side - 1) // side
+        for block in code.range(0, (ny + side - 1) // side):
+            for x in code.range(0, across * side):
+                row.put(x, code.one(0.0))
+            for y in code.range(block * side, (block * side + side).smaller(ny)):
+                for x, take in _each(code, nx):
+                    row.put(x, take(row, x) + take(field, y * nx + x))
+            for b in code.range(0, across):
+                total = code.variable(code.one(0.0))
+                for x in code.range(b * side, b * side + side):
+                    total.set(total.get() + row.take_one(x))
+                blocks.put(block * across + b, total.get())
+
+
+def _add_blocks(module: Any, precision: str) -> None:
+    """Add to each cell what its block has; parameters as there."""
+    with Code(module, "add_blocks", precision, KINDS["add_blocks"]) as code:
+        ny, nx, side, field, blocks, row = code.arguments
+        across = (nx + side - 1) // side
+        for block in code.range(0, (ny + side - 1) // side):
+            for b in code.range(0, across):
+                for x in code.range(b * side, b * side + side):
+                    row.put(x, blocks.take_one(block * across + b))
+            for y in code.range(block * side, (block * side + side).smaller(ny)):
+                for x, take in _each(code, nx):
+                    field.put(y * nx + x, take(field, y * nx + x) + take(row, x))
+
+
+def _each(code: Code, n: Index) -> Iterator[tuple[Index, Take]]:
+    """Loop over numbers, as many at a time as there are lanes, and the rest one by one; the body is written twice."""
+    whole = n // code.count * code.count
+    for at in code.range(0, whole, code.count):
+        yield at, Reals.take
+    for at in code.range(whole, n):
+        yield at, Reals.take_one
+
+
+def _through(
+    code: Code,
+    cells: Sequence[Any],
+    count: int,
+    body: Callable[[Index, Take], Sequence[Number]],
+    sums: Reals | None,
+    largest: bool = False,
+) -> None:
+    """Go through a LIST, then through the single cells; leave sums of what the body returns, or the largest."""
+    groups, begin, end, single, last = cells
+
+    def both(one: Number, other: Number) -> Number:
+        return one.larger(other) if largest else one + other
+
+    lanes = [code.variable(code.zero().in_double()) for _ in range(count)]
+    for k in code.range(begin, end):
+        for total, number in zip(lanes, body(groups[k], Reals.take), strict=True):
+            total.set(both(total.get(), number.in_double()))
+    totals = [code.variable(code.across(total.get(), both)) for total in lanes]
+    for at in code.range(single, last):
+        for total, number in zip(totals, body(at, Reals.take_one), strict=True):
+            total.set(both(total.get(), number.in_double()))
+    for place, total in enumerate(totals):
+        assert sums is not None
+        sums.put(code.index(place), total.get())

@@ -1,0 +1,118 @@
+"""Regions of a field for machine code: work follows the cells inside."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.machine.layout import REACH, WIDTH
+from roughcontact.machine.library import address, functions
+from roughcontact.threads import limit_threads, spread, threads
+
+__all__ = ["Region", "add_blocks", "lower", "near", "sum_blocks", "take_in", "with_margins"]
+
+Field = npt.NDArray[Any]  # of single or double precision
+Array = npt.NDArray[np.float64]
+
+PART = (
+    2**15
+)  # groups of cells that are taken at once; sums are added up part by part, however many threads there are
+SEVERAL = 4  # parts from which on threads are worth waking
+
+
+class Region:
+    """The cells of a field that count.
+
+    Attributes
+    ----------
+    inside : array
+        One on these cells, zero elsewhere.
+    """
+
+    def __init__(self, inside: Field) -> None:
+        self.inside = inside
+        self._code = functions("passes", inside.dtype.name)
+        lanes = WIDTH // inside.itemsize
+        self._whole = inside.size // lanes * lanes
+        groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
+        self._code["list_groups"](inside.size, address(inside), address(groups), address(found))
+        self._groups = groups[: int(found[0])].copy()
+
+    def run(self, name: str, count: int, *arguments: Field | float) -> Array:
+        """Run a function over these cells, and return so many sums for each part of them."""
+        run, size = self._code[name], len(self._groups)
+        parts = max(1, -(-size // PART))
+        sums, groups = np.zeros((parts, count)), address(self._groups)
+        given = [address(a) if isinstance(a, np.ndarray) else a for a in arguments]
+
+        def part(k: int) -> None:
+            last = k == parts - 1
+            ends = k * PART, min((k + 1) * PART, size), self._whole, self.inside.size if last else self._whole
+            run(groups, *ends, *given, *((address(sums[k]),) if count else ()))
+
+        with limit_threads(threads() if parts >= SEVERAL else 1):
+            spread(part, range(parts))
+        return sums
+
+
+def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
+    """Take ``alpha (v - mean)`` off a whole field."""
+    run, lanes = functions("passes", r.dtype.name)["lower"], WIDTH // r.itemsize
+    size = PART * lanes
+    first, second = address(r), address(v)
+
+    def part(start: int) -> None:
+        offset = start * r.itemsize
+        run(min(size, r.size - start), first + offset, second + offset, alpha, mean)
+
+    starts = range(0, r.size, size)
+    with limit_threads(threads() if len(starts) >= SEVERAL else 1):
+        spread(part, starts)
+
+
+def take_in(inside: Field, lacking: Field, least: float) -> float:
+    """Count as inside what lacks at least so much, more than nothing; return the largest lack of what was not, or 0."""
+    worst, given = np.zeros(1), np.ascontiguousarray(lacking)
+    run = functions("passes", inside.dtype.name)["take_in"]
+    run(inside.size, address(inside), address(given), least, address(worst))
+    return float(worst[0])
+
+
+def with_margins(field: Field) -> Field:
+    """Return a copy of a plane with as much zero before and behind it as a sum over near cells looks at."""
+    row = field.shape[-1] if field.ndim > 1 else 0
+    margin = REACH * (row + 1) + WIDTH // field.itemsize
+    room = np.zeros(field.size + 2 * margin, dtype=field.dtype)
+    room[margin : margin + field.size] = field.ravel()
+    return room[margin : margin + field.size].reshape(field.shape)
+
+
+def near(region: Region, field: Field, weights: Field) -> Field:
+    """Return the weighted sum over the cells near each of a region, of a field with margins.
+
+    The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same.
+    """
+    answer = np.empty_like(field)
+    region.run("near", 0, field.shape[-1], field, answer, weights)
+    return answer
+
+
+def sum_blocks(field: Field, side: int) -> Field:
+    """Return the sums over square blocks of a plane, those at its far edges cut off by them."""
+    ny, nx = field.shape
+    blocks = np.empty((-(-ny // side), -(-nx // side)), dtype=field.dtype)
+    _blocks("sum_blocks", field, blocks, side)
+    return blocks
+
+
+def add_blocks(field: Field, blocks: Field, side: int) -> None:
+    """Add to each cell of a plane what its block has."""
+    _blocks("add_blocks", field, blocks, side)
+
+
+def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:
+    row = np.empty(blocks.shape[1] * side + WIDTH, dtype=field.dtype)
+    code = functions("passes", field.dtype.name)[name]
+    code(*field.shape, side, address(field), address(blocks), address(row))

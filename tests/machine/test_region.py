@@ -1,0 +1,297 @@
+"""What machine code does to the cells of a region, against plain NumPy; and that it leaves the others alone."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from roughcontact.machine import library, region
+from roughcontact.machine.layout import REACH, WIDTH
+from roughcontact.machine.region import (
+    Region,
+    add_blocks,
+    lower,
+    near,
+    sum_blocks,
+    take_in,
+    with_margins,
+)
+from roughcontact.threads import limit_threads
+
+pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+
+PRECISIONS = ("float32", "float64")
+MASKS = {
+    "empty": lambda rng, shape: np.zeros(shape, bool),
+    "full": lambda rng, shape: np.ones(shape, bool),
+    "one cell": lambda rng, shape: np.arange(np.prod(shape)).reshape(shape) == rng.integers(np.prod(shape)),
+    "the last cell": lambda rng, shape: np.arange(1, np.prod(shape) + 1).reshape(shape) == np.prod(shape),
+    "sparse": lambda rng, shape: rng.random(shape) < 0.05,
+    "dense": lambda rng, shape: rng.random(shape) < 0.7,
+    "a corner": lambda rng, shape: np.add.outer(np.arange(shape[0]), np.arange(shape[1])) < sum(shape) / 3,
+}
+ALPHA, BETA, SHIFT = 0.375, -0.75, 1.25  # numbers of single precision too
+
+
+@st.composite
+def regions(draw):
+    """Return a mask as numbers, and a generator for the fields."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    shape = draw(st.integers(1, 20)), draw(st.integers(1, 40))
+    mask = MASKS[draw(st.sampled_from(sorted(MASKS)))](rng, shape)
+    return mask.astype(draw(st.sampled_from(PRECISIONS))), rng
+
+
+@pytest.fixture(autouse=True, params=[region.PART, 3], ids=["one part", "many parts"])
+def part(request):
+    """So many groups at a time: with few, small fields come in many parts, on several threads."""
+    before, region.PART = region.PART, request.param
+    with limit_threads(2):
+        yield
+    region.PART = before
+
+
+many = settings(max_examples=60, deadline=None, derandomize=True)
+
+
+def fields(rng, inside, count):
+    return list(rng.standard_normal((count, *inside.shape)).astype(inside.dtype))
+
+
+def reached(inside):
+    """Return the cells that are worked on: groups with a cell inside, and the single ones at the end."""
+    lanes, flat = WIDTH // inside.itemsize, inside.ravel() != 0
+    whole = flat.size // lanes * lanes
+    cells = np.ones(flat.size, bool)
+    cells[:whole] = flat[:whole].reshape(-1, lanes).any(axis=1).repeat(lanes)
+    return cells.reshape(inside.shape)
+
+
+def hidden(inside, *given):
+    """Make fields no numbers where nothing is read."""
+    for field in given:
+        field[~reached(inside)] = np.nan
+
+
+def close(found, wanted, terms, precision):
+    """Equal up to the rounding of each term in its precision, and of their sum in double precision."""
+    terms = np.abs(np.asarray(terms, np.float64))
+    rounding = 2 * np.finfo(precision).eps + terms.size * np.finfo(np.float64).eps
+    assert found == pytest.approx(wanted, rel=0, abs=rounding * terms.sum())
+
+
+def same(found, wanted, inside, size, rounding=2):
+    """Equal, where it is worked on, to some roundings of numbers of a size; else nothing was written."""
+    there = reached(inside)
+    bound = rounding * np.finfo(inside.dtype).eps * size
+    assert (np.abs(found[there] - wanted[there]) <= np.broadcast_to(bound, there.shape)[there]).all()
+    assert np.isnan(found[~there]).all()
+
+
+@many
+@given(regions())
+def test_weigh(given_region):
+    inside, rng = given_region
+    z, error, v = fields(rng, inside, 3)
+    wanted = z * inside
+    hidden(inside, z, error, v)
+    sums = Region(inside).run("weigh", 3, z, inside, error, v).sum(axis=0)
+    same(z, wanted, inside, 0)
+    there = inside > 0
+    z, error, v = (f[there].astype(np.float64) for f in (z, error, v))
+    for found, terms in zip(sums, (error * z, z * v, z), strict=True):
+        close(found, terms.sum(), terms, inside.dtype)
+
+
+@many
+@given(regions())
+def test_turn(given_region):
+    inside, rng = given_region
+    t, z, uniform = fields(rng, inside, 3)
+    wanted = t.astype(np.float64) * BETA + z - uniform * SHIFT
+    size = np.abs(t) + np.abs(z) + 2 * np.abs(uniform)
+    hidden(inside, t, z, uniform)
+    assert Region(inside).run("turn", 0, t, z, uniform, BETA, SHIFT).size == 0
+    same(t, wanted, inside, size)
+
+
+@many
+@given(regions())
+def test_measure(given_region):
+    inside, rng = given_region
+    t, v, error = fields(rng, inside, 3)
+    t *= inside
+    error *= inside
+    a, b, c = (f.astype(np.float64) for f in (t, v, error))
+    terms = [a * b, inside * b, c * a, a]
+    hidden(inside, t, v, error)
+    sums = Region(inside).run("measure", 4, t, v, inside, error).sum(axis=0)
+    for found, one in zip(sums, terms, strict=True):
+        close(found, one.sum(), one, inside.dtype)
+
+
+@many
+@given(regions())
+def test_advance(given_region):
+    inside, rng = given_region
+    change, r, error, t = fields(rng, inside, 4)
+    wanted = change + t.astype(np.float64) * ALPHA
+    size, lack, before = np.abs(change) + np.abs(t), r * inside, r.copy()
+    hidden(inside, change, r, error, t)
+    largest = Region(inside).run("advance", 1, change, r, error, t, inside, ALPHA).max()
+    same(change, wanted, inside, size)
+    same(error, lack, inside, 0)
+    assert largest == np.abs(lack).max()
+    np.testing.assert_array_equal(r[inside > 0], before[inside > 0])
+
+
+@many
+@given(regions())
+def test_let_go(given_region):
+    inside, rng = given_region
+    base, change, moved = fields(rng, inside, 3)
+    before, p = inside > 0, base + change
+    pulls = before & (p < 0)
+    hidden(inside, base, change, moved)
+    cells = Region(inside)
+    count, lost, carried, left = cells.run("let_go", 4, base, change, inside, moved).sum(axis=0)
+    np.testing.assert_array_equal(inside, before & ~pulls)
+    assert count == pulls.sum()
+    assert left == inside.sum()
+    p = p.astype(np.float64)
+    close(lost, -p[pulls].sum(), p[pulls], inside.dtype)
+    close(carried, p[inside > 0].sum(), p[inside > 0], inside.dtype)
+    np.testing.assert_array_equal(moved[pulls], -p[pulls])
+    assert (moved[reached(before.astype(inside.dtype)) & ~pulls] == 0).all()
+
+
+@many
+@given(regions())
+def test_share_out(given_region):
+    inside, rng = given_region
+    base, change, moved = fields(rng, inside, 3)
+    p = (base + change).astype(np.float64)
+    wanted = moved - inside * (p * ALPHA + BETA)
+    size = np.abs(moved) + np.abs(p) + 1
+    hidden(inside, base, change, moved)
+    Region(inside).run("share_out", 0, base, change, inside, moved, ALPHA, BETA)
+    same(moved, wanted, inside, size, 3)
+
+
+@many
+@given(regions(), st.sampled_from([0.0, 0.5, 10.0]))
+def test_take_in(given_region, least):
+    inside, rng = given_region
+    lacking = fields(rng, inside, 1)[0]
+    kept = inside > 0
+    added = ~kept & (lacking > least)
+    worst = take_in(inside, lacking, least)
+    np.testing.assert_array_equal(inside, kept | added)
+    assert worst == (lacking[added].max() if added.any() else 0.0)
+
+
+def test_what_is_never_touched_is_not_taken_in():
+    inside = np.zeros((3, 7), np.float32)
+    inside[0] = 1.0
+    lacking = np.full((3, 7), -1e30, np.float32)
+    assert take_in(inside, lacking, 0.0) == 0.0
+    lacking[1, 5] = lacking[0, 0] = 2.0
+    assert take_in(inside, np.asfortranarray(lacking), 0.0) == 2.0
+    assert inside.sum() == 8
+    assert inside[1, 5] == 1
+
+
+@many
+@given(regions())
+def test_lower(given_region):
+    inside, rng = given_region
+    r, v = fields(rng, inside, 2)
+    wanted = r - (v.astype(np.float64) - BETA) * ALPHA
+    lower(r, v, ALPHA, BETA)
+    bound = 3 * np.finfo(r.dtype).eps * (np.abs(wanted) + np.abs(v) + 1)
+    assert (np.abs(r - wanted) <= bound).all()
+
+
+@many
+@given(regions())
+def test_margins_are_zero(given_region):
+    inside, rng = given_region
+    field = fields(rng, inside, 1)[0]
+    found = with_margins(field)
+    np.testing.assert_array_equal(found, field)
+    assert found.flags.c_contiguous
+    assert not np.shares_memory(found, field)
+    room, margin = found.base, REACH * (field.shape[1] + 1) + WIDTH // field.itemsize
+    before = (found.__array_interface__["data"][0] - room.__array_interface__["data"][0]) // field.itemsize
+    assert min(before, room.size - before - field.size) >= margin
+    assert np.count_nonzero(room) == np.count_nonzero(field)
+
+
+@many
+@given(regions())
+def test_near(given_region):
+    """A sum over cells near each in one long row, in which each row follows the one before."""
+    inside, rng = given_region
+    field = with_margins(fields(rng, inside, 1)[0])
+    weights = rng.standard_normal((REACH + 1, REACH + 1)).astype(inside.dtype)
+    found = near(Region(inside), field, weights)
+    nx, far = field.shape[1], REACH * (field.shape[1] + 1)
+    row = np.pad(field.ravel().astype(np.float64), far)
+    wanted, size = np.zeros(field.size), np.zeros(field.size)
+    for dy in range(-REACH, REACH + 1):
+        for dx in range(-REACH, REACH + 1):
+            start = far + dy * nx + dx
+            term = weights[abs(dy), abs(dx)] * row[start : start + field.size]
+            wanted += term
+            size += np.abs(term)
+    there, terms = inside.ravel() > 0, (2 * REACH + 1) ** 2  # one rounding or less for each
+    error = np.abs(found.ravel()[there] - wanted[there])
+    assert (error <= terms * np.finfo(inside.dtype).eps * size[there]).all()
+
+
+@many
+@given(regions(), st.integers(1, 6))
+def test_blocks(given_region, side):
+    inside, rng = given_region
+    field = fields(rng, inside, 1)[0]
+    sums = sum_blocks(field, side)
+    ny, nx = field.shape
+    assert sums.shape == (-(-ny // side), -(-nx // side))
+    eps, out = np.finfo(field.dtype).eps, np.random.default_rng(0).standard_normal(sums.shape)
+    added, out = field.copy(), out.astype(field.dtype)
+    add_blocks(added, out, side)
+    for b, a in np.ndindex(sums.shape):
+        square = np.s_[b * side : (b + 1) * side, a * side : (a + 1) * side]
+        terms = field[square].astype(np.float64)
+        bound = 2 * side * eps * np.abs(terms).sum()  # each is rounded once for each row and each column
+        assert sums[b, a] == pytest.approx(terms.sum(), rel=0, abs=bound)
+        np.testing.assert_array_equal(added[square], field[square] + out[b, a])
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_sums_do_not_hang_on_the_number_of_threads(precision):
+    rng = np.random.default_rng(5)
+    inside = (rng.random((101, 203)) < 0.4).astype(precision)
+    z, error, v, r = fields(rng, inside, 4)
+    answers = []
+    for count in (1, 2, 3):
+        cells, t, change, wrong, rest = Region(inside), z.copy(), v.copy(), np.zeros_like(z), r.copy()
+        with limit_threads(count):
+            one = cells.run("weigh", 3, t, inside, error, v).sum(axis=0)
+            two = cells.run("measure", 4, t, v, inside, error).sum(axis=0)
+            lower(rest, v, ALPHA, BETA)
+            largest = cells.run("advance", 1, change, rest, wrong, t, inside, ALPHA).max(axis=0)
+        answers.append([one, two, largest, t, change, rest, wrong])
+    for other in answers[1:]:
+        for a, b in zip(answers[0], other, strict=True):
+            np.testing.assert_array_equal(a, b)
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_sums_of_single_precision_are_those_of_double(precision):
+    """A million tenths: single precision would lose some percent of them one by one."""
+    inside = np.ones((1000, 1000), precision)
+    tenth = np.full_like(inside, 0.1)
+    sums = Region(inside).run("measure", 4, tenth, inside, inside, inside).sum(axis=0)
+    assert sums[3] == pytest.approx(1e6 * float(tenth[0, 0]), rel=1e-10)
+    assert sums[1] == 1e6
