@@ -24,8 +24,8 @@ Place = Box | npt.NDArray[np.intp]
 """Where a part of the grid lies: a box of cells, or a list of them (flat indices)."""
 
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
-# is a quarter of the overlap) costs less than a transform of the padded box: measured in look-ups of the
-# influence table a cell of the padded box (benchmarks/transforms.py).
+# is a quarter of the overlap) costs less than a transform of the padded box: in look-ups of the influence table a cell
+# of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), the kernel of a new window as much again.
 LOOKUPS = 1.5
 
 
