@@ -67,9 +67,9 @@ class Wave:
 def write(module: Any, precision: str) -> None:
     """Write ``rows_there``, ``columns`` and ``rows_back``."""
     there, back = (_transform(module, precision, inverse) for inverse in (False, True))
-    _rows_there(module, precision, there)
+    _rows(module, precision, there, inverse=False)
     _columns(module, precision, there, back)
-    _rows_back(module, precision, back)
+    _rows(module, precision, back, inverse=True)
 
 
 def _transform(module: Any, precision: str, inverse: bool) -> Code:
@@ -146,90 +146,50 @@ def _half(a: Sequence[Wave]) -> list[Wave]:
     return [a[0] + a[1], a[0] + turned, a[0] - a[1], a[0] - turned]
 
 
-def _rows_there(module: Any, precision: str, transform: Code) -> None:
-    """Write the transform of some rows, and where it goes.
+def _rows(module: Any, precision: str, transform: Code, inverse: bool) -> None:
+    """Write the transform of some rows, and where it goes; or the way back.
 
     Parameters: the field, its rows and columns, the first row and the one after the last; the spectrum and the rows
     that it has room for; half of the columns as padded, radices and factors of their transform, the place of each wave
     in it, factors of the pairs; and room for one transform as it comes and one in order.
     """
-    with Code(module, "rows_there", precision, ROWS) as code:
-        (
-            field,
-            ny,
-            nx,
-            begin,
-            end,
-            spectrum,
-            room,
-            half,
-            radices,
-            sweeps,
-            factors,
-            places,
-            turns,
-            raw,
-            waves,
-        ) = code.arguments
+    with Code(module, "rows_back" if inverse else "rows_there", precision, ROWS) as code:
+        field, ny, nx, begin, end, spectrum, room, half, *plan, places, turns, raw, waves = code.arguments
         lanes = code.count
         for y in code.range(begin, end, lanes):
-            _gather(code, field, ny, nx, y, raw, half)
-            code.call(transform, raw, half, radices, sweeps, factors)
+            if inverse:
+                _turn(code, spectrum, room, y, waves, half, inverse)
+            else:
+                _gather(code, field, ny, nx, y, raw, half)
+                code.call(transform, raw, half, *plan)
+            # Neighbours in a row were taken for one complex number: waves k and half - k tell the two apart.
             for k in code.range(0, half // 2 + 1):
-                a = _take(code, raw, places[k] * (2 * lanes))
-                b = _take(code, raw, places[half - k] * (2 * lanes)).conjugate
-                even, odd = a + b, (a - b).turned * _factor(turns, k * 2)
-                _put(code, waves, k * (2 * lanes), even + odd)
-                _put(code, waves, (half - k) * (2 * lanes), (even - odd).conjugate)
-            for block in code.range(0, (half + lanes) // lanes):
-                for part in (0, lanes):
-                    source, target = (
-                        block * (2 * lanes * lanes) + part,
-                        (block * room + y) * (2 * lanes) + part,
-                    )
-                    step = code.index(2 * lanes)
-                    code.transpose(waves, source, step, spectrum, target, step)
+                in_order = k * (2 * lanes), (half - k) * (2 * lanes)
+                as_it_comes = places[k] * (2 * lanes), places[half - k] * (2 * lanes)
+                source, target = (waves, raw) if inverse else (raw, waves)
+                at, to = (in_order, as_it_comes) if inverse else (as_it_comes, in_order)
+                a, b = _take(code, source, at[0]), _take(code, source, at[1]).conjugate
+                turn = _factor(turns, k * 2)
+                even, odd = a + b, (b - a).turned * turn.conjugate if inverse else (a - b).turned * turn
+                _put(code, target, to[0], even + odd)
+                _put(code, target, to[1], (even - odd).conjugate)
+            if inverse:
+                code.call(transform, raw, half, *plan)
+                _scatter(code, raw, field, ny, nx, y)
+            else:
+                _turn(code, spectrum, room, y, waves, half, inverse)
 
 
-def _rows_back(module: Any, precision: str, transform: Code) -> None:
-    """Write the way back; parameters as there."""
-    with Code(module, "rows_back", precision, ROWS) as code:
-        (
-            field,
-            ny,
-            nx,
-            begin,
-            end,
-            spectrum,
-            room,
-            half,
-            radices,
-            sweeps,
-            factors,
-            places,
-            turns,
-            raw,
-            waves,
-        ) = code.arguments
-        lanes = code.count
-        for y in code.range(begin, end, lanes):
-            for block in code.range(0, (half + lanes) // lanes):
-                for part in (0, lanes):
-                    source, target = (
-                        (block * room + y) * (2 * lanes) + part,
-                        block * (2 * lanes * lanes) + part,
-                    )
-                    step = code.index(2 * lanes)
-                    code.transpose(spectrum, source, step, waves, target, step)
-            for k in code.range(0, half // 2 + 1):
-                a = _take(code, waves, k * (2 * lanes))
-                b = _take(code, waves, (half - k) * (2 * lanes)).conjugate
-                # i times what the pair of `rows_there` is
-                even, odd = a + b, (b - a).turned * _factor(turns, k * 2).conjugate
-                _put(code, raw, places[k] * (2 * lanes), even + odd)
-                _put(code, raw, places[half - k] * (2 * lanes), (even - odd).conjugate)
-            code.call(transform, raw, half, radices, sweeps, factors)
-            _scatter(code, raw, field, ny, nx, y)
+def _turn(code: Code, spectrum: Reals, room: Index, y: Index, waves: Reals, half: Index, back: bool) -> None:
+    """Bring waves, of as many rows as there are lanes, into the blocks of columns of the spectrum; or back."""
+    lanes, step = code.count, code.index(2 * code.count)
+    for block in code.range(0, (half + lanes) // lanes):
+        for part in (0, lanes):
+            here, there = block * (2 * lanes * lanes) + part, (block * room + y) * (2 * lanes) + part
+            if back:
+                code.transpose(spectrum, there, step, waves, here, step)
+            else:
+                code.transpose(waves, here, step, spectrum, there, step)
 
 
 def _columns(module: Any, precision: str, there: Code, back: Code) -> None:
