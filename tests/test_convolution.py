@@ -1,5 +1,9 @@
 """Products with even kernels: fields of any library and precision, by whatever does them, have the same answer."""
 
+import copy
+import gc
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -165,12 +169,12 @@ def test_no_kernel_is_kept_twice():
     lengths = (40, 64)
     multiplier = multiplier_of(lengths)
     product = Convolution(multiplier, lengths)
-    assert product._multiplier() is multiplier
+    assert product._kernel() is multiplier
     product.apply(noise((20, 33)).astype(np.float32))
-    assert product._multiplier() is multiplier
+    assert product._kernel() is multiplier
     product.apply(noise((20, 33)))
-    assert product._multiplier() is not multiplier
-    np.testing.assert_allclose(product._multiplier(), multiplier, rtol=1e-15)
+    assert product._kernel() is not multiplier
+    np.testing.assert_allclose(product._kernel(), multiplier, rtol=1e-15)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -222,3 +226,26 @@ def test_offsets_to_both_ends_may_share_a_place(shape):
         field = np.zeros(shape)
         field[(rows - 1) // 2, (columns - 1) // 2] = 1.0
         close(product.apply(field)[::rows, ::columns], table)
+
+
+def used(precision="float64"):
+    """A convolution that has done a product, and its field and answer."""
+    field = np.random.default_rng(0).random((20, 24)).astype(precision)
+    convolution = Convolution(np.random.default_rng(1).random((21, 25)), (40, 48))
+    return convolution, field, convolution.apply(field)
+
+
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_copies_outlive_what_they_were_made_of(copied, precision):
+    convolution, field, answer = used(precision)
+    other = copied(convolution)
+    del convolution
+    gc.collect()
+    np.testing.assert_array_equal(other.apply(field), answer)
+
+
+@pytest.mark.parametrize("shape", [(41, 24), (20, 49), (100, 100)])
+def test_a_field_larger_than_the_transforms_is_refused(shape):
+    with pytest.raises(ValueError, match="larger than transforms"):
+        used()[0].apply(np.ones(shape))

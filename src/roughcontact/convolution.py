@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -34,7 +33,7 @@ class Convolution:
 
     def __init__(self, multiplier: Array, lengths: Pair) -> None:
         self.lengths = lengths
-        self._multiplier: Callable[[], Array] = lambda: multiplier
+        self._multiplier: Array | None = multiplier
         self._placed: Placed | None = None
         self._ready: dict[tuple[Pair, str], Any] = {}
 
@@ -44,17 +43,26 @@ class Convolution:
             field = field.astype(np.float64)
         if not _in_machine_code(field, self.lengths):
             if self._placed is None:
-                self._placed = Placed(self._multiplier())
+                self._placed = Placed(self._kernel())
             return convolve(field, self._placed.beside(field), self.lengths)
+        if field.shape[0] > self.lengths[0] or field.shape[1] > self.lengths[1]:
+            raise ValueError(f"a field of shape {field.shape} is larger than transforms of {self.lengths}")
         key = ((field.shape[0], field.shape[1]), field.dtype.name)
         if key not in self._ready:
             from roughcontact.machine.convolution import Convolution
 
-            self._ready[key] = Convolution.of(self._multiplier(), key[0], self.lengths, key[1])
+            self._ready[key] = Convolution.of(self._kernel(), key[0], self.lengths, key[1])
             if key[1] == "float64":
-                self._multiplier = self._ready[key].kernel  # planes are large: none is kept twice
+                self._multiplier = None  # planes are large: none is kept twice
         answer: Array = self._ready[key].apply(field)
         return answer
+
+    def _kernel(self) -> Array:
+        """Return the multiplier, from what was made of it in double precision if that is all there is."""
+        if self._multiplier is not None:
+            return self._multiplier
+        found: Array = next(ready.kernel() for (_, name), ready in self._ready.items() if name == "float64")
+        return found
 
 
 def padded_length(cells: int) -> int:

@@ -98,8 +98,12 @@ def test_the_inverse_is_that_of_the_plane_within_some_percent(grid):
 
 @pytest.mark.parametrize(
     "grid",
-    [rc.Grid((64, 64), (1.0, 5.0)), rc.Grid((96, 100), (1.0, 1.0), True)],
-    ids=["too slender", "no tiles fit the period"],
+    [
+        rc.Grid((64, 64), (1.0, 5.0)),
+        rc.Grid((96, 100), (1.0, 1.0), True),
+        rc.Grid((32, 96), (1.0, 1.0), True),
+    ],
+    ids=["too slender", "no tiles fit the period", "images are near"],
 )
 def test_where_it_does_not_go(grid):
     assert rc.half_space(grid, 1.0).patches is None

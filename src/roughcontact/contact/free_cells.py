@@ -108,8 +108,8 @@ class _Compiled:
         self.inside = inside
 
     def let_go(self, base: Array, change: Array, conserve: bool) -> Array | None:
-        region, moved = Region(self.inside), np.zeros(base.shape, dtype=base.dtype)
-        base, change = np.ascontiguousarray(base), np.ascontiguousarray(change)
+        region, moved = Region(self.inside), np.zeros(base.shape, dtype=self.inside.dtype)
+        base, change = (np.ascontiguousarray(field, dtype=self.inside.dtype) for field in (base, change))
         count, lost, carried, left = region.run("let_go", 4, base, change, self.inside, moved).sum(axis=0)
         if not count:
             return None

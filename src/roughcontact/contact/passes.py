@@ -116,10 +116,10 @@ class _Compiled:
     def __init__(
         self, driver: Driver, weight: float, inside: Single, r: Single, t: Single, v: Single
     ) -> None:
-        self.r, self.t, self.v = (np.ascontiguousarray(field) for field in (r, t, v))
+        self.r, self.t, self.v = (np.ascontiguousarray(field, dtype=r.dtype) for field in (r, t, v))
         self.change = np.zeros(r.shape, dtype=r.dtype)
         self._driver, self._weight = driver, weight
-        self._region = Region(np.ascontiguousarray(inside))
+        self._region = Region(np.ascontiguousarray(inside, dtype=r.dtype))
         self._error, self._z = with_margins(self.change), self.change
         self._shared: Single | None = None
 
@@ -142,7 +142,7 @@ class _Compiled:
         return self.t
 
     def measure(self, v: Array) -> tuple[float, float, float, float]:
-        self.v = np.ascontiguousarray(v)
+        self.v = np.ascontiguousarray(v, dtype=self.r.dtype)
         a, b, c, d = self._sums("measure", 4, self.t, self.v, self._region.inside, self._error)
         return a, b, c, d
 
@@ -155,7 +155,7 @@ class _Compiled:
         """Return about the pressure under a field that is zero outside the region."""
         local: LocalInverse | None = getattr(self._driver, "local_inverse", None)
         if local is None:
-            return np.ascontiguousarray(self._driver.approximate_inverse(field))
+            return np.ascontiguousarray(self._driver.approximate_inverse(field), dtype=field.dtype)
         return local.on(self._region, field)
 
     def _sums(self, name: str, count: int, *fields: Single) -> list[float]:

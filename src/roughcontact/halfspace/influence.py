@@ -15,7 +15,6 @@ from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables"]
 
-NEARLY = 0.95  # of a side of the whole grid
 NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
 
 Array = npt.NDArray[np.float64]
@@ -157,11 +156,6 @@ class Tables:
             self._largest = self.influence.table(room)
         return self._largest[: shape[0], : shape[1]]
 
-    def done_with(self, shape: tuple[int, ...]) -> None:
-        """Let go of the table if a window of this shape is nearly all: planes are large, hardly another will come."""
-        if all(n > NEARLY * end for n, end in zip(shape, self.limit, strict=True)):
-            self._largest = self._largest[:NEAR, :NEAR].copy()
-
     def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
 
@@ -176,14 +170,15 @@ class Tables:
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
-        if self._has(needed):
-            a = a * self._largest.shape[1]
+        table = self._largest  # another thread may put a larger one in its place
+        if all(n <= have for n, have in zip(needed, table.shape, strict=True)):
+            a = a * table.shape[1]
             a += b
-            return np.asarray(self._largest.ravel().take(a))
+            return np.asarray(table.ravel().take(a))
         a, b = np.broadcast_arrays(a, b)
-        near = (a < self._largest.shape[0]) & (b < self._largest.shape[1])
+        near = (a < table.shape[0]) & (b < table.shape[1])
         values = np.empty(a.shape)
-        values[near] = self._largest[a[near], b[near]]
+        values[near] = table[a[near], b[near]]
         values[~near] = self.influence.at(a[~near], b[~near])
         return values
 

@@ -167,7 +167,9 @@ class Patches:
     @property
     def possible(self) -> bool:
         """Whether cells are not too slender for nodes, tiles fit the period, and there is machine code."""
-        fits = not self._periodic or not any(n % SIDE for n in self.grid.shape)
+        # A period holds all near tiles once: its images are in the near part already.
+        least = (2 * REACH - 1) * SIDE
+        fits = not self._periodic or all(n % SIDE == 0 and n >= least for n in self.grid.shape)
         return fits and 0 not in self._step and library.is_available()
 
     def on(self, tiles: Tiles) -> PatchOperator:

@@ -57,7 +57,6 @@ class FreeOperator:
     def _product(self) -> Convolution:
         padded = padded_length(self.grid.shape[0]), padded_length(self.grid.shape[1])
         multiplier = even_multiplier(self.influence.table(self.grid.shape), padded)
-        self.influence.done_with(self.grid.shape)
         return Convolution(multiplier, padded)
 
     @cached_property

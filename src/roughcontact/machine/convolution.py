@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -56,15 +56,6 @@ class Convolution:
     turns: Array
     multiplier: Array
     folded: Indices
-    # Where the tables lie, as the machine code wants to know.
-    _along: tuple[int, ...] = field(init=False, repr=False)
-    _across: tuple[int, ...] = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        along = *self.rows.arguments, address(self.rows.places), address(self.turns)
-        across = *self.columns.arguments, address(self.multiplier), address(self.folded)
-        object.__setattr__(self, "_along", along)
-        object.__setattr__(self, "_across", across)
 
     @classmethod
     def of(
@@ -109,7 +100,11 @@ class Convolution:
         code = functions("fourier", self.precision)
         (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
         half, blocks, room = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
-        given = np.ascontiguousarray(plane)
+        if plane.shape != self.shape:  # machine code looks at nothing twice
+            raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
+        given = np.ascontiguousarray(plane, dtype=self.precision)
+        along = *self.rows.arguments, address(self.rows.places), address(self.turns)
+        across = *self.columns.arguments, address(self.multiplier), address(self.folded)
         workers = threads() if ny * mx * given.itemsize >= LARGE else 1
         spectrum = _room((blocks, room, 2, lanes), self.precision)
         answer = np.empty((ny, nx), dtype=self.precision)
@@ -118,14 +113,14 @@ class Convolution:
             raw, waves = (_room((n * lanes, 2, lanes), self.precision) for n in (-(-half // lanes), blocks))
             code[name](
                 address(lines), ny, nx, part.start, part.stop, address(spectrum), room, half,
-                *self._along, address(raw), address(waves),
+                *along, address(raw), address(waves),
             )  # fmt: skip
 
         def by_columns(part: slice) -> None:
             work = _room((my, 2, lanes), self.precision)
             code["columns"](
                 address(spectrum), room, ny, part.start, part.stop, my,
-                *self._across, address(work),
+                *across, address(work),
             )  # fmt: skip
 
         rows, columns = _parts(ny, lanes, workers), _parts(blocks, 1, workers)

@@ -16,9 +16,10 @@ from typing import Any
 
 __all__ = ["address", "functions", "is_available", "takes"]
 
-COMMON = ("code", "layout", "values")  # modules whose text all code hangs on
+COMMON = ("code", "layout", "library", "values")  # modules whose text all code hangs on
 DIGEST = 32  # bytes of the check sum before the code
 _POINTER = ctypes.c_void_p
+_ENGINES: list[Any] = []  # they own the code that runs
 _REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 
@@ -50,10 +51,11 @@ def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
     """
     writer = importlib.import_module(f"roughcontact.machine.{family}")
     place = _place(family, precision)
-    code = _read(place)
+    code = None if place is None else _read(place)
     if code is None:
         code = _translated(writer, precision)
-        _keep(place, code)
+        if place is not None:
+            _keep(place, code)
     return _loaded(code, writer.KINDS, precision)
 
 
@@ -73,6 +75,11 @@ def address(array: Any) -> int:
 
 @cache
 def _target() -> Any:
+    return _new_target()
+
+
+def _new_target() -> Any:
+    """Return a description of this machine; every engine owns one."""
     from llvmlite import binding
 
     _ = binding.ModulePassManager.add_sroa_pass  # from 0.45 on
@@ -106,19 +113,14 @@ def _translated(writer: Any, precision: str) -> bytes:
     return bytes(_target().emit_object(module))
 
 
-@cache
-def _engines() -> list[Any]:
-    return []  # they own the code
-
-
 def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, Callable[..., None]]:
     from llvmlite import binding
 
     empty = binding.parse_assembly("")
-    engine = binding.create_mcjit_compiler(empty, _target())
+    engine = binding.create_mcjit_compiler(empty, _new_target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    _engines().append(engine)
+    _ENGINES.append(engine)
     types = {
         "index": ctypes.c_int64,
         "indices": _POINTER,
@@ -134,14 +136,18 @@ def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, 
     }
 
 
-def _place(family: str, precision: str) -> Path:
-    """Return where the code would be kept; its name says all that it hangs on."""
+def _place(family: str, precision: str) -> Path | None:
+    """Return where the code would be kept, None if nowhere; its name says all that it hangs on."""
     import platformdirs
     from llvmlite import binding
 
     here, digest = Path(__file__).parent, hashlib.sha256()
+    try:
+        texts = [(here / f"{name}.py").read_bytes() for name in (*COMMON, family)]
+    except OSError:  # packed in an archive
+        return None
     for part in (
-        *((here / f"{name}.py").read_bytes() for name in (*COMMON, family)),
+        *texts,
         importlib.metadata.version("llvmlite").encode(),
         _target().triple.encode(),
         binding.get_host_cpu_name().encode(),
@@ -149,6 +155,8 @@ def _place(family: str, precision: str) -> Path:
     ):
         digest.update(hashlib.sha256(part).digest())
     folder = platformdirs.user_cache_path("roughcontact")
+    if not folder.is_absolute():  # a user without a home
+        return None
     return folder / f"{family}-{precision}-{digest.hexdigest()[:32]}.o"
 
 

@@ -74,7 +74,7 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
 
 def take_in(inside: Field, lacking: Field, least: float) -> float:
     """Count as inside what lacks at least so much, more than nothing; return the largest lack of what was not, or 0."""
-    worst, given = np.zeros(1), np.ascontiguousarray(lacking)
+    worst, given = np.zeros(1), np.ascontiguousarray(lacking, dtype=inside.dtype)
     run = functions("passes", inside.dtype.name)["take_in"]
     run(inside.size, address(inside), address(given), least, address(worst))
     return float(worst[0])
