@@ -11,7 +11,7 @@ import numpy as np
 
 import roughcontact as rc
 from roughcontact.contact import cascade
-from roughcontact.machine import library
+from roughcontact.machine import loader
 
 EXTRAS = (
     "positive",
@@ -66,17 +66,17 @@ def pooled_by_mean(separation, factors):
     return blocks.mean(axis=tuple(range(1, blocks.ndim, 2)))
 
 
-def measure(surface, force, kept, pooled=cascade.pooled, available=library.is_available):
+def measure(surface, force, kept, pooled=cascade.pooled, available=loader.is_available):
     extras = Without(rc.half_space(surface.grid, 1.0), kept)
-    before = cascade.pooled, library.is_available
-    cascade.pooled, library.is_available = pooled, available
+    before = cascade.pooled, loader.is_available
+    cascade.pooled, loader.is_available = pooled, available
     try:
         rc.press(surface, 1.0, force=1e-3 * force, operator=extras)  # whatever is loaded late is loaded now
         start = time.process_time()
         solution = rc.press(surface, 1.0, force=force, operator=extras)
         return f"{solution.steps:4d} {time.process_time() - start:7.3f} s"
     finally:
-        cascade.pooled, library.is_available = before
+        cascade.pooled, loader.is_available = before
 
 
 def main(n):

@@ -13,7 +13,7 @@ from libraries import LIBRARIES
 from roughcontact import arrays, convolution
 from roughcontact.arrays import convolve, even_multiplier
 from roughcontact.convolution import ROWS, Convolution, padded_length
-from roughcontact.machine import library as machine
+from roughcontact.machine import loader as machine
 
 SIZES = {  # shape and lengths
     "padded": ((20, 33), (40, 64)),

@@ -32,7 +32,7 @@ RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 # `theory` stands beside the house; the two top files open doors and do nothing else.
 BESIDE = {"theory", "__init__", "__main__"}
 AT_THE_RIM = RANK["files"]
-KEEPS_CODE = SOURCE / "machine" / "library.py"  # what is translated once is kept on disk
+KEEPS_CODE = SOURCE / "machine" / "loader.py"  # what is translated once is kept on disk
 DISK_AND_SCREEN = {
     *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),
     *("sqlite3", "tempfile", "typer"),

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, convolve, fast_even_length, is_numpy
-from roughcontact.machine import library
+from roughcontact.machine import loader
 
 __all__ = ["Convolution", "padded_length"]
 
@@ -76,7 +76,7 @@ def padded_length(cells: int) -> int:
 
 
 def _in_machine_code(field: Array, lengths: Pair) -> bool:
-    if not is_numpy(field) or field.ndim != 2 or field.shape[0] < ROWS or not library.takes(field):
+    if not is_numpy(field) or field.ndim != 2 or field.shape[0] < ROWS or not loader.takes(field):
         return False
     from roughcontact.machine.convolution import fits
 

@@ -16,9 +16,9 @@ from roughcontact.contact.free_cells import free_cells
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.passes import passes_for
 from roughcontact.halfspace.operator import Operator
-from roughcontact.machine import library
+from roughcontact.machine import loader
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 PRECISIONS = ("float32", "float64")
 many = settings(max_examples=60, deadline=None, derandomize=True)
@@ -44,7 +44,7 @@ class Bare:
 def generic(make, *given):
     """Return what there is without machine code."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(library, "is_available", lambda: False)
+        patch.setattr(loader, "is_available", lambda: False)
         return make(*given)
 
 

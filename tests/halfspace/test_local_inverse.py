@@ -8,11 +8,11 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace import local_inverse
 from roughcontact.halfspace.local_inverse import BLOCK, LARGE, LocalInverse
-from roughcontact.machine import library
+from roughcontact.machine import loader
 from roughcontact.machine.layout import REACH
 from roughcontact.machine.region import Region, with_margins
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 MODULUS = 2e9
 SPACINGS = {"square": (1e-3, 1e-3), "slender": (1e-3, 5e-3), "slender the other way": (5e-3, 1e-3)}

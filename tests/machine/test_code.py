@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from roughcontact.machine import library
+from roughcontact.machine import loader
 from roughcontact.machine.layout import WIDTH
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 
 @pytest.fixture(params=["float32", "float64"])
@@ -32,11 +32,11 @@ def made(precision, **bodies):
 
     kinds = {name: kinds for name, (kinds, _) in bodies.items()}
     module = SimpleNamespace(__name__="tiny", write=write)
-    loaded = library._loaded(library._translated(module, precision), kinds, precision)
+    loaded = loader._loaded(loader._translated(module, precision), kinds, precision)
 
     def call(name):
         return lambda *given: loaded[name](
-            *(library.address(a) if isinstance(a, np.ndarray) else a for a in given)
+            *(loader.address(a) if isinstance(a, np.ndarray) else a for a in given)
         )
 
     return SimpleNamespace(**{name: call(name) for name in bodies})
@@ -293,11 +293,9 @@ def test_functions_call_each_other(precision, lanes):
             code.call(twice, n - 1, a.at(code.index(1)), by, calls)
 
     kinds = {"outer": "index reals real indices"}
-    object_file = library._translated(SimpleNamespace(__name__="tiny", write=write), precision)
+    object_file = loader._translated(SimpleNamespace(__name__="tiny", write=write), precision)
     a, calls = np.ones(3, precision), np.zeros(1, np.int64)
-    library._loaded(object_file, kinds, precision)["outer"](
-        3, library.address(a), 2.0, library.address(calls)
-    )
+    loader._loaded(object_file, kinds, precision)["outer"](3, loader.address(a), 2.0, loader.address(calls))
     assert a.tolist() == [2.0, 4.0, 4.0]
     assert calls[0] == 2
 
@@ -322,4 +320,4 @@ def test_where_an_array_begins(readable):
     if readable == "read only":
         array.flags.writeable = False
     part = {"empty": array[:0], "not contiguous": array[1:, 1::2]}.get(readable, array[1:])
-    assert library.address(part) == part.__array_interface__["data"][0]
+    assert loader.address(part) == part.__array_interface__["data"][0]

@@ -6,12 +6,12 @@ import scipy.fft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughcontact.machine import library
+from roughcontact.machine import loader
 from roughcontact.machine.convolution import LARGE, Convolution, _transform, fits
 from roughcontact.machine.layout import HALF
 from roughcontact.threads import limit_threads
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 PRECISIONS = ("float32", "float64")
 SMOOTH = [n for n in range(2, 151) if all(n % p for p in range(7, n + 1) if all(p % k for k in range(2, p)))]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughcontact.machine import library, region
+from roughcontact.machine import loader, region
 from roughcontact.machine.layout import REACH, WIDTH
 from roughcontact.machine.region import (
     Region,
@@ -18,7 +18,7 @@ from roughcontact.machine.region import (
 )
 from roughcontact.threads import limit_threads
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 PRECISIONS = ("float32", "float64")
 MASKS = {

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.contact.measure import Measure
-from roughcontact.machine import library
+from roughcontact.machine import loader
 from roughcontact.machine.region import Region, take_in
 
 __all__ = ["FreeCells", "free_cells"]
@@ -56,7 +56,7 @@ def free_cells(kept: Mask, held: Mask, ceiling: float, measure: Measure, like: A
         The hardness.
     """
     inside = namespace(like).astype(kept, like.dtype)
-    if is_numpy(like) and not measure.varies and ceiling == math.inf and library.takes(like):
+    if is_numpy(like) and not measure.varies and ceiling == math.inf and loader.takes(like):
         return _Compiled(np.ascontiguousarray(inside))
     return _Generic(kept, held, ceiling, measure, inside)
 

@@ -11,7 +11,7 @@ from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
 from roughcontact.halfspace.local_inverse import LocalInverse
-from roughcontact.machine import library
+from roughcontact.machine import loader
 from roughcontact.machine.region import Region, lower, with_margins
 
 __all__ = ["Passes", "passes_for"]
@@ -66,7 +66,7 @@ def passes_for(
 ) -> Passes:
     """Return what works on fields like these; r is overwritten, and t counts inside only."""
     start = namespace(r).zeros_like(r) if t is None else t * inside
-    if is_numpy(r) and not measure.varies and library.takes(r):
+    if is_numpy(r) and not measure.varies and loader.takes(r):
         return _Compiled(driver, float(measure.weights), inside, r, start, r if v is None else v)
     return _Generic(driver, measure, inside, r, start, r if v is None else v)
 

@@ -23,8 +23,8 @@ from roughcontact.halfspace.near_far import DECAY, FreeSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.tile_inverse import TileInverse
 from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles
-from roughcontact.machine import library
-from roughcontact.machine.library import address, functions
+from roughcontact.machine import loader
+from roughcontact.machine.loader import address, functions
 from roughcontact.threads import spread
 
 __all__ = ["PatchOperator", "Patches"]
@@ -170,7 +170,7 @@ class Patches:
         # A period holds all near tiles once: its images are in the near part already.
         least = (2 * REACH - 1) * SIDE
         fits = not self._periodic or all(n % SIDE == 0 and n >= least for n in self.grid.shape)
-        return fits and 0 not in self._step and library.is_available()
+        return fits and 0 not in self._step and loader.is_available()
 
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.halfspace.local_inverse import BLOCK, LocalInverse
 from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles, count
 from roughcontact.machine.layout import WIDTH
-from roughcontact.machine.library import address, functions
+from roughcontact.machine.loader import address, functions
 from roughcontact.threads import spread
 
 __all__ = ["TileInverse"]

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.machine.layout import HALF, WIDTH
-from roughcontact.machine.library import address, functions
+from roughcontact.machine.loader import address, functions
 from roughcontact.threads import limit_threads, spread, threads
 
 __all__ = ["Convolution", "fits"]

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.machine.layout import REACH, WIDTH
-from roughcontact.machine.library import address, functions
+from roughcontact.machine.loader import address, functions
 from roughcontact.threads import limit_threads, spread, threads
 
 __all__ = ["Region", "add_blocks", "lower", "near", "sum_blocks", "take_in", "with_margins"]

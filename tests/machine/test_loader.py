@@ -10,9 +10,9 @@ import numpy as np
 import platformdirs
 import pytest
 
-from roughcontact.machine import library
+from roughcontact.machine import loader
 
-pytestmark = pytest.mark.skipif(not library.is_available(), reason="no machine code here")
+pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 TINY = '''
 """Adds a number to some."""
@@ -35,38 +35,38 @@ def kept(monkeypatch, tmp_path):
     """Return the folder for caches, which is empty, of a package whose only machine code is tiny."""
     source, caches = tmp_path / "source", tmp_path / "caches"
     source.mkdir()
-    for name in library.COMMON:
-        (source / f"{name}.py").write_bytes((Path(library.__file__).parent / f"{name}.py").read_bytes())
+    for name in loader.COMMON:
+        (source / f"{name}.py").write_bytes((Path(loader.__file__).parent / f"{name}.py").read_bytes())
     (source / "tiny.py").write_text(TINY)
     spec = importlib.util.spec_from_file_location("roughcontact.machine.tiny", source / "tiny.py")
     tiny = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tiny)
     monkeypatch.setitem(sys.modules, "roughcontact.machine.tiny", tiny)
-    monkeypatch.setattr(library, "__file__", str(source / "library.py"))
+    monkeypatch.setattr(loader, "__file__", str(source / "loader.py"))
     monkeypatch.setattr(platformdirs, "user_cache_path", lambda name: caches / name)
-    library.functions.cache_clear()
+    loader.functions.cache_clear()
     yield caches / "roughcontact"
-    library.functions.cache_clear()
+    loader.functions.cache_clear()
 
 
 @pytest.fixture
 def translated(monkeypatch):
     """Return a list that grows with each translation."""
-    done, translate = [], library._translated
+    done, translate = [], loader._translated
 
     def counted(writer, precision):
         done.append((writer.__name__, precision))
         return translate(writer, precision)
 
-    monkeypatch.setattr(library, "_translated", counted)
+    monkeypatch.setattr(loader, "_translated", counted)
     return done
 
 
 def works(precision="float64"):
     """Whether a new process would have the function: this one forgets it first."""
-    library.functions.cache_clear()
+    loader.functions.cache_clear()
     numbers = np.arange(5, dtype=precision)
-    library.functions("tiny", precision)["add"](5, library.address(numbers), 0.5)
+    loader.functions("tiny", precision)["add"](5, loader.address(numbers), 0.5)
     return numbers.tolist() == [0.5, 1.5, 2.5, 3.5, 4.5]
 
 
@@ -81,8 +81,8 @@ def test_code_is_translated_once(kept, translated):
 
 def test_within_a_process_it_is_not_even_looked_for(kept, monkeypatch):
     assert works()
-    monkeypatch.setattr(library, "_read", None)
-    assert library.functions("tiny", "float64") is library.functions("tiny", "float64")
+    monkeypatch.setattr(loader, "_read", None)
+    assert loader.functions("tiny", "float64") is loader.functions("tiny", "float64")
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_within_a_process_it_is_not_even_looked_for(kept, monkeypatch):
     [
         lambda whole: b"",
         lambda whole: whole[:10],
-        lambda whole: whole[: library.DIGEST],
+        lambda whole: whole[: loader.DIGEST],
         lambda whole: whole[:-1],
         lambda whole: whole[: len(whole) // 2],
         lambda whole: whole + b"\0",
@@ -113,7 +113,7 @@ def test_damaged_code_is_translated_anew_and_replaced(kept, translated, damage):
 
 def test_nothing_half_written_stays(kept, translated):
     """A file in the code's place that cannot be replaced: the rest of it is taken away."""
-    place = library._place("tiny", "float64")
+    place = loader._place("tiny", "float64")
     place.mkdir(parents=True)
     (place / "something").write_text("in the way")
     assert works()
@@ -126,7 +126,7 @@ def test_a_disk_that_is_full_does_not_matter(kept, translated, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(library.os, "replace", full)
+    monkeypatch.setattr(loader.os, "replace", full)
     assert works()
     assert list(kept.iterdir()) == []
 
@@ -140,35 +140,35 @@ def test_a_folder_that_cannot_be_made_does_not_matter(kept, translated, monkeypa
     assert (tmp_path / "file").read_text() == "not a folder"
 
 
-@pytest.mark.parametrize("name", [*library.COMMON, "tiny"])
+@pytest.mark.parametrize("name", [*loader.COMMON, "tiny"])
 def test_code_hangs_on_the_text_that_wrote_it(kept, name):
-    before = library._place("tiny", "float64")
-    assert library._place("tiny", "float64") == before
-    file = Path(library.__file__).parent / f"{name}.py"
+    before = loader._place("tiny", "float64")
+    assert loader._place("tiny", "float64") == before
+    file = Path(loader.__file__).parent / f"{name}.py"
     file.write_bytes(file.read_bytes() + b"\n# more\n")
-    assert library._place("tiny", "float64") != before
+    assert loader._place("tiny", "float64") != before
 
 
 def test_code_hangs_on_the_version_of_llvm_and_on_the_processor(kept, monkeypatch):
     from llvmlite import binding
 
-    before = library._place("tiny", "float64")
-    places = {before, library._place("tiny", "float32")}
+    before = loader._place("tiny", "float64")
+    places = {before, loader._place("tiny", "float32")}
     with monkeypatch.context() as other:
         other.setattr(importlib.metadata, "version", lambda name: "0.0.0")
-        places.add(library._place("tiny", "float64"))
+        places.add(loader._place("tiny", "float64"))
     with monkeypatch.context() as other:
         other.setattr(binding, "get_host_cpu_name", lambda: "abacus")
-        places.add(library._place("tiny", "float64"))
+        places.add(loader._place("tiny", "float64"))
     assert len(places) == 4
-    assert library._place("tiny", "float64") == before
+    assert loader._place("tiny", "float64") == before
 
 
 @pytest.mark.parametrize("family", ["fourier", "passes"])
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 def test_all_functions_that_a_module_promises_are_there(family, precision):
     writer = importlib.import_module(f"roughcontact.machine.{family}")
-    found = library.functions(family, precision)
+    found = loader.functions(family, precision)
     assert found.keys() == writer.KINDS.keys()
     assert all(callable(function) for function in found.values())
 
@@ -180,8 +180,8 @@ if {without}:
 import numpy as np
 import roughcontact as rc
 assert {without} or "llvmlite" not in sys.modules
-from roughcontact.machine import library
-assert library.is_available() is not {without}
+from roughcontact.machine import loader
+assert loader.is_available() is not {without}
 answers = dict()
 for periodic in (False, True):
     grid = rc.Grid((64, 64), 1 / 64, periodic)
