@@ -19,17 +19,14 @@ __all__ = [
     "fast_even_length",
     "filtered",
     "inner",
-    "irfft2",
     "is_array",
     "is_numpy",
     "largest",
-    "multiply_even",
     "namespace",
     "numbers",
     "on_host",
     "require_floating",
     "require_numpy",
-    "rfft2",
     "wants_gradient",
 ]
 
@@ -203,32 +200,10 @@ def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) 
     return filtered(field, multiply, padded)
 
 
-def multiply_even(spectrum: Any, multiplier: Placed) -> None:
-    """Multiply a spectrum, shape (My, Mx//2 + 1), in place by a real even one, shape (My//2 + 1, Mx//2 + 1)."""
-    _multiply_even(spectrum, multiplier.beside(namespace(spectrum).real(spectrum)))
-
-
 def _multiply_even(spectrum: Any, factors: Any) -> None:
     upper = factors.shape[0]
     spectrum[:upper, :] *= factors
     spectrum[upper:, :] *= namespace(factors).flip(factors[1 : spectrum.shape[0] - upper + 1, :], axis=0)
-
-
-def rfft2(field: Array, lengths: tuple[int, int]) -> Any:
-    """Return the spectrum of a real field, padded by zeros to `lengths`, shape ``(My, Mx//2 + 1)``."""
-    if is_numpy(field):
-        return scipy.fft.rfft2(field, s=lengths, workers=_workers(lengths))
-    xp, (my, mx) = namespace(field), lengths
-    return xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
-
-
-def irfft2(spectrum: Any, lengths: tuple[int, int]) -> Array:
-    """Return the real field of a spectrum, which is overwritten, shape `lengths`."""
-    if is_numpy(spectrum):
-        workers = _workers(lengths)
-        return np.asarray(scipy.fft.irfft2(spectrum, s=lengths, overwrite_x=True, workers=workers))
-    xp, (my, mx) = namespace(spectrum), lengths
-    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2), n=mx, axis=-1)  # type: ignore[no-any-return]
 
 
 def _workers(lengths: tuple[int, int]) -> int:

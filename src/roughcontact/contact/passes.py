@@ -124,7 +124,7 @@ class _Compiled:
         self._shared: Single | None = None
 
     def size(self) -> float:
-        return self.advance(0.0, 0.0)
+        return self._advanced(0.0)
 
     def share(self) -> float:
         inside = with_margins(self._region.inside)
@@ -148,6 +148,9 @@ class _Compiled:
 
     def advance(self, alpha: float, mean: float) -> float:
         lower(self.r, self.v, alpha, mean)
+        return self._advanced(alpha)
+
+    def _advanced(self, alpha: float) -> float:
         fields = self.change, self.r, self._error, self.t, self._region.inside
         return float(self._region.run("advance", 1, *fields, alpha).max())
 

@@ -25,7 +25,8 @@ Place = Box | npt.NDArray[np.intp]
 
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
 # is a quarter of the overlap) costs less than a transform of the padded box: in look-ups of the influence table a cell
-# of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), the kernel of a new window as much again.
+# of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), but a new window takes a kernel too: with
+# 0.6, tried by hand, a curve at 256 x 256 took a third longer.
 LOOKUPS = 1.5
 
 

@@ -15,11 +15,12 @@ import numpy.typing as npt
 
 from roughcontact.arrays import fast_even_length
 from roughcontact.convolution import Convolution
+from roughcontact.grid import Grid
 from roughcontact.halfspace.influence import definite, wavenumbers
 from roughcontact.machine.layout import REACH
 from roughcontact.machine.region import Region, add_blocks, near, sum_blocks
 
-__all__ = ["LocalInverse"]
+__all__ = ["LocalInverse", "local_inverse"]
 
 Array = npt.NDArray[np.float64]
 Field = npt.NDArray[Any]  # of single or double precision
@@ -77,6 +78,12 @@ class LocalInverse:
         if self.far is not None:
             add_blocks(pressure, self.far.apply(sum_blocks(field, BLOCK)), BLOCK)
         return pressure
+
+
+def local_inverse(modulus: float, grid: Grid) -> LocalInverse | None:
+    """Return the inverse for the cells of a half-space; None for a single row, which has no plane of waves."""
+    ny, nx = grid.shape
+    return LocalInverse.of(modulus, (ny, nx), grid.spacing) if min(ny, nx) > 1 else None
 
 
 def _fitted(wanted: Array, scale: Array) -> Array:

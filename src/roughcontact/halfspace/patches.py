@@ -27,7 +27,7 @@ from roughcontact.machine import loader
 from roughcontact.machine.loader import address, functions
 from roughcontact.threads import spread
 
-__all__ = ["PatchOperator", "Patches"]
+__all__ = ["PatchOperator", "Patches", "patches_of"]
 
 Array = npt.NDArray[np.float64]
 Single = npt.NDArray[Any]  # of single precision
@@ -85,9 +85,9 @@ class TileSum:
         waves: Single = self.parts.far.apply(self.nodes.spread(given))
         sums = np.ascontiguousarray(self.nodes.gather(waves))
         starts, shifts = np.empty(size + 1, np.int64), np.empty(given.size + 1, np.int64)
-        some, found = np.empty(given.size + 1, np.float32), np.empty(1, np.int64)
+        some = np.empty(given.size + 1, np.float32)
         cells = address(starts), address(shifts), address(some)
-        code["list_cells"](size, SIDE, SIDE * SIDE, address(given), *cells, address(found))
+        code["list_cells"](size, address(given), *cells)
         where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places), size, REACH
         kernel, total = address(self.parts.near), address(sums)
 
@@ -151,12 +151,15 @@ class Patches:
     kernel : Love or Periodic
         Its boundary condition is the one that counts.
     grid : Grid
+    local_inverse : LocalInverse
+        Of the whole plane.
     cover : float
         Part of the plane's tiles up to which they may cost less than the plane (benchmarks/patches.py).
     """
 
     kernel: Love | Periodic
     grid: Grid
+    local_inverse: LocalInverse
     cover: ClassVar[float] = 0.3
 
     @property
@@ -174,16 +177,9 @@ class Patches:
 
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""
-        nodes = Nodes.under(tiles, self._step, self._periodic)
-        forward = TileSum(self._parts, tiles.map(REACH, self._periodic), nodes)
-        inverse = TileInverse.over(tiles, self.local_inverse, self._periodic)
-        return PatchOperator(tiles, self.grid.cell_area, forward, inverse)
-
-    @cached_property
-    def local_inverse(self) -> LocalInverse:
-        """The inverse of the whole plane."""
-        shape = self.grid.shape[0], self.grid.shape[1]
-        return LocalInverse.of(self.kernel.modulus, shape, self.grid.spacing)
+        nodes, map = Nodes.under(tiles, self._step, self._periodic), tiles.map(REACH, self._periodic)
+        inverse = TileInverse.over(tiles, map, self.local_inverse)
+        return PatchOperator(tiles, self.grid.cell_area, TileSum(self._parts, map, nodes), inverse)
 
     @cached_property
     def _parts(self) -> Parts:
@@ -210,6 +206,12 @@ class Patches:
         widest = (SMOOTH * self._reach / DECAY / d for d in self.grid.spacing)
         down, across = (max((s for s in STEPS if s <= w), default=0) for w in widest)
         return down, across
+
+
+def patches_of(kernel: Love | Periodic, grid: Grid, inverse: LocalInverse | None) -> Patches | None:
+    """Return what works on the tiles of a region of a half-space; None where they are not possible."""
+    patches = None if inverse is None else Patches(kernel, grid, inverse)
+    return patches if patches is not None and patches.possible else None
 
 
 @lru_cache(maxsize=8)

@@ -14,8 +14,8 @@ from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.influence import Love, Periodic, Strip, Tables
-from roughcontact.halfspace.local_inverse import LocalInverse
-from roughcontact.halfspace.patches import Patches
+from roughcontact.halfspace.local_inverse import LocalInverse, local_inverse
+from roughcontact.halfspace.patches import Patches, patches_of
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 
@@ -63,8 +63,7 @@ class FreeOperator:
     def patches(self) -> Patches | None:
         """What works on the tiles of a region of this half-space; None for another body."""
         kernel = self.influence.influence
-        patches = Patches(kernel, self.grid) if isinstance(kernel, Love) else None
-        return patches if patches is not None and patches.possible else None
+        return patches_of(kernel, self.grid, self.local_inverse) if isinstance(kernel, Love) else None
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -73,9 +72,7 @@ class FreeOperator:
     @cached_property
     def local_inverse(self) -> LocalInverse | None:
         """What preconditions in machine code; None for another body than a half-space."""
-        shape = self.grid.shape[0], self.grid.shape[1]
-        modulus, spacing = self.modulus, self.grid.spacing
-        return None if modulus is None or min(shape) == 1 else LocalInverse.of(modulus, shape, spacing)
+        return None if self.modulus is None else local_inverse(self.modulus, self.grid)
 
     @cached_property
     def _inverse(self) -> Convolution:
@@ -129,8 +126,7 @@ class PeriodicOperator:
     @cached_property
     def patches(self) -> Patches | None:
         """What works on the tiles of a region; None where they do not fit the period."""
-        patches = Patches(self.influence, self.grid)
-        return patches if patches.possible else None
+        return patches_of(self.influence, self.grid, self.local_inverse)
 
     @cached_property
     def _tables(self) -> Tables:
@@ -162,9 +158,7 @@ class PeriodicOperator:
     @cached_property
     def local_inverse(self) -> LocalInverse | None:
         """What preconditions in machine code; None for another body than a half-space."""
-        shape = self.grid.shape[0], self.grid.shape[1]
-        modulus, spacing = self.modulus, self.grid.spacing
-        return None if modulus is None or min(shape) == 1 else LocalInverse.of(modulus, shape, spacing)
+        return None if self.modulus is None else local_inverse(self.modulus, self.grid)
 
     @cached_property
     def _inverse(self) -> Convolution:

@@ -30,7 +30,7 @@ class TileInverse:
     ----------
     local : LocalInverse
     map : TileMap
-        With room for one tile.
+        With room for one tile at least.
     places : int array, shape (tiles,)
         Where the first block of each is among the blocks of the plane.
     shape : tuple of int
@@ -43,12 +43,12 @@ class TileInverse:
     shape: tuple[int, int]
 
     @classmethod
-    def over(cls, tiles: Tiles, local: LocalInverse, periodic: bool) -> TileInverse:
+    def over(cls, tiles: Tiles, map: TileMap, local: LocalInverse) -> TileInverse:
         """Return the inverse on some tiles."""
         many = SIDE // BLOCK
         down, across = (count(n) * many for n in tiles.shape)
         places = tiles.rows * (many * across) + tiles.columns * many
-        return cls(local, tiles.map(1, periodic), np.asarray(places, dtype=np.int64), (down, across))
+        return cls(local, map, np.asarray(places, dtype=np.int64), (down, across))
 
     def apply(self, displacement: Single) -> Single:
         """Return the pressure [Pa] under a displacement [m] that is zero outside the region."""
@@ -59,7 +59,7 @@ class TileInverse:
         pressure = np.empty(displacement.shape, dtype=np.float32)
         weights = self.local.near.astype(np.float32)
         given, found = address(field), address(pressure)
-        where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places), SIDE
+        where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places)
 
         def near(start: int) -> None:
             room = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
@@ -69,9 +69,8 @@ class TileInverse:
         spread(near, range(0, size, GROUP))
         if self.local.far is not None:
             blocks: Single = np.zeros(self.shape, dtype=np.float32)
-            row = np.empty(SIDE, dtype=np.float32)
-            all_ = 0, size, address(self.places), self.shape[1], SIDE, BLOCK
-            code["sum_blocks_of_tiles"](*all_, given, address(blocks), address(row))
+            all_ = size, address(self.places), self.shape[1], BLOCK
+            code["sum_blocks_of_tiles"](*all_, given, address(blocks))
             far = np.ascontiguousarray(self.local.far.apply(blocks))
-            code["add_blocks_to_tiles"](*all_, found, address(far), address(row))
+            code["add_blocks_to_tiles"](*all_, found, address(far))
         return pressure

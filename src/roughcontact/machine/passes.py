@@ -7,12 +7,10 @@ have some inside the region; what lies elsewhere is neither read nor written. Su
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import reduce
-from operator import add
 from typing import Any
 
 from roughcontact.machine.code import Code
-from roughcontact.machine.layout import REACH
+from roughcontact.machine.stencil import sum_near
 from roughcontact.machine.values import Index, Number, Reals
 
 __all__ = ["KINDS", "write"]
@@ -69,16 +67,11 @@ def _near(module: Any, precision: str) -> None:
         *cells, nx, field, answer, weights = code.arguments
 
         def near(at: Index, take: Take) -> Sequence[Number]:
-            total: Number | None = None
-            for dy in range(REACH + 1):
-                for dx in range(REACH + 1):
-                    rows, columns = sorted({dy, -dy}), sorted({dx, -dx})
-                    around = reduce(add, [take(field, at + nx * y + x) for y in rows for x in columns])
-                    place = code.index(dy * (REACH + 1) + dx)
-                    weight = weights.take_for_all(place) if take is Reals.take else weights.take_one(place)
-                    total = around * weight if total is None else total + around * weight
-            assert total is not None
-            answer.put(at, total)
+            weight = weights.take_for_all if take is Reals.take else weights.take_one
+            answer.put(
+                at,
+                sum_near(lambda y, x: take(field, at + nx * y + x), lambda k: weight(code.index(k))),
+            )
             return ()
 
         _through(code, cells, 0, near, None)

@@ -16,9 +16,7 @@ __all__ = ["Region", "add_blocks", "lower", "near", "sum_blocks", "take_in", "wi
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 
-PART = (
-    2**15
-)  # groups of cells that are taken at once; sums are added up part by part, however many threads there are
+PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
 SEVERAL = 4  # parts from which on threads are worth waking
 
 
@@ -73,7 +71,7 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
 
 
 def take_in(inside: Field, lacking: Field, least: float) -> float:
-    """Count as inside what lacks at least so much, more than nothing; return the largest lack of what was not, or 0."""
+    """Count as inside what lacks more than `least`, and than nothing; return the largest lack of what was not, or 0."""
     worst, given = np.zeros(1), np.ascontiguousarray(lacking, dtype=inside.dtype)
     run = functions("passes", inside.dtype.name)["take_in"]
     run(inside.size, address(inside), address(given), least, address(worst))

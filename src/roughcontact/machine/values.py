@@ -98,9 +98,6 @@ class Index:
     def __floordiv__(self, other: Index | int) -> Index:
         return Index(self.builder.sdiv(self.value, self._with(other)), self.builder)
 
-    def __mod__(self, other: Index | int) -> Index:
-        return Index(self.builder.srem(self.value, self._with(other)), self.builder)
-
     def __le__(self, other: Index | int) -> Any:
         return self.builder.icmp_signed("<=", self.value, self._with(other))
 
