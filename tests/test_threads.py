@@ -3,13 +3,14 @@
 import os
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact import arrays
-from roughcontact.threads import limit_threads, spread, threads
+from roughcontact.threads import join_in, limit_threads, spread, threads
 
 
 def test_within_a_limit():
@@ -51,6 +52,33 @@ def test_what_fails_is_told(count):
 
     with limit_threads(count), pytest.raises(ArithmeticError, match="seven"):
         spread(work, range(9))
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_who_joins_in_is_not_waited_for(count):
+    """The first takes all that is left; one that came before it finished may still be at it when it returns."""
+    left, done, gone = list(range(40)), [], threading.Event()
+
+    def work(k):
+        if k:
+            gone.wait(10)  # as late as can be
+        while left:
+            done.append((k, left.pop()))
+
+    join_in(work, count)
+    assert {k for k, _ in done} == {0}
+    assert sorted(item for _, item in done) == list(range(40))
+    gone.set()
+
+
+def test_who_joins_in_may_fail_or_interrupt():
+    def work(k):
+        raise KeyboardInterrupt if k == 0 else ArithmeticError
+
+    for _ in range(5):
+        with pytest.raises(KeyboardInterrupt):
+            join_in(work, 3)
+    assert spread(list, [()]) is None  # the pool works on
 
 
 @pytest.mark.parametrize("periodic", [False, True])

@@ -35,33 +35,41 @@ class Convolution:
         self.lengths = lengths
         self._multiplier: Array | None = multiplier
         self._placed: Placed | None = None
-        self._ready: dict[tuple[Pair, str], Any] = {}
+        self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
 
     def apply(self, field: Array) -> Array:
         """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
-        if is_numpy(field) and field.dtype.kind in "biu":
-            field = field.astype(np.float64)
-        if not _in_machine_code(field, self.lengths):
-            if self._placed is None:
-                self._placed = Placed(self._kernel())
-            return convolve(field, self._placed.beside(field), self.lengths)
-        if field.shape[0] > self.lengths[0] or field.shape[1] > self.lengths[1]:
-            raise ValueError(f"a field of shape {field.shape} is larger than transforms of {self.lengths}")
-        key = ((field.shape[0], field.shape[1]), field.dtype.name)
-        if key not in self._ready:
-            from roughcontact.machine.convolution import Convolution
-
-            self._ready[key] = Convolution.of(self._kernel(), key[0], self.lengths, key[1])
-            if key[1] == "float64":
-                self._multiplier = None  # planes are large: none is kept twice
-        answer: Array = self._ready[key].apply(field)
+        ready = self._ready.get((field.shape, field.dtype)) if is_numpy(field) else None
+        if ready is None:
+            if is_numpy(field) and field.dtype.kind in "biu":
+                return self.apply(field.astype(np.float64))
+            if not _in_machine_code(field, self.lengths):
+                if self._placed is None:
+                    self._placed = Placed(self._kernel())
+                return convolve(field, self._placed.beside(field), self.lengths)
+            ready = self._prepare((field.shape[0], field.shape[1]), field.dtype)
+        answer: Array = ready.apply(field)
         return answer
+
+    def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
+        """Return the machine's kernel for fields of one shape and precision."""
+        from roughcontact.machine.convolution import Convolution
+
+        if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
+            raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
+        ready = Convolution.of(self._kernel(), shape, self.lengths, dtype.name)
+        self._ready[shape, dtype] = ready
+        if dtype == np.float64:
+            self._multiplier = None  # planes are large: none is kept twice
+        return ready
 
     def _kernel(self) -> Array:
         """Return the multiplier, from what was made of it in double precision if that is all there is."""
         if self._multiplier is not None:
             return self._multiplier
-        found: Array = next(ready.kernel() for (_, name), ready in self._ready.items() if name == "float64")
+        found: Array = next(
+            ready.kernel() for (_, dtype), ready in self._ready.items() if dtype == np.float64
+        )
         return found
 
 

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from threadpoolctl import ThreadpoolController
 
-__all__ = ["limit_threads", "one_blas_thread", "spread", "threads"]
+__all__ = ["join_in", "limit_threads", "one_blas_thread", "spread", "threads"]
 
 T = TypeVar("T")
 
@@ -62,6 +62,20 @@ def spread(work: Callable[[T], None], items: Sequence[T]) -> None:
     finally:
         for other in others:
             other.result()
+
+
+def join_in(work: Callable[[int], None], count: int) -> None:
+    """Have several threads, numbered from 0, join in some work, of which each takes what is left.
+
+    The first is this one: it could do all alone, and returns when all is done. It waits for no other to come, or to
+    find that nothing is left: `work` must hold what they look at.
+    """
+    others = [_pool().submit(work, k) for k in range(1, count)]
+    try:
+        work(0)
+    finally:
+        for other in others:
+            other.cancel()
 
 
 @contextmanager

@@ -1,12 +1,13 @@
 """The small language: what tiny functions written in it do, against NumPy."""
 
+from threading import Thread
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from roughcontact.machine import loader
-from roughcontact.machine.layout import WIDTH
+from roughcontact.machine.layout import APART, WIDTH
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -321,3 +322,29 @@ def test_where_an_array_begins(readable):
         array.flags.writeable = False
     part = {"empty": array[:0], "not contiguous": array[1:, 1::2]}.get(readable, array[1:])
     assert loader.address(part) == part.__array_interface__["data"][0]
+
+
+@pytest.mark.parametrize("workers", [1, 2, 4])
+def test_parts_are_shared_between_threads_and_phases_wait_for_each_other(precision, workers):
+    """Each number is written once in the first phase; the second reads what others wrote, the other way round."""
+    parts = 1000
+
+    def body(code, counters, taken, first, second):
+        for part in code.shared(counters, 0, code.index(parts)):
+            taken.put(part, taken[part] + 1)
+            first.put(part, part + 1)
+        for part in code.shared(counters, 1, code.index(parts)):
+            second.put(part, first[code.index(parts - 1) - part])
+
+    run = made(precision, tiny=("indices indices indices indices", body)).tiny
+    for _ in range(20):
+        counters, (taken, first, second) = np.zeros(4 * APART, np.int64), np.zeros((3, parts), np.int64)
+        team = [Thread(target=run, args=(counters, taken, first, second)) for _ in range(workers)]
+        for one in team:
+            one.start()
+        for one in team:
+            one.join()
+        np.testing.assert_array_equal(taken, 1)
+        np.testing.assert_array_equal(second, np.arange(parts, 0, -1))
+        run(counters, taken, first, second)  # who comes late finds nothing left
+        np.testing.assert_array_equal(taken, 1)

@@ -216,7 +216,7 @@ def test_memory_is_kept_to(precision, lengths, monkeypatch):
     monkeypatch.undo()
     wanted = written_out(field.astype(np.float64), whole)
     np.testing.assert_allclose(found, wanted, rtol=0, atol=rounding(field, multiplier, lengths))
-    assert len(rooms) >= 5
+    assert len(rooms) >= 3  # answer, spectrum, and what a thread needs
     for room, margin in rooms:
         assert np.isnan(room[:margin]).all()
         assert np.isnan(room[-margin:]).all()

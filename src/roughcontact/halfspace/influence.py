@@ -137,8 +137,8 @@ class Periodic:
 class Tables:
     """An influence function that keeps its largest table and cuts smaller ones out of it.
 
-    The windows of successive loads grow; each would make its table anew. `limit` is the shape of the whole
-    grid, beyond which no table is needed.
+    The windows of successive loads grow; each would make its table anew, so that the second has room to spare. `limit`
+    is the shape of the whole grid, beyond which no table is needed.
     """
 
     influence: Influence
@@ -149,8 +149,9 @@ class Tables:
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]; a view, not to be written to."""
         if not self._has(shape):
+            spare = 4 if self._largest.size > NEAR * NEAR else math.inf
             room = tuple(
-                min(end, max(have, n + n // 4))
+                min(end, max(have, n + int(n // spare)))
                 for n, have, end in zip(shape, self._largest.shape, self.limit, strict=True)
             )
             self._largest = self.influence.table(room)

@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar, overload
 
 from llvmlite import ir
 
-from roughcontact.machine.layout import WIDTH
+from roughcontact.machine.layout import APART, WIDTH
 from roughcontact.machine.values import INDEX, Index, Indices, Number, Reals, constant, spread_out
 
 __all__ = ["PRECISIONS", "Code", "Variable"]
@@ -142,6 +142,31 @@ class Code:
         yield Index(at, builder)
         at.add_incoming(builder.add(at, by.value), builder.block)
         builder.branch(head)
+        builder.position_at_end(after)
+
+    def shared(self, counters: Indices, phase: int, parts: Index) -> Iterator[Index]:
+        """Loop over parts of some work that other threads do with the same counters; go on when all parts are done.
+
+        Each takes the next part that is left: whoever comes late finds less to do, or nothing. Counters are zero at
+        first, and for each phase in turn there are two, in lines of the cache of their own.
+        """
+        builder = self.builder
+        taken, done = (counters.place(self.index((2 * phase + k) * APART)) for k in range(2))
+        one = ir.Constant(INDEX, 1)
+        head, body, wait, after = (
+            builder.append_basic_block(name) for name in ("head", "body", "wait", "after")
+        )
+        builder.branch(head)
+        builder.position_at_end(head)
+        part = builder.atomic_rmw("add", taken, one, "seq_cst")
+        builder.cbranch(builder.icmp_signed("<", part, parts.value), body, wait)
+        builder.position_at_end(body)
+        yield Index(part, builder)
+        builder.atomic_rmw("add", done, one, "seq_cst")
+        builder.branch(head)
+        builder.position_at_end(wait)
+        all_done = builder.icmp_signed("==", builder.load_atomic(done, "seq_cst", 8), parts.value)
+        builder.cbranch(all_done, after, wait)
         builder.position_at_end(after)
 
     @overload

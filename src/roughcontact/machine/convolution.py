@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.machine.layout import HALF, WIDTH
+from roughcontact.machine.layout import APART, HALF, WIDTH
 from roughcontact.machine.loader import address, functions
-from roughcontact.threads import limit_threads, spread, threads
+from roughcontact.threads import join_in, threads
 
 __all__ = ["Convolution", "fits"]
 
@@ -20,8 +20,10 @@ Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
 LINE = 64  # bytes of a line of the cache
-LARGE = 2**22  # bytes of rows as padded from which on several threads are worth waking
-SHARES = 4
+LARGE = (
+    600_000  # bytes of rows as padded from which on a second thread comes in time (benchmarks/transforms.py)
+)
+PARTS = 4  # of the work for each thread, since not all are equally fast
 
 
 def fits(lengths: tuple[int, int]) -> bool:
@@ -97,37 +99,32 @@ class Convolution:
 
     def apply(self, plane: Array) -> Array:
         """Return the convolution of a field, padded by zeros, cut back to its own shape."""
-        code = functions("fourier", self.precision)
-        (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
-        half, blocks, room = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
         if plane.shape != self.shape:  # machine code looks at nothing twice
             raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
+        convolve = functions("fourier", self.precision)["convolve"]
+        (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
+        half, blocks, room = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
         given = np.ascontiguousarray(plane, dtype=self.precision)
-        along = *self.rows.arguments, address(self.rows.places), address(self.turns)
-        across = *self.columns.arguments, address(self.multiplier), address(self.folded)
-        workers = threads() if ny * mx * given.itemsize >= LARGE else 1
-        spectrum = _room((blocks, room, 2, lanes), self.precision)
         answer = np.empty((ny, nx), dtype=self.precision)
+        workers = threads() if ny * mx * given.itemsize >= LARGE else 1
+        parts = PARTS * workers
+        # What a thread needs: rows as they come and in order, or one column.
+        raw = -(-half // lanes) * 2 * lanes * lanes
+        size = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
+        counters, rooms = np.zeros(6 * APART, np.int64), _room(workers * size, self.precision)
+        spectrum = _room(blocks * room * 2 * lanes, self.precision)
 
-        def by_rows(name: str, lines: Array, part: slice) -> None:
-            raw, waves = (_room((n * lanes, 2, lanes), self.precision) for n in (-(-half // lanes), blocks))
-            code[name](
-                address(lines), ny, nx, part.start, part.stop, address(spectrum), room, half,
-                *along, address(raw), address(waves),
+        def join(k: int) -> None:
+            # With arrays, not their addresses: they live as long as anyone works on them.
+            convolve(
+                address(counters), address(given), address(answer), ny, nx, address(spectrum), room,
+                half, *self.rows.arguments, address(self.rows.places), address(self.turns),
+                my, *self.columns.arguments, address(self.multiplier), address(self.folded),
+                -(-room // (parts * lanes)) * lanes, -(-blocks // parts),
+                address(rooms) + k * size * given.itemsize, raw,
             )  # fmt: skip
 
-        def by_columns(part: slice) -> None:
-            work = _room((my, 2, lanes), self.precision)
-            code["columns"](
-                address(spectrum), room, ny, part.start, part.stop, my,
-                *across, address(work),
-            )  # fmt: skip
-
-        rows, columns = _parts(ny, lanes, workers), _parts(blocks, 1, workers)
-        with limit_threads(workers):
-            spread(lambda part: by_rows("rows_there", given, part), rows)
-            spread(by_columns, columns)
-            spread(lambda part: by_rows("rows_back", answer, part), rows)
+        join_in(join, workers)
         return answer
 
 
@@ -190,16 +187,9 @@ def _turns(steps: Indices, length: int, precision: str) -> Array:
     return np.stack([waves.real, waves.imag], axis=-1).ravel().astype(precision)
 
 
-def _parts(length: int, unit: int, workers: int) -> list[slice]:
-    """Return parts of whole units: several for each of several workers, since not all are equally fast."""
-    count = SHARES * workers if workers > 1 else 1
-    size = -(-length // (unit * count)) * unit
-    return [slice(start, min(start + size, length)) for start in range(0, length, size)]
-
-
-def _room(shape: tuple[int, ...], precision: str) -> Array:
+def _room(numbers: int, precision: str) -> Array:
     """Return room whose lanes lie within lines of the cache: NumPy's begins anywhere."""
     size = np.dtype(precision).itemsize
-    raw = np.empty(math.prod(shape) + LINE // size, dtype=precision)
+    raw = np.empty(numbers + LINE // size, dtype=precision)
     start = -address(raw) % LINE // size
-    return raw[start : start + math.prod(shape)].reshape(shape)
+    return raw[start : start + numbers]

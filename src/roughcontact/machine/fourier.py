@@ -23,10 +23,10 @@ __all__ = ["KINDS", "write"]
 
 RADICES = (4, 2, 3, 5, HALF)
 ROWS = "reals index index index index reals index index indices index reals indices reals reals reals"
+COLUMNS = "reals index index index index index indices index reals reals indices reals"
 KINDS = {
-    "rows_there": ROWS,
-    "columns": "reals index index index index index indices index reals reals indices reals",
-    "rows_back": ROWS,
+    "convolve": "indices reals reals index index reals index index indices index reals indices reals "
+    "index indices index reals reals indices index index reals index"
 }
 
 
@@ -65,11 +65,37 @@ class Wave:
 
 
 def write(module: Any, precision: str) -> None:
-    """Write ``rows_there``, ``columns`` and ``rows_back``."""
+    """Write ``convolve``: rows there, columns there and back with the multiplier in between, rows back.
+
+    Parameters: counters for three phases, see `Code.shared`; the field, the answer, rows and columns of both; the
+    spectrum and the rows that it has room for; half of the columns as padded, radices and factors of their transform,
+    the place of each wave in it, factors of the pairs; the rows as padded, radices and factors of their transform, the
+    multiplier and the row of it that each place takes; how many rows, and blocks of columns, are a part; and room for
+    one thread, in which rows lie as they come, and from where they lie in order.
+    """
     there, back = (_transform(module, precision, inverse) for inverse in (False, True))
-    _rows(module, precision, there, inverse=False)
-    _columns(module, precision, there, back)
-    _rows(module, precision, back, inverse=True)
+    rows_there, columns = (
+        _rows(module, precision, there, inverse=False),
+        _columns(module, precision, there, back),
+    )
+    rows_back = _rows(module, precision, back, inverse=True)
+    with Code(module, "convolve", precision, KINDS["convolve"]) as code:
+        counters, field, answer, ny, nx, spectrum, room, half, *given = code.arguments
+        along, across, (many, wide, raw, offset) = given[:5], given[5:11], given[11:]
+        blocks, waves = half // code.count + 1, raw.at(offset)
+
+        def some_rows(phase: int, transform: Code, lines: Reals) -> None:
+            for part in code.shared(counters, phase, (ny + many - 1) // many):
+                end = (part * many + many).smaller(ny)
+                code.call(
+                    transform, lines, ny, nx, part * many, end, spectrum, room, half, *along, raw, waves
+                )
+
+        some_rows(0, rows_there, field)
+        for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
+            end = (part * wide + wide).smaller(blocks)
+            code.call(columns, spectrum, room, ny, part * wide, end, *across, raw)
+        some_rows(2, rows_back, answer)
 
 
 def _transform(module: Any, precision: str, inverse: bool) -> Code:
@@ -146,7 +172,7 @@ def _half(a: Sequence[Wave]) -> list[Wave]:
     return [a[0] + a[1], a[0] + turned, a[0] - a[1], a[0] - turned]
 
 
-def _rows(module: Any, precision: str, transform: Code, inverse: bool) -> None:
+def _rows(module: Any, precision: str, transform: Code, inverse: bool) -> Code:
     """Write the transform of some rows, and where it goes; or the way back.
 
     Parameters: the field, its rows and columns, the first row and the one after the last; the spectrum and the rows
@@ -178,6 +204,7 @@ def _rows(module: Any, precision: str, transform: Code, inverse: bool) -> None:
                 _scatter(code, raw, field, ny, nx, y)
             else:
                 _turn(code, spectrum, room, y, waves, half, inverse)
+    return code
 
 
 def _turn(code: Code, spectrum: Reals, room: Index, y: Index, waves: Reals, half: Index, back: bool) -> None:
@@ -192,14 +219,14 @@ def _turn(code: Code, spectrum: Reals, room: Index, y: Index, waves: Reals, half
                 code.transpose(waves, here, step, spectrum, there, step)
 
 
-def _columns(module: Any, precision: str, there: Code, back: Code) -> None:
+def _columns(module: Any, precision: str, there: Code, back: Code) -> Code:
     """Write the product with a multiplier along some blocks of columns, between transforms there and back.
 
     Parameters: the spectrum, its rows, how many of them count, the first block and the one after the last; the rows as
     padded, radices and factors of their transform; the multiplier, block by block, and the row of it that each place
     takes; and room for one block.
     """
-    with Code(module, "columns", precision, KINDS["columns"]) as code:
+    with Code(module, "columns", precision, COLUMNS) as code:
         spectrum, room, ny, begin, end, my, radices, sweeps, factors, multiplier, places, work = (
             code.arguments
         )
@@ -221,6 +248,7 @@ def _columns(module: Any, precision: str, there: Code, back: Code) -> None:
             code.call(back, block, my, radices, sweeps, factors)
             for i in code.range(0, copied * 2):
                 part.put(i * lanes, block.take(i * lanes))
+    return code
 
 
 def _gather(code: Code, field: Reals, ny: Index, nx: Index, y: Index, raw: Reals, half: Index) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 
 __all__ = ["address", "functions", "is_available", "takes"]
 
-COMMON = ("code", "layout", "loader", "values")  # modules whose text all code hangs on
+COMMON = ("code", "layout", "loader", "stencil", "values")  # modules whose text all code hangs on
 DIGEST = 32  # bytes of the check sum before the code
 _POINTER = ctypes.c_void_p
 _ENGINES: list[Any] = []  # they own the code that runs

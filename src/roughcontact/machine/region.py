@@ -44,6 +44,10 @@ class Region:
         parts = max(1, -(-size // PART))
         sums, groups = np.zeros((parts, count)), address(self._groups)
         given = [address(a) if isinstance(a, np.ndarray) else a for a in arguments]
+        if parts == 1:
+            out = (address(sums),) if count else ()
+            run(groups, 0, size, self._whole, self.inside.size, *given, *out)
+            return sums
 
         def part(k: int) -> None:
             last = k == parts - 1
@@ -60,6 +64,9 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
     run, lanes = functions("passes", r.dtype.name)["lower"], WIDTH // r.itemsize
     size = PART * lanes
     first, second = address(r), address(v)
+    if r.size <= size:
+        run(r.size, first, second, alpha, mean)
+        return
 
     def part(start: int) -> None:
         offset = start * r.itemsize

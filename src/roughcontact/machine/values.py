@@ -118,11 +118,15 @@ class Indices:
     builder: Any
 
     def __getitem__(self, at: Index) -> Index:
-        return Index(self.builder.load(self.builder.gep(self.pointer, [at.value])), self.builder)
+        return Index(self.builder.load(self.place(at)), self.builder)
 
     def put(self, at: Index, number: Index) -> None:
         """Write a whole number."""
-        self.builder.store(number.value, self.builder.gep(self.pointer, [at.value]))
+        self.builder.store(number.value, self.place(at))
+
+    def place(self, at: Index) -> Any:
+        """Return where a number lies."""
+        return self.builder.gep(self.pointer, [at.value])
 
 
 @dataclass(frozen=True, slots=True)
