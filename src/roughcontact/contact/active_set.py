@@ -88,7 +88,7 @@ class ActiveSet:
         xp = namespace(separation)
         # Factorisations are made on the host, and know no hardness.
         direct = is_numpy(separation) and hardness == math.inf
-        dense_limit = factorised(operator, self.dense_limit) if direct else 0
+        dense_limit = factorised(operator, self.dense_limit, tolerance) if direct else 0
         (u, exact), steps = first_product(operator, p), 1
         tangent: Tangent | None = None
         best, idle = np.inf, 0

@@ -22,6 +22,8 @@ Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
+ROUGHLY = 300  # cells, where an answer is but the start of another: against a few products
+LOOSE = 1e-5  # tolerance of such an answer
 LEAST = 60_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
 SINGLE = 4_000  # cells from which on half the numbers are half the work
 SAFE = (
@@ -155,6 +157,8 @@ def _plane(operator: Operator) -> Plane:
     return SinglePlane(operator) if single else Plane(operator)
 
 
-def factorised(operator: Operator, limit: int) -> int:
+def factorised(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
     """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    return min(limit, FACTORISED) if getattr(operator, "patches", None) is not None else limit
+    if getattr(operator, "patches", None) is None:
+        return limit
+    return min(limit, FACTORISED if tolerance < LOOSE else ROUGHLY)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.machine.layout import APART, HALF, WIDTH
 from roughcontact.machine.loader import address, functions
+from roughcontact.machine.room import room_for
 from roughcontact.threads import join_in, threads
 
 __all__ = ["Convolution", "fits"]
@@ -19,7 +20,6 @@ __all__ = ["Convolution", "fits"]
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
-LINE = 64  # bytes of a line of the cache
 LARGE = (
     600_000  # bytes of rows as padded from which on a second thread comes in time (benchmarks/transforms.py)
 )
@@ -103,7 +103,7 @@ class Convolution:
             raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
         convolve = functions("fourier", self.precision)["convolve"]
         (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
-        half, blocks, room = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
+        half, blocks, rows = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
         given = np.ascontiguousarray(plane, dtype=self.precision)
         answer = np.empty((ny, nx), dtype=self.precision)
         workers = threads() if ny * mx * given.itemsize >= LARGE else 1
@@ -111,20 +111,20 @@ class Convolution:
         # What a thread needs: rows as they come and in order, or one column.
         raw = -(-half // lanes) * 2 * lanes * lanes
         size = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
-        counters, rooms = np.zeros(6 * APART, np.int64), _room(workers * size, self.precision)
-        spectrum = _room(blocks * room * 2 * lanes, self.precision)
+        counters = np.zeros(6 * APART, np.int64)
+        with room_for(blocks * rows * 2 * lanes + workers * size, self.precision) as room:
+            spectrum, own = room[workers * size :], room[: workers * size].reshape(workers, size)
 
-        def join(k: int) -> None:
-            # With arrays, not their addresses: they live as long as anyone works on them.
-            convolve(
-                address(counters), address(given), address(answer), ny, nx, address(spectrum), room,
-                half, *self.rows.arguments, address(self.rows.places), address(self.turns),
-                my, *self.columns.arguments, address(self.multiplier), address(self.folded),
-                -(-room // (parts * lanes)) * lanes, -(-blocks // parts),
-                address(rooms) + k * size * given.itemsize, raw,
-            )  # fmt: skip
+            def join(k: int) -> None:
+                # With arrays, not their addresses: they live as long as anyone works on them.
+                convolve(
+                    address(counters), address(given), address(answer), ny, nx, address(spectrum), rows,
+                    half, *self.rows.arguments, address(self.rows.places), address(self.turns),
+                    my, *self.columns.arguments, address(self.multiplier), address(self.folded),
+                    -(-rows // (parts * lanes)) * lanes, -(-blocks // parts), address(own[k]), raw,
+                )  # fmt: skip
 
-        join_in(join, workers)
+            join_in(join, workers)
         return answer
 
 
@@ -185,11 +185,3 @@ def _turns(steps: Indices, length: int, precision: str) -> Array:
     """Return real and imaginary parts of turns by so many steps of a circle, backwards."""
     waves = np.exp(-2j * math.pi / length * steps)
     return np.stack([waves.real, waves.imag], axis=-1).ravel().astype(precision)
-
-
-def _room(numbers: int, precision: str) -> Array:
-    """Return room whose lanes lie within lines of the cache: NumPy's begins anywhere."""
-    size = np.dtype(precision).itemsize
-    raw = np.empty(numbers + LINE // size, dtype=precision)
-    start = -address(raw) % LINE // size
-    return raw[start : start + numbers]
