@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact import drivers
+from roughcontact.contact import drivers, window
 from roughcontact.contact.active_set import ActiveSet
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver, Plane, SinglePlane, driver_on
-from roughcontact.halfspace.patches import Patches, PatchOperator
+from roughcontact.halfspace import patches
+from roughcontact.halfspace.patches import ListPatches, Patches, PatchOperator
 
 ITERATIVE = ActiveSet(dense_limit=0)
 
@@ -47,7 +48,10 @@ def used(request, monkeypatch):
     kind = request.param
     for part in ("cover", "filled"):
         monkeypatch.setattr(Patches, part, 2.0 if kind is PatchOperator else 0.0)
-    monkeypatch.setattr(drivers, "LEAST", 0)
+    monkeypatch.setattr(patches, "LEAST", 0)
+    if kind is SinglePlane:
+        monkeypatch.setattr(ListPatches, "tiles", lambda *_: None)
+        monkeypatch.setattr(window, "SUMS", 0.0)  # planes, not lists
     counts = [0]
     apply = kind.apply
 

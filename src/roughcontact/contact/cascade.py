@@ -69,7 +69,7 @@ def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
             padded = xp.concat([padded, edge], axis=axis)
     for axis, factor in enumerate(factors):
         # Slices, not an axis of blocks: a reduction along two numbers takes several times as long.
-        parts = [padded[(slice(None),) * axis + (slice(k, None, factor),)] for k in range(factor)]
+        parts = [padded[(slice(None),) * axis + (slice(k, None, factor), ...)] for k in range(factor)]
         padded = reduce(xp.minimum, parts)
     return padded
 

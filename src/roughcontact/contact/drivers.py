@@ -13,8 +13,8 @@ from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.convolution import Convolution
 from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
-from roughcontact.halfspace.patches import Patches, PatchOperator
-from roughcontact.halfspace.tiles import Tiles, count
+from roughcontact.halfspace.patches import PatchOperator
+from roughcontact.halfspace.tiles import Tiles
 
 __all__ = ["Driver", "Plane", "driver_on", "factorised", "first_product"]
 
@@ -24,7 +24,6 @@ Mask = npt.NDArray[np.bool_]
 FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
 ROUGHLY = 300  # cells, where an answer is but the start of another: against a few products
 LOOSE = 1e-5  # tolerance of such an answer
-LEAST = 60_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
 SINGLE = 4_000  # cells from which on half the numbers are half the work
 SAFE = (
     1e-25  # influences between this and its inverse, and squares of answers, are numbers of single precision
@@ -116,35 +115,42 @@ def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) 
         return previous
     if not _tame(operator):
         return Plane(operator)
-    found = _tiles_of(operator, region)
-    if found is not None:
-        patches, tiles = found
-        patch: PatchOperator = patches.on(tiles)
+    tiles = _tiles_of(operator, region)
+    if tiles is not None:
+        patch: PatchOperator = _patches(operator).on(tiles)
         return patch
     return previous if isinstance(previous, Plane) else _plane(operator)
 
 
-def _tiles_of(operator: Operator, region: Mask) -> tuple[Patches, Tiles] | None:
-    """Return the tiles of a region, and what works on them; None where the whole plane costs less."""
-    patches: Patches | None = getattr(operator, "patches", None)
-    if patches is None or not is_numpy(region) or region.size < LEAST:
-        return None
-    if np.count_nonzero(region) > patches.filled * region.size:
-        return None
-    tiles = Tiles.of(region)
-    few = patches.cover * count(region.shape[0]) * count(region.shape[1])
-    return (patches, tiles) if len(tiles) < few else None
+def _patches(operator: Operator) -> Any:
+    """Return what works on tiles of this operator; None if there is no such thing."""
+    return getattr(operator, "patches", None)
 
 
-def first_product(operator: Operator, pressure: Array) -> tuple[Array, bool]:
-    """Return about the displacement [m] under a first guess of the pressure [Pa], and whether it is exact."""
+def _tiles_of(operator: Operator, region: Mask) -> Tiles | None:
+    """Return the tiles of a region; None where the whole plane costs less."""
+    if not is_numpy(region) or _patches(operator) is None:
+        return None
+    tiles: Tiles | None = _patches(operator).tiles(region)
+    return tiles
+
+
+def first_product(operator: Operator, pressure: Array, driver: Driver | None = None) -> tuple[Array, bool]:
+    """Return about the displacement [m] under a first guess of the pressure [Pa], and whether it is exact.
+
+    A `driver` that has all cells under pressure tells it on its own cells alone.
+    """
     size = largest(pressure)
-    driver = _plane(operator) if size > 0 and _tame(operator) else Plane(operator)
-    # Where tiles will drive, no kernel of single precision is made for the plane.
-    if not driver.gain or _tiles_of(operator, pressure > 0) is not None:
+    if driver is None:
+        driver = _plane(operator) if _tame(operator) else Plane(operator)
+        # Where tiles will drive, no kernel of single precision is made for the plane.
+        if driver.gain and _tiles_of(operator, pressure > 0) is not None:
+            driver = Plane(operator)
+    if not (driver.gain and size > 0):
         return operator.apply(pressure), True
     xp = namespace(pressure)
-    return size * xp.astype(driver.apply(driver.narrow(pressure / size)), xp.float64), False
+    rough = driver.scatter(driver.apply(driver.narrow(driver.gather(pressure / size))))
+    return size * xp.astype(rough, xp.float64), False
 
 
 def _tame(operator: Operator) -> bool:
@@ -159,6 +165,6 @@ def _plane(operator: Operator) -> Plane:
 
 def factorised(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
     """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    if getattr(operator, "patches", None) is None:
+    if _patches(operator) is None:
         return limit
     return min(limit, FACTORISED if tolerance < LOOSE else ROUGHLY)

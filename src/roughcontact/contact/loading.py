@@ -152,11 +152,18 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
         last = Tangent(solution.frozen.tangent, math.inf)  # that of another region: where to start
         yield solution
         if following is not None:
-            guess = _predict(solution, following)
+            advance = _advance(solution, following)
+            if advance is None:
+                guess = None
+            elif not advance:
+                guess = pressure, state.depth
+            else:  # on the window alone: the plane is large
+                moved = state.pressure + advance * frozen.tangent
+                guess = embed(moved, place, shape), state.depth + advance
 
 
-def _predict(solution: Solution, following: Control) -> tuple[Array, float] | None:
-    """Return pressure and depth at the next load if the contact region stayed as it is.
+def _advance(solution: Solution, following: Control) -> float | None:
+    """Return by how much the depth grows to the next load if the contact region stays as it is [m]; None without one.
 
     The force is convex in the depth, so this overestimates the depth at a given force: the window found
     from it is safe.
@@ -165,10 +172,9 @@ def _predict(solution: Solution, following: Control) -> tuple[Array, float] | No
     if k == 0:  # no contact yet
         return None
     if not np.isfinite(k):  # full contact of a periodic surface: only the mean pressure grows
-        return solution.pressure, solution.depth
+        return 0.0
     forced = isinstance(following, Force)
-    advance = (following.value - solution.force) / k if forced else following.value - solution.depth
-    return solution.pressure + advance * solution.frozen.tangent, solution.depth + advance
+    return (following.value - solution.force) / k if forced else following.value - solution.depth
 
 
 def _controls(

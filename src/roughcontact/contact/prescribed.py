@@ -16,14 +16,16 @@ from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.window import bounding_box, embed
-from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.contact.window import Place, bounding_box, embed, take
+from roughcontact.halfspace.operator import Listable, Operator, is_semidefinite
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["Prescribed", "prescribed_displacement"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+
+SMALLER = 0.5  # of the padded cells: a box that is worth a kernel of its own
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,18 +128,41 @@ def prescribe(
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
         raise ValueError("the initial pressure must be finite [Pa]")
-    # On the host, where it costs nothing to find, the bounding box is enough.
-    box = bounding_box(region) if is_numpy(region) else tuple(slice(0, n) for n in region.shape)
-    assert box is not None  # some cell is in the region
-    part = operator.restrict(box)
-    inside, wanted = region[box], target[box]
-    start = None if initial is None else xp.where(region, initial, 0.0)[box]
+    place = _place(operator, region)
+    part, inside, wanted = operator, region, target
+    start = None if initial is None else xp.where(region, initial, 0.0)
+    if place is not None:
+        part = _part(operator, place)
+        inside, wanted = xp.astype(take(region, place), xp.bool), take(target, place)
+        start = None if start is None else take(start, place)
     with one_blas_thread():
         pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
     # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
     work = Measure(part.weights).dot(pressure, wanted + lacking)
-    whole = embed(pressure, box, region.shape)
+    whole = pressure if place is None else embed(pressure, place, region.shape)
     return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
+
+
+def _place(operator: Operator, region: Mask) -> Place | None:
+    """Return where a solve on a region costs least: on its cells, of a list, or in its box; None for the whole."""
+    if not is_numpy(region):  # elsewhere than on the host a box costs a look at every side
+        return None
+    if getattr(operator, "listed", False):
+        return np.flatnonzero(region)
+    box = bounding_box(region)
+    assert box is not None  # some cell is in the region
+    # A box takes a kernel of its own, as dear as two products or three; nothing repeats itself in it.
+    padded = math.prod(2 * (s.stop - s.start) for s in box)
+    whole = math.prod(n if p else 2 * n for n, p in zip(region.shape, operator.grid.periodic, strict=True))
+    return box if padded < SMALLER * whole else None
+
+
+def _part(operator: Operator, place: Place) -> Operator:
+    """Return the operator between the cells of a place."""
+    if isinstance(place, tuple):
+        return operator.restrict(place)
+    assert isinstance(operator, Listable)  # of others no list is made
+    return operator.between(place)
 
 
 def _check(name: str, given: Any, region: Mask) -> None:
@@ -160,8 +185,8 @@ def _solve(
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
     xp, before = namespace(wanted), math.inf
-    driver: Driver | None = None
-    u, exact = first_product(operator, start)
+    driver: Driver = driver_on(operator, region)
+    u, exact = first_product(operator, start, driver)
     while True:
         lacking = xp.where(region, wanted - u, 0.0)
         steps, error = steps + 1, largest(lacking)
@@ -170,9 +195,7 @@ def _solve(
                 return start, lacking, steps
             u, exact = operator.apply(start), True
             continue
-        if driver is None:
-            driver = driver_on(operator, region)
-        elif not error < before / 2:
+        if not error < before / 2:
             if not driver.gain:
                 return start, lacking, steps
             driver = Plane(operator)  # the other has done what it could

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Terms
 from roughcontact.contact.state import Solver, State
 from roughcontact.halfspace.operator import Listable, Operator, is_positive
+from roughcontact.halfspace.tiles import SIDE, Tiles
 
 __all__ = ["Place", "Windows", "bounding_box", "embed", "take"]
 
@@ -28,6 +30,9 @@ Place = Box | npt.NDArray[np.intp]
 # of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), but a new window takes a kernel too: with
 # 0.6, tried by hand, a curve at 256 x 256 took a third longer.
 LOOKUPS = 1.5
+SUMS = (
+    1.5  # in sums of one cell over a tile in machine code: they cost as much each, and all fields are shorter
+)
 
 
 def bounding_box(mask: Mask) -> Box | None:
@@ -42,7 +47,7 @@ def bounding_box(mask: Mask) -> Box | None:
     return tuple(box)
 
 
-def take(field: Array, place: Place) -> Array:
+def take(field: Any, place: Place) -> Any:
     """Return the part of a field at `place`."""
     return field[place] if isinstance(place, tuple) else field.ravel()[place]
 
@@ -110,8 +115,7 @@ class Windows:
     def part(self, place: Place) -> Operator:
         """Return the operator between the cells of `place`."""
         if not isinstance(place, tuple):
-            assert isinstance(self.operator, Listable)  # no list is made of others
-            return self.operator.between(place)
+            return self._between(place)
         shape = tuple(s.stop - s.start for s in place)
         if shape == self.operator.grid.shape:
             return self.operator
@@ -119,19 +123,45 @@ class Windows:
             self._box = (place, self.operator.restrict(place))
         return self._box[1]
 
+    def _between(self, cells: npt.NDArray[np.intp]) -> Operator:
+        """Return the operator between the cells of a list, as part of the box that holds them."""
+        assert isinstance(self.operator, Listable)  # no list is made of others
+        if self.operator.grid.ndim == 1:
+            return self.operator.between(cells)
+        shape = self.operator.grid.shape
+        places = np.unravel_index(cells, shape)
+        box = self._kept(tuple(slice(int(p.min()), int(p.max()) + 1) for p in places))
+        part = self.part(box)
+        assert isinstance(part, Listable)  # as the whole is
+        inside = tuple(p - s.start for p, s in zip(places, box, strict=True))
+        return part.between(np.ravel_multi_index(inside, part.grid.shape))
+
     def _place(self, window: Mask) -> Place:
         """Return the box of a window, or the list of its cells where a direct sum costs less."""
         box = bounding_box(window)
         assert box is not None  # a window holds the lowest separation at least
-        count = int(window[box].sum())
-        padded = np.prod([2 * (s.stop - s.start) for s in box])
-        if isinstance(self.operator, Listable) and count * count / 4 < LOOKUPS * padded:
+        if isinstance(self.operator, Listable) and self._is_short(window[box]):
             return np.flatnonzero(window)
-        roomy = tuple(_roomy(part, n) for part, n in zip(box, window.shape, strict=True))
-        # The last box serves as long as it holds this one and is not much larger: its kernel is at hand.
+        return self._kept(box)
+
+    def _kept(self, box: Box) -> Box:
+        """Return a box with some room: the last as long as it holds this one and is not much larger, or a new one."""
+        shape = self.operator.grid.shape
+        roomy = tuple(_roomy(part, n) for part, n in zip(box, shape, strict=True))
+        # What the last box takes is at hand: its kernel, or its nodes.
         if self._box is not None and _holds(self._box[0], box) and _size(self._box[0]) < 1.3 * _size(roomy):
             return self._box[0]
         return roomy
+
+    def _is_short(self, window: Mask) -> bool:
+        """Whether direct sums over the cells of a window cost less than transforms of its box."""
+        count, padded = int(np.count_nonzero(window)), 2**window.ndim * window.size
+        if count * count / 4 < LOOKUPS * padded:
+            return True
+        # Tile by tile; there is one at least for each SIDE^2 cells.
+        if count / 4 * (count / SIDE**2) > SUMS * padded or getattr(self.operator, "patches", None) is None:
+            return False
+        return bool(count / 4 * len(Tiles.of(window)) < SUMS * padded)
 
 
 def _carrying(measure: Measure, separation: Array, terms: Terms) -> Mask:

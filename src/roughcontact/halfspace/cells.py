@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
+from roughcontact.halfspace.direct_sum import DirectSum
 from roughcontact.halfspace.influence import Tables
+from roughcontact.halfspace.patches import ListPatches, Patches
+from roughcontact.halfspace.tiles import Tiles
+from roughcontact.machine import loader
 
 __all__ = ["CellsOperator"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
+MANY = 50_000  # pairs of cells from which on sums go tile by tile
 BLOCK = 16  # rows of a matrix that are made in one go, so that their offsets stay in cache
 
 
@@ -33,6 +39,8 @@ class CellsOperator:
         Where the cells are.
     positive : bool
         Whether the influence function is nowhere negative.
+    plane : object, optional
+        The operator whose cells they are, for what works on its tiles.
     """
 
     grid: Grid
@@ -40,13 +48,25 @@ class CellsOperator:
     rows: Cells
     columns: Cells
     positive: bool = True
+    plane: Any = None
+    listed: ClassVar[bool] = True
 
     @classmethod
-    def of(cls, grid: Grid, influence: Tables, cells: Cells | None, positive: bool) -> CellsOperator:
+    def of(
+        cls, grid: Grid, influence: Tables, cells: Cells | None, positive: bool, plane: Any = None
+    ) -> CellsOperator:
         """Return the operator between `cells` (flat indices; all without) of a grid of two axes."""
         flat = np.arange(grid.size) if cells is None else cells
         rows, columns = np.divmod(flat, grid.shape[1])
-        return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive)
+        return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive, plane)
+
+    @cached_property
+    def patches(self) -> ListPatches | None:
+        """What works on the tiles of a region; None where nothing of the kind is known."""
+        patches: Patches | None = getattr(self.plane, "patches", None)
+        if patches is None or not len(self.rows):
+            return None
+        return ListPatches(patches, self._tiles, self.influence)
 
     @property
     def weights(self) -> float:
@@ -56,6 +76,8 @@ class CellsOperator:
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
+        if len(loaded) * len(pressure) >= MANY and loader.is_available():
+            return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
         p = pressure[loaded]
         displacement = np.empty(len(pressure))
         for part in self._blocks(len(loaded)):
@@ -75,9 +97,26 @@ class CellsOperator:
         """Return the map between a part of the list."""
         return self._some(np.arange(len(self.rows))[window])
 
+    def between(self, cells: Cells) -> CellsOperator:
+        """Return the map between some cells of the list."""
+        return self._some(cells)
+
     def _some(self, cells: Cells) -> CellsOperator:
-        grid = Grid(max(1, len(cells)), self.grid.spacing)
-        return CellsOperator(grid, self.influence, self.rows[cells], self.columns[cells], self.positive)
+        grid, rows, columns = (
+            Grid(max(1, len(cells)), self.grid.spacing),
+            self.rows[cells],
+            self.columns[cells],
+        )
+        return CellsOperator(grid, self.influence, rows, columns, self.positive, self.plane)
+
+    @cached_property
+    def _tiles(self) -> Tiles:
+        ends = int(self.rows.max()) + 1, int(self.columns.max()) + 1
+        return Tiles.of_list(ends if self.plane is None else self.plane.grid.shape, self.rows, self.columns)
+
+    @cached_property
+    def _sum(self) -> DirectSum:
+        return DirectSum.over(self._tiles, self.influence, "float64")
 
     @cached_property
     def _reach(self) -> tuple[int, int]:

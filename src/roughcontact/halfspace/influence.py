@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -133,6 +133,23 @@ class Periodic:
         """Return None: the cells of `grid`, which lie in a window, need not divide the period."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Table:
+    """A table of the values at offsets from zero up, as part of `whole`, of which `first` columns lie before it."""
+
+    values: Array
+    whole: Array
+    first: int = 0
+    copies: dict[str, npt.NDArray[Any]] = field(default_factory=dict)  # of the whole, in other precisions
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values; no offset is negative."""
+        flat = rows * self.whole.shape[1]
+        flat += columns
+        flat += self.first
+        return np.asarray(self.whole.ravel().take(flat))
+
+
 @dataclass(slots=True, eq=False)
 class Tables:
     """An influence function that keeps its largest table and cuts smaller ones out of it.
@@ -143,19 +160,33 @@ class Tables:
 
     influence: Influence
     limit: tuple[int, ...]
-    _largest: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    _largest: _Table = field(default_factory=lambda: _Table(np.zeros((0, 0)), np.zeros((0, 0))))
     _computed: int = 0  # single values that no table held
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]; a view, not to be written to."""
         if not self._has(shape):
-            spare = 4 if self._largest.size > NEAR * NEAR else math.inf
-            room = tuple(
-                min(end, max(have, n + int(n // spare)))
-                for n, have, end in zip(shape, self._largest.shape, self.limit, strict=True)
-            )
-            self._largest = self.influence.table(room)
-        return self._largest[: shape[0], : shape[1]]
+            table = self.influence.table(self._roomy(shape))
+            self._largest = _Table(table, table)
+        return self._largest.values[: shape[0], : shape[1]]
+
+    def to_both_sides(self, shape: tuple[int, int], precision: str) -> npt.NDArray[Any]:
+        """Return the table [m/Pa] at offsets of rows from zero up and of columns to both sides of the middle one.
+
+        It has room for offsets of up to `shape` cells; beyond the grid it is zero. Not to be written to.
+        """
+        large = self._largest
+        if not large.first or large.whole.shape[0] < shape[0] or large.first < shape[1]:
+            inner = self._roomy((min(shape[0], self.limit[0]), min(shape[1], self.limit[1])))
+            half = self.table(inner)
+            (ny, nx), rows, middle = half.shape, max(shape[0], inner[0]), max(shape[1], inner[1])
+            whole = np.zeros((rows, 2 * middle))
+            whole[:ny, middle : middle + nx] = half
+            whole[:ny, middle - nx + 1 : middle] = half[:, :0:-1]
+            large = self._largest = _Table(whole[:ny, middle : middle + nx], whole, middle)
+        if precision != "float64" and precision not in large.copies:
+            large.copies[precision] = large.whole.astype(precision)
+        return large.copies.get(precision, large.whole)
 
     def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
@@ -166,25 +197,32 @@ class Tables:
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
         if not self._has(needed):
-            if min(self._largest.shape) < NEAR:
+            if min(self._largest.values.shape) < NEAR:
                 self.table(tuple(min(NEAR, end) for end in self.limit))
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
-        table = self._largest  # another thread may put a larger one in its place
-        if all(n <= have for n, have in zip(needed, table.shape, strict=True)):
-            a = a * table.shape[1]
-            a += b
-            return np.asarray(table.ravel().take(a))
+        large = self._largest  # another thread may put a larger one in its place
+        if all(n <= have for n, have in zip(needed, large.values.shape, strict=True)):
+            return large.at(a, b)
         a, b = np.broadcast_arrays(a, b)
-        near = (a < table.shape[0]) & (b < table.shape[1])
+        near = (a < large.values.shape[0]) & (b < large.values.shape[1])
         values = np.empty(a.shape)
-        values[near] = table[a[near], b[near]]
+        values[near] = large.values[a[near], b[near]]
         values[~near] = self.influence.at(a[~near], b[~near])
         return values
 
     def _has(self, shape: tuple[int, ...]) -> bool:
-        return all(n <= have for n, have in zip(shape, self._largest.shape, strict=True))
+        return all(n <= have for n, have in zip(shape, self._largest.values.shape, strict=True))
+
+    def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:
+        """Return the shape of a new table: that and what there is, with room to spare if it is not the first."""
+        large = self._largest.values
+        spare = 4 if large.size > NEAR * NEAR else math.inf
+        return tuple(
+            min(end, max(have, n + int(n // spare)))
+            for n, have, end in zip(shape, large.shape, self.limit, strict=True)
+        )
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return the pressure per displacement wave [Pa/m]."""

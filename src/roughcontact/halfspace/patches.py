@@ -17,23 +17,27 @@ import numpy.typing as npt
 
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence import Love, Periodic
+from roughcontact.halfspace.direct_sum import DirectSum
+from roughcontact.halfspace.influence import Love, Periodic, Tables
 from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.halfspace.near_far import DECAY, FreeSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.tile_inverse import TileInverse
-from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles
+from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles, count
 from roughcontact.machine import loader
 from roughcontact.machine.loader import address, functions
 from roughcontact.threads import spread
 
-__all__ = ["PatchOperator", "Patches", "patches_of"]
+__all__ = ["ListPatches", "PatchOperator", "Patches", "patches_of"]
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 Single = npt.NDArray[Any]  # of single precision
 Pair = tuple[int, int]
 Split = FreeSplit | PeriodicSplit
 
+LEAST = 60_000  # cells of a plane from which on tiles may cost less
+DIRECT = 120  # tiles up to which a direct sum over their cells costs less than one by nodes
 REACH = 3  # tiles: how far the near part of the influence goes
 GROUP = 512  # tiles whose sums one thread adds up at a time
 SMOOTH = 2 / 3  # of the width of what the far part smooths: how far apart nodes may be
@@ -109,7 +113,7 @@ class PatchOperator:
     tiles : Tiles
     weights : float
         Area of a cell [m^2].
-    forward : TileSum
+    forward : TileSum or DirectSum
     inverse : TileInverse
     gain : float
         How far a round of a solve takes an error down; exact products find what it gets wrong.
@@ -117,7 +121,7 @@ class PatchOperator:
 
     tiles: Tiles
     weights: float
-    forward: TileSum
+    forward: TileSum | DirectSum
     inverse: TileInverse
     gain: float = 3e-5
 
@@ -154,7 +158,7 @@ class Patches:
     local_inverse : LocalInverse
         Of the whole plane.
     cover : float
-        Part of the plane's tiles up to which they may cost less than the plane (benchmarks/patches.py).
+        Part of the plane's tiles up to which they may cost less than the plane.
     """
 
     kernel: Love | Periodic
@@ -175,11 +179,22 @@ class Patches:
         fits = not self._periodic or all(n % SIDE == 0 and n >= least for n in self.grid.shape)
         return fits and 0 not in self._step and loader.is_available()
 
+    def tiles(self, region: Mask) -> Tiles | None:
+        """Return the tiles of a region; None where the whole plane costs less (benchmarks/patches.py)."""
+        if region.size < LEAST or np.count_nonzero(region) > self.filled * region.size:
+            return None
+        tiles, (down, across) = Tiles.of(region), (count(n) for n in region.shape)
+        return tiles if len(tiles) < self.cover * down * across else None
+
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""
         nodes, map = Nodes.under(tiles, self._step, self._periodic), tiles.map(REACH, self._periodic)
+        return self.around(TileSum(self._parts, map, nodes), tiles, map)
+
+    def around(self, forward: TileSum | DirectSum, tiles: Tiles, map: TileMap) -> PatchOperator:
+        """Return the operator that sums one way or another."""
         inverse = TileInverse.over(tiles, map, self.local_inverse)
-        return PatchOperator(tiles, self.grid.cell_area, TileSum(self._parts, map, nodes), inverse)
+        return PatchOperator(tiles, self.grid.cell_area, forward, inverse)
 
     @cached_property
     def _parts(self) -> Parts:
@@ -206,6 +221,25 @@ class Patches:
         widest = (SMOOTH * self._reach / DECAY / d for d in self.grid.spacing)
         down, across = (max((s for s in STEPS if s <= w), default=0) for w in widest)
         return down, across
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ListPatches:
+    """The same for a list of cells of a plane, of which all are on the tiles `whole`."""
+
+    plane: Patches
+    whole: Tiles
+    influence: Tables
+
+    def tiles(self, region: Mask) -> Tiles:
+        """Return the tiles of a region of the list: to sum cell by cell would cost more."""
+        return self.whole.those(region)
+
+    def on(self, tiles: Tiles) -> PatchOperator:
+        """Return the operator on some tiles."""
+        if len(tiles) > DIRECT:
+            return self.plane.on(tiles)
+        return self.plane.around(DirectSum.over(tiles, self.influence, "float32"), tiles, tiles.map(1, False))
 
 
 def patches_of(kernel: Love | Periodic, grid: Grid, inverse: LocalInverse | None) -> Patches | None:

@@ -93,7 +93,7 @@ class FreeOperator:
 
     def between(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
-        return CellsOperator.of(self.grid, self.influence, cells, self.positive)
+        return CellsOperator.of(self.grid, self.influence, cells, self.positive, self)
 
     def coarsened(self, grid: Grid) -> FreeOperator | None:
         """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""

@@ -26,13 +26,16 @@ class Tiles:
     ----------
     shape : tuple of int
         Cells of the plane.
+    fields : tuple of int
+        Shape of the fields that tiles are taken from: the plane, or a list of its cells.
     rows, columns : int arrays, shape (n,)
         Where the tiles are, counted in tiles.
     cells : int array, shape (n, SIDE * SIDE)
-        Flat index of each cell in the plane; -1 of one beyond its edge.
+        Flat index of each cell in the fields; -1 of one that is not there.
     """
 
     shape: tuple[int, int]
+    fields: tuple[int, ...]
     rows: Cells
     columns: Cells
     cells: Cells
@@ -50,7 +53,21 @@ class Tiles:
         cells = y[:, :, None] * nx + x[:, None, :]
         beyond = (y >= ny)[:, :, None] | (x >= nx)[:, None, :]
         cells[beyond] = -1
-        return cls((ny, nx), rows, columns, cells.reshape(len(rows), SIDE * SIDE))
+        return cls((ny, nx), (ny, nx), rows, columns, cells.reshape(len(rows), SIDE * SIDE))
+
+    @classmethod
+    def of_list(cls, shape: tuple[int, int], rows: Cells, columns: Cells) -> Tiles:
+        """Return the tiles of a list of cells of a plane, which no cell is in twice."""
+        across = count(shape[1])
+        found, tile = np.unique(rows // SIDE * across + columns // SIDE, return_inverse=True)
+        cells = np.full((len(found), SIDE * SIDE), -1)
+        cells[tile, rows % SIDE * SIDE + columns % SIDE] = np.arange(len(rows))
+        return cls(shape, (len(rows),), *np.divmod(found, across), cells)
+
+    def those(self, region: Mask) -> Tiles:
+        """Return the tiles in which a region, a field like others, has cells."""
+        some = self.gather(region).any(axis=1)
+        return Tiles(self.shape, self.fields, self.rows[some], self.columns[some], self.cells[some])
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -60,12 +77,12 @@ class Tiles:
     @overload
     def gather(self, field: Array) -> Array: ...
     def gather(self, field: Any) -> Any:
-        """Return the values of a field of the plane on the tiles, zero beyond the edge."""
+        """Return the values of a field on the tiles, zero where it has none."""
         return np.where(self.cells >= 0, field.ravel()[self.cells], field.dtype.type(0))
 
     def scatter(self, values: Array) -> Array:
-        """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
-        field = np.zeros(self.shape, dtype=values.dtype)
+        """Return the field that has `values` on the tiles and is zero elsewhere."""
+        field = np.zeros(self.fields, dtype=values.dtype)
         inside = self.cells >= 0
         field.ravel()[self.cells[inside]] = values[inside]
         return field

@@ -15,6 +15,7 @@ __all__ = ["KINDS", "write"]
 
 KINDS = {
     "list_cells": "index reals indices indices reals",
+    "sum_all": "indices index indices indices indices indices reals reals index reals",
     "add_near": "index index indices index indices index index indices indices reals reals reals",
     "near_on_tiles": "index index indices index indices reals reals reals reals",
     "sum_blocks_of_tiles": "index indices index index reals reals",
@@ -26,6 +27,7 @@ WIDE = SIDE * SIDE  # of the kernel of near sums
 def write(module: Any, precision: str) -> None:
     """Write all of them."""
     _list_cells(module, precision)
+    _sum_all(module, precision)
     _add_near(module, precision)
     _near(module, precision)
     _blocks(module, precision)
@@ -52,6 +54,36 @@ def _list_cells(module: Any, precision: str) -> None:
                         values.put(count.get(), value)
                         count.set(count.get() + code.choose(value.is_not_zero(), 1, 0))
         starts.put(tiles, count.get())
+
+
+def _sum_all(module: Any, precision: str) -> None:
+    """Sum in each tile over the cells of all tiles.
+
+    Parameters: counters for one phase, see `Code.shared`; how many tiles, and where they are, counted in tiles; the
+    list of cells that are not zero, as above; the kernel at offsets of rows from zero up, and of columns to both sides
+    of its middle; how long its rows are; and the sums.
+    """
+    with Code(module, "sum_all", precision, KINDS["sum_all"]) as code:
+        counters, tiles, rows, columns, starts, shifts, values, kernel, wide, sums = code.arguments
+        steps = {sign: [wide * (sign * v) for v in range(SIDE)] for sign in (-1, 1)}
+        for tile in code.shared(counters, 0, tiles):
+            totals = [[code.variable(code.zero()) for _ in _lanes(code)] for _ in range(SIDE)]
+            for source in code.range(0, tiles):
+                down = (rows[tile] - rows[source]) * SIDE
+                across = wide // 2 + (columns[tile] - columns[source]) * SIDE
+                for sign, met in ((-1, down <= -1), (0, down.equals(0)), (1, -down <= -1)):
+                    with code.when(met):
+                        for k in code.range(starts[source], starts[source + 1]):
+                            y, value = shifts[k] // WIDE, values.take_for_all(k)
+                            first = across + y * WIDE - shifts[k]
+                            start = first + (down - y) * wide * sign
+                            for v, row in enumerate(totals):
+                                at = start + steps[sign][v] if sign else first + (y - v).size() * wide
+                                for total, x in zip(row, _lanes(code), strict=True):
+                                    total.set(total.get() + kernel.take(at + x) * value)
+            for v, row in enumerate(totals):
+                for total, x in zip(row, _lanes(code), strict=True):
+                    sums.put((tile * SIDE + v) * SIDE + x, total.get())
 
 
 def _add_near(module: Any, precision: str) -> None:

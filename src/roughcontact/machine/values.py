@@ -105,6 +105,13 @@ class Index:
         """Return the condition that two whole numbers are the same."""
         return self.builder.icmp_signed("==", self.value, self._with(other))
 
+    def __neg__(self) -> Index:
+        return Index(self.builder.neg(self.value), self.builder)
+
+    def size(self) -> Index:
+        """Return the number without its sign."""
+        return Index(self.builder.select(self <= -1, (-self).value, self.value), self.builder)
+
     def smaller(self, other: Index) -> Index:
         """Return the smaller of two whole numbers."""
         return Index(self.builder.select(self <= other, self.value, other.value), self.builder)
