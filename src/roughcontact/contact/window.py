@@ -30,9 +30,8 @@ Place = Box | npt.NDArray[np.intp]
 # of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), but a new window takes a kernel too: with
 # 0.6, tried by hand, a curve at 256 x 256 took a third longer.
 LOOKUPS = 1.5
-SUMS = (
-    1.5  # in sums of one cell over a tile in machine code: they cost as much each, and all fields are shorter
-)
+FILLED = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
+LARGE = 2**21  # cells of a box from which on each pass over it is worth sparing
 
 
 def bounding_box(mask: Mask) -> Box | None:
@@ -100,17 +99,12 @@ class Windows:
             state = run_certified(
                 solver, self.part(place), take(separation, place), terms, take(pressure, place)
             )
-            inside = np.zeros(window.shape, dtype=bool)
-            if isinstance(place, tuple):
-                inside[place] = True
-            else:
-                inside.ravel()[place] = True
-            beyond = (separation < state.depth) & ~inside
             steps += state.steps
-            if not beyond.any():
+            overlap = separation < state.depth
+            if np.count_nonzero(overlap) == np.count_nonzero(take(overlap, place)):
                 return replace(state, steps=steps), place
             pressure = embed(state.pressure, place, separation.shape)
-            window |= beyond
+            window |= overlap
 
     def part(self, place: Place) -> Operator:
         """Return the operator between the cells of `place`."""
@@ -154,14 +148,19 @@ class Windows:
         return roomy
 
     def _is_short(self, window: Mask) -> bool:
-        """Whether direct sums over the cells of a window cost less than transforms of its box."""
+        """Whether a list of the cells of a window costs less than its box."""
         count, padded = int(np.count_nonzero(window)), 2**window.ndim * window.size
         if count * count / 4 < LOOKUPS * padded:
             return True
-        # Tile by tile; there is one at least for each SIDE^2 cells.
-        if count / 4 * (count / SIDE**2) > SUMS * padded or getattr(self.operator, "patches", None) is None:
+        if count > FILLED * window.size or getattr(self.operator, "patches", None) is None:
             return False
-        return bool(count / 4 * len(Tiles.of(window)) < SUMS * padded)
+        if (
+            window.size > LARGE
+        ):  # tiles drive, products go by the box if need be, and all else follows the list
+            return True
+        # Tile by tile; there is one at least for each SIDE^2 cells.
+        few = count / SIDE**2 * count / 4 < padded
+        return few and bool(len(Tiles.of(window)) * count / 4 < padded)
 
 
 def _carrying(measure: Measure, separation: Array, terms: Terms) -> Mask:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -22,6 +23,7 @@ Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 MANY = 50_000  # pairs of cells from which on sums go tile by tile
+SUMS = 4.0  # over a tile for each cell, and cell of the plane: more cost more than its product
 BLOCK = 16  # rows of a matrix that are made in one go, so that their offsets stay in cache
 
 
@@ -76,12 +78,25 @@ class CellsOperator:
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
-        if len(loaded) * len(pressure) >= MANY and loader.is_available():
-            return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
+        if len(loaded) * len(pressure) < MANY or not loader.is_available():
+            return self._by_cells(pressure, loaded)
+        if self.plane is not None and len(loaded) * len(self._tiles) > SUMS * math.prod(
+            self.plane.grid.shape
+        ):
+            return self._by_the_plane(pressure, loaded)
+        return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
+
+    def _by_cells(self, pressure: Array, loaded: Cells) -> Array:
         p = pressure[loaded]
         displacement = np.empty(len(pressure))
         for part in self._blocks(len(loaded)):
             displacement[part] = self._influences(part, loaded) @ p
+        return displacement
+
+    def _by_the_plane(self, pressure: Array, loaded: Cells) -> Array:
+        field = np.zeros(self.plane.grid.shape)
+        field[self.rows[loaded], self.columns[loaded]] = pressure[loaded]
+        displacement: Array = self.plane.apply(field)[self.rows, self.columns]
         return displacement
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
