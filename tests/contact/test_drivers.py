@@ -51,7 +51,7 @@ def used(request, monkeypatch):
     monkeypatch.setattr(patches, "LEAST", 0)
     if kind is SinglePlane:
         monkeypatch.setattr(ListPatches, "tiles", lambda *_: None)
-        monkeypatch.setattr(window, "SUMS", 0.0)  # planes, not lists
+        monkeypatch.setattr(window, "FILLED", 0.0)  # planes, not lists
     counts = [0]
     apply = kind.apply
 

@@ -75,6 +75,7 @@ class Windows:
 
     operator: Operator
     _box: tuple[Box, Operator] | None = field(default=None)
+    _list: tuple[npt.NDArray[np.intp], Operator] | None = field(default=None)
 
     def solve(
         self,
@@ -109,7 +110,9 @@ class Windows:
     def part(self, place: Place) -> Operator:
         """Return the operator between the cells of `place`."""
         if not isinstance(place, tuple):
-            return self._between(place)
+            if self._list is None or self._list[0] is not place:
+                self._list = (place, self._between(place))
+            return self._list[1]
         shape = tuple(s.stop - s.start for s in place)
         if shape == self.operator.grid.shape:
             return self.operator
@@ -118,7 +121,7 @@ class Windows:
         return self._box[1]
 
     def _between(self, cells: npt.NDArray[np.intp]) -> Operator:
-        """Return the operator between the cells of a list, as part of the box that holds them."""
+        """Return the operator between the cells of a list, as part of the box that holds them, which is kept."""
         assert isinstance(self.operator, Listable)  # no list is made of others
         if self.operator.grid.ndim == 1:
             return self.operator.between(cells)
@@ -154,9 +157,8 @@ class Windows:
             return True
         if count > FILLED * window.size or getattr(self.operator, "patches", None) is None:
             return False
-        if (
-            window.size > LARGE
-        ):  # tiles drive, products go by the box if need be, and all else follows the list
+        # Tiles drive, products go by the box if need be, and all else follows the list.
+        if window.size > LARGE:
             return True
         # Tile by tile; there is one at least for each SIDE^2 cells.
         few = count / SIDE**2 * count / 4 < padded

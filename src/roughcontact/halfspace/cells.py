@@ -23,6 +23,7 @@ Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 MANY = 50_000  # pairs of cells from which on sums go tile by tile
+TABLE = 1.0  # pairs for each cell of a table that is not at hand
 SUMS = 4.0  # over a tile for each cell, and cell of the plane: more cost more than its product
 BLOCK = 16  # rows of a matrix that are made in one go, so that their offsets stay in cache
 
@@ -78,7 +79,9 @@ class CellsOperator:
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
-        if len(loaded) * len(pressure) < MANY or not loader.is_available():
+        pairs = len(loaded) * len(pressure)
+        table = 0.0 if self.influence.has(self._reach) else TABLE * math.prod(self._reach)
+        if pairs < max(MANY, table) or not loader.is_available():
             return self._by_cells(pressure, loaded)
         if self.plane is not None and len(loaded) * len(self._tiles) > SUMS * math.prod(
             self.plane.grid.shape

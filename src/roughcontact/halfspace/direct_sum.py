@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.halfspace.influence import Tables
-from roughcontact.halfspace.tiles import SIDE, Tiles
+from roughcontact.halfspace.tiles import Tiles
 from roughcontact.machine.layout import APART
 from roughcontact.machine.loader import address, functions
 from roughcontact.threads import join_in, threads
@@ -43,9 +43,8 @@ class DirectSum:
     @classmethod
     def over(cls, tiles: Tiles, influence: Tables, precision: str) -> DirectSum:
         """Return the sum between the cells of tiles; there is one at least."""
-        down, across = (int(np.ptp(places) + 1) * SIDE for places in (tiles.rows, tiles.columns))
         rows, columns = (np.ascontiguousarray(places, np.int64) for places in (tiles.rows, tiles.columns))
-        return cls(rows, columns, influence.to_both_sides((down, across), precision))
+        return cls(rows, columns, influence.to_both_sides(tiles.extent, precision))
 
     def apply(self, pressure: Field) -> Field:
         """Return the displacement [m] under `pressure` [Pa]."""

@@ -144,8 +144,7 @@ class _Table:
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values; no offset is negative."""
-        flat = rows * self.whole.shape[1]
-        flat += columns
+        flat = rows * self.whole.shape[1] + columns
         flat += self.first
         return np.asarray(self.whole.ravel().take(flat))
 
@@ -165,7 +164,7 @@ class Tables:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]; a view, not to be written to."""
-        if not self._has(shape):
+        if not self.has(shape):
             table = self.influence.table(self._roomy(shape))
             self._largest = _Table(table, table)
         return self._largest.values[: shape[0], : shape[1]]
@@ -175,18 +174,23 @@ class Tables:
 
         It has room for offsets of up to `shape` cells; beyond the grid it is zero. Not to be written to.
         """
-        large = self._largest
-        if not large.first or large.whole.shape[0] < shape[0] or large.first < shape[1]:
-            inner = self._roomy((min(shape[0], self.limit[0]), min(shape[1], self.limit[1])))
-            half = self.table(inner)
-            (ny, nx), rows, middle = half.shape, max(shape[0], inner[0]), max(shape[1], inner[1])
+        if not self.covers(shape):
+            self.table((min(shape[0], self.limit[0]), min(shape[1], self.limit[1])))
+            half = self._largest.values
+            (ny, nx), rows, middle = half.shape, max(shape[0], half.shape[0]), max(shape[1], half.shape[1])
             whole = np.zeros((rows, 2 * middle))
             whole[:ny, middle : middle + nx] = half
             whole[:ny, middle - nx + 1 : middle] = half[:, :0:-1]
-            large = self._largest = _Table(whole[:ny, middle : middle + nx], whole, middle)
+            self._largest = _Table(whole[:ny, middle : middle + nx], whole, middle)
+        large = self._largest
         if precision != "float64" and precision not in large.copies:
             large.copies[precision] = large.whole.astype(precision)
         return large.copies.get(precision, large.whole)
+
+    def covers(self, shape: tuple[int, int]) -> bool:
+        """Whether a table to both sides of this shape is at hand."""
+        large = self._largest
+        return 0 < large.first >= shape[1] and large.whole.shape[0] >= shape[0]
 
     def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
@@ -196,7 +200,7 @@ class Tables:
         """
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
-        if not self._has(needed):
+        if not self.has(needed):
             if min(self._largest.values.shape) < NEAR:
                 self.table(tuple(min(NEAR, end) for end in self.limit))
             self._computed += np.broadcast(a, b).size
@@ -212,7 +216,8 @@ class Tables:
         values[~near] = self.influence.at(a[~near], b[~near])
         return values
 
-    def _has(self, shape: tuple[int, ...]) -> bool:
+    def has(self, shape: tuple[int, ...]) -> bool:
+        """Whether a table of this shape is at hand."""
         return all(n <= have for n, have in zip(shape, self._largest.values.shape, strict=True))
 
     def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:

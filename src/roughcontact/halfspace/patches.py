@@ -237,7 +237,7 @@ class ListPatches:
 
     def on(self, tiles: Tiles) -> PatchOperator:
         """Return the operator on some tiles."""
-        if len(tiles) > DIRECT:
+        if len(tiles) > DIRECT or not self.influence.covers(tiles.extent):
             return self.plane.on(tiles)
         return self.plane.around(DirectSum.over(tiles, self.influence, "float32"), tiles, tiles.map(1, False))
 

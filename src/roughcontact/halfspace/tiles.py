@@ -64,6 +64,12 @@ class Tiles:
         cells[tile, rows % SIDE * SIDE + columns % SIDE] = np.arange(len(rows))
         return cls(shape, (len(rows),), *np.divmod(found, across), cells)
 
+    @property
+    def extent(self) -> tuple[int, int]:
+        """Cells from the first row and column of tiles to the last; there is one tile at least."""
+        down, across = (int(np.ptp(places) + 1) * SIDE for places in (self.rows, self.columns))
+        return down, across
+
     def those(self, region: Mask) -> Tiles:
         """Return the tiles in which a region, a field like others, has cells."""
         some = self.gather(region).any(axis=1)
