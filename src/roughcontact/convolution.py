@@ -65,10 +65,11 @@ class Convolution:
 
     def _kernel(self) -> Array:
         """Return the multiplier, from what was made of it in double precision if that is all there is."""
-        if self._multiplier is not None:
-            return self._multiplier
+        multiplier = self._multiplier  # another thread may let go of it meanwhile
+        if multiplier is not None:
+            return multiplier
         found: Array = next(
-            ready.kernel() for (_, dtype), ready in self._ready.items() if dtype == np.float64
+            ready.kernel() for (_, dtype), ready in list(self._ready.items()) if dtype == np.float64
         )
         return found
 

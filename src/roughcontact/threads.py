@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
@@ -67,11 +67,12 @@ def spread(work: Callable[[T], None], items: Sequence[T]) -> None:
 def join_in(work: Callable[[int], None], count: int) -> None:
     """Have several threads, numbered from 0, join in some work, of which each takes what is left.
 
-    The first is this one: it could do all alone, and returns when all is done. It waits for no other to come, or to
-    find that nothing is left: `work` must hold what they look at.
+    The first is this one: it could do all alone, and when it returns all is done. It waits for no other to come, or to
+    find that nothing is left: `work` must hold what they look at. If it is interrupted, others may still be at work.
     """
-    others = [_pool().submit(work, k) for k in range(1, count)]
+    others: list[Future[None]] = []
     try:
+        others.extend(_pool().submit(work, k) for k in range(1, count))
         work(0)
     finally:
         for other in others:

@@ -133,7 +133,7 @@ def prescribe(
     start = None if initial is None else xp.where(region, initial, 0.0)
     if place is not None:
         part = _part(operator, place)
-        inside, wanted = xp.astype(take(region, place), xp.bool), take(target, place)
+        inside, wanted = take(region, place), take(target, place)
         start = None if start is None else take(start, place)
     with one_blas_thread():
         pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
@@ -181,12 +181,16 @@ def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, Array, int]:
     """Return pressure, the displacement that is lacking by a fresh product [m], and the number of products."""
-    steps = 0
+    steps, given = 0, start is not None
     if start is None:
         start, steps = _first(operator, region, wanted, limit, max_steps)
     xp, before = namespace(wanted), math.inf
-    driver: Driver = driver_on(operator, region)
-    u, exact = first_product(operator, start, driver)
+    driver: Driver | None = None
+    if given or steps:
+        driver = driver_on(operator, region)
+        u, exact = first_product(operator, start, driver)
+    else:  # nothing, or the answer itself
+        u, exact = operator.apply(start), True
     while True:
         lacking = xp.where(region, wanted - u, 0.0)
         steps, error = steps + 1, largest(lacking)
@@ -195,7 +199,9 @@ def _solve(
                 return start, lacking, steps
             u, exact = operator.apply(start), True
             continue
-        if not error < before / 2:
+        if driver is None:
+            driver = driver_on(operator, region)
+        elif not error < before / 2:
             if not driver.gain:
                 return start, lacking, steps
             driver = Plane(operator)  # the other has done what it could

@@ -83,9 +83,8 @@ class CellsOperator:
         table = 0.0 if self.influence.has(self._reach) else TABLE * math.prod(self._reach)
         if pairs < max(MANY, table) or not loader.is_available():
             return self._by_cells(pressure, loaded)
-        if self.plane is not None and len(loaded) * len(self._tiles) > SUMS * math.prod(
-            self.plane.grid.shape
-        ):
+        sums = (len(loaded) + len(self._tiles)) * len(self._tiles)  # a tile without load is looked at too
+        if self.plane is not None and sums > SUMS * math.prod(self.plane.grid.shape):
             return self._by_the_plane(pressure, loaded)
         return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
 

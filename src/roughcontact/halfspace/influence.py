@@ -142,6 +142,10 @@ class _Table:
     first: int = 0
     copies: dict[str, npt.NDArray[Any]] = field(default_factory=dict)  # of the whole, in other precisions
 
+    def covers(self, shape: tuple[int, int]) -> bool:
+        """Whether it has room to both sides for offsets of up to so many cells."""
+        return 0 < self.first >= shape[1] and self.whole.shape[0] >= shape[0]
+
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values; no offset is negative."""
         flat = rows * self.whole.shape[1] + columns
@@ -164,33 +168,37 @@ class Tables:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]; a view, not to be written to."""
-        if not self.has(shape):
+        large = self._largest  # another thread may put another in its place
+        if not _holds(large.values.shape, shape):
             table = self.influence.table(self._roomy(shape))
-            self._largest = _Table(table, table)
-        return self._largest.values[: shape[0], : shape[1]]
+            large = self._largest = _Table(table, table)
+        return large.values[: shape[0], : shape[1]]
 
     def to_both_sides(self, shape: tuple[int, int], precision: str) -> npt.NDArray[Any]:
         """Return the table [m/Pa] at offsets of rows from zero up and of columns to both sides of the middle one.
 
         It has room for offsets of up to `shape` cells; beyond the grid it is zero. Not to be written to.
         """
-        if not self.covers(shape):
-            self.table((min(shape[0], self.limit[0]), min(shape[1], self.limit[1])))
-            half = self._largest.values
+        large = self._largest
+        if not large.covers(shape):
+            inner = min(shape[0], self.limit[0]), min(shape[1], self.limit[1])
+            half = (
+                large.values
+                if _holds(large.values.shape, inner)
+                else self.influence.table(self._roomy(inner))
+            )
             (ny, nx), rows, middle = half.shape, max(shape[0], half.shape[0]), max(shape[1], half.shape[1])
             whole = np.zeros((rows, 2 * middle))
             whole[:ny, middle : middle + nx] = half
             whole[:ny, middle - nx + 1 : middle] = half[:, :0:-1]
-            self._largest = _Table(whole[:ny, middle : middle + nx], whole, middle)
-        large = self._largest
+            large = self._largest = _Table(whole[:ny, middle : middle + nx], whole, middle)
         if precision != "float64" and precision not in large.copies:
             large.copies[precision] = large.whole.astype(precision)
         return large.copies.get(precision, large.whole)
 
     def covers(self, shape: tuple[int, int]) -> bool:
         """Whether a table to both sides of this shape is at hand."""
-        large = self._largest
-        return 0 < large.first >= shape[1] and large.whole.shape[0] >= shape[0]
+        return self._largest.covers(shape)
 
     def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
@@ -218,7 +226,7 @@ class Tables:
 
     def has(self, shape: tuple[int, ...]) -> bool:
         """Whether a table of this shape is at hand."""
-        return all(n <= have for n, have in zip(shape, self._largest.values.shape, strict=True))
+        return _holds(self._largest.values.shape, shape)
 
     def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:
         """Return the shape of a new table: that and what there is, with room to spare if it is not the first."""
@@ -237,6 +245,10 @@ class Tables:
         """Return the influence function of the same body on the cells of `grid`; None if there is none."""
         coarse = self.influence.coarsened(grid)
         return None if coarse is None else Tables(coarse, grid.shape)
+
+
+def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
+    return all(n <= have for n, have in zip(small, large, strict=True))
 
 
 def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:

@@ -40,7 +40,9 @@ def love(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
     array
         Values [m], accurate to 1e-12 relative at any offset and any ratio of the sides.
     """
-    a, b = np.abs(np.asarray(x, float)), np.abs(np.asarray(y, float))
+    unit = max(dx, dy)
+    a, b = np.abs(np.asarray(x, float)) / unit, np.abs(np.asarray(y, float)) / unit
+    dx, dy = dx / unit, dy / unit
     if dy > dx:  # the shorter side is called y, and the offset along it b, from here on
         a, b, dx, dy = b, a, dy, dx
     value, close = _expansion(a, b, dx, dy)
@@ -51,6 +53,7 @@ def love(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
         inner[near] = _closed(a[near], b[near], dx, dy)
         inner[~near] = _across(a[~near], b[~near], dx, dy)
         value[close] = inner
+    value *= unit
     return value
 
 

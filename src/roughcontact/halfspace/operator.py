@@ -47,9 +47,9 @@ class Operator(Protocol):
     constant pressure moves nothing.
 
     What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`,
-    `local_inverse`, `keeps_precision`, `quick`, `patches`. Each makes solves faster and none changes an answer. One
-    whose sum is not exact has the `exact` one, by which answers are certified. One that is not a half-space under a
-    surface says so by its `geometry`, on which the units of the answers hang.
+    `local_inverse`, `keeps_precision`, `quick`, `patches`, `listed`. Each makes solves faster and none changes an
+    answer. One whose sum is not exact has the `exact` one, by which answers are certified. One that is not a half-space
+    under a surface says so by its `geometry`, on which the units of the answers hang.
     """
 
     @property
@@ -119,7 +119,7 @@ class Listable(Protocol):
     """An operator that can state itself between a list of its cells, at a cost that follows the list."""
 
     def between(self, cells: npt.NDArray[np.intp]) -> Operator:
-        """Return the map between `cells` (flat indices), with no pressure elsewhere; fields have one axis."""
+        """Return the map between `cells` (flat indices, none twice), with no pressure elsewhere; fields are lists."""
         ...
 
 

@@ -30,7 +30,6 @@ from roughcontact.threads import spread
 
 __all__ = ["ListPatches", "PatchOperator", "Patches", "patches_of"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 Single = npt.NDArray[Any]  # of single precision
 Pair = tuple[int, int]
@@ -90,13 +89,15 @@ class TileSum:
         sums = np.ascontiguousarray(self.nodes.gather(waves))
         starts, shifts = np.empty(size + 1, np.int64), np.empty(given.size + 1, np.int64)
         some = np.empty(given.size + 1, np.float32)
-        cells = address(starts), address(shifts), address(some)
-        code["list_cells"](size, address(given), *cells)
-        where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places), size, REACH
-        kernel, total = address(self.parts.near), address(sums)
+        code["list_cells"](size, address(given), address(starts), address(shifts), address(some))
+        numbers, places = self.map.numbers, self.map.places
 
         def add_near(start: int) -> None:
-            code["add_near"](start, min(start + GROUP, size), *where, *cells, kernel, total)
+            # With arrays, not their addresses: they live as long as anyone works on them.
+            code["add_near"](
+                start, min(start + GROUP, size), address(numbers), numbers.shape[1], address(places), size, REACH,
+                address(starts), address(shifts), address(some), address(self.parts.near), address(sums),
+            )  # fmt: skip
 
         spread(add_near, range(0, size, GROUP))
         return sums

@@ -58,19 +58,22 @@ class TileInverse:
         field[:size] = displacement
         pressure = np.empty(displacement.shape, dtype=np.float32)
         weights = self.local.near.astype(np.float32)
-        given, found = address(field), address(pressure)
-        where = address(self.map.numbers), self.map.numbers.shape[1], address(self.map.places)
+        numbers, places = self.map.numbers, self.map.places
 
         def near(start: int) -> None:
             room = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
             end = min(start + GROUP, size)
-            code["near_on_tiles"](start, end, *where, given, found, address(weights), address(room))
+            # With arrays, not their addresses: they live as long as anyone works on them.
+            code["near_on_tiles"](
+                start, end, address(numbers), numbers.shape[1], address(places),
+                address(field), address(pressure), address(weights), address(room),
+            )  # fmt: skip
 
         spread(near, range(0, size, GROUP))
         if self.local.far is not None:
             blocks: Single = np.zeros(self.shape, dtype=np.float32)
             all_ = size, address(self.places), self.shape[1], BLOCK
-            code["sum_blocks_of_tiles"](*all_, given, address(blocks))
+            code["sum_blocks_of_tiles"](*all_, address(field), address(blocks))
             far = np.ascontiguousarray(self.local.far.apply(blocks))
-            code["add_blocks_to_tiles"](*all_, found, address(far))
+            code["add_blocks_to_tiles"](*all_, address(pressure), address(far))
         return pressure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.machine.layout import REACH, WIDTH
 from roughcontact.machine.loader import address, functions
-from roughcontact.threads import limit_threads, spread, threads
+from roughcontact.threads import spread
 
 __all__ = ["Region", "add_blocks", "lower", "near", "sum_blocks", "take_in", "with_margins"]
 
@@ -42,20 +43,16 @@ class Region:
         """Run a function over these cells, and return so many sums for each part of them."""
         run, size = self._code[name], len(self._groups)
         parts = max(1, -(-size // PART))
-        sums, groups = np.zeros((parts, count)), address(self._groups)
-        given = [address(a) if isinstance(a, np.ndarray) else a for a in arguments]
-        if parts == 1:
-            out = (address(sums),) if count else ()
-            run(groups, 0, size, self._whole, self.inside.size, *given, *out)
-            return sums
+        sums, groups = np.zeros((parts, count)), self._groups
 
         def part(k: int) -> None:
+            # With arrays, not their addresses: they live as long as anyone works on them.
+            given = [address(a) if isinstance(a, np.ndarray) else a for a in arguments]
             last = k == parts - 1
             ends = k * PART, min((k + 1) * PART, size), self._whole, self.inside.size if last else self._whole
-            run(groups, *ends, *given, *((address(sums[k]),) if count else ()))
+            run(address(groups), *ends, *given, *((address(sums[k]),) if count else ()))
 
-        with limit_threads(threads() if parts >= SEVERAL else 1):
-            spread(part, range(parts))
+        _all(part, range(parts))
         return sums
 
 
@@ -63,17 +60,20 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
     run, lanes = functions("passes", r.dtype.name)["lower"], WIDTH // r.itemsize
     size = PART * lanes
-    first, second = address(r), address(v)
-    if r.size <= size:
-        run(r.size, first, second, alpha, mean)
-        return
 
     def part(start: int) -> None:
         offset = start * r.itemsize
-        run(min(size, r.size - start), first + offset, second + offset, alpha, mean)
+        run(min(size, r.size - start), address(r) + offset, address(v) + offset, alpha, mean)
 
-    starts = range(0, r.size, size)
-    with limit_threads(threads() if len(starts) >= SEVERAL else 1):
+    _all(part, range(0, r.size, size))
+
+
+def _all(part: Callable[[int], None], starts: Sequence[int]) -> None:
+    """Do all parts, on several threads if they are many."""
+    if len(starts) < SEVERAL:
+        for start in starts:
+            part(start)
+    else:
         spread(part, starts)
 
 

@@ -30,14 +30,15 @@ def room_for(numbers: int, precision: str) -> Iterator[npt.NDArray[Any]]:
     needed = numbers * np.dtype(precision).itemsize
     room = _take(needed + LINE)
     start = -address(room) % LINE
-    try:
-        yield room[start : start + needed].view(precision)
-    finally:
-        if room.nbytes <= MOST and not _kept:
-            _kept.append(room)
+    yield room[start : start + needed].view(precision)
+    # After a failure others may still be at work in it: then it is left to them.
+    if room.nbytes <= MOST and not _kept:
+        _kept.append(room)
 
 
 def _take(size: int) -> Bytes:
+    if size > MOST:
+        return np.empty(size, np.uint8)
     try:
         room = _kept.pop()
     except IndexError:
