@@ -27,7 +27,7 @@ Place = Box | npt.NDArray[np.intp]
 
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
 # is a quarter of the overlap) costs less than a transform of the padded box: in look-ups of the influence table a cell
-# of the padded box. Transforms cost 0.4 to 0.9 (benchmarks/transforms.py), but a new window takes a kernel too: with
+# of the padded box. Transforms cost 0.3 to 0.7 (benchmarks/transforms.py), but a new window takes a kernel too: with
 # 0.6, tried by hand, a curve at 256 x 256 took a third longer.
 LOOKUPS = 1.5
 FILLED = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
