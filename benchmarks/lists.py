@@ -10,10 +10,9 @@ this file.
 from __future__ import annotations
 
 import sys
-import time
-from collections.abc import Callable
 
 import numpy as np
+from transforms import best
 
 import roughcontact as rc
 from roughcontact.contact.window import bounding_box
@@ -24,17 +23,6 @@ from roughcontact.threads import one_blas_thread
 SIZES = (512, 1024, 2048)
 RMS = 0.01
 FORCES = (0.001, 0.003, 0.01, 0.03, 0.07)  # over E* h L
-
-
-def least(work: Callable[[], object], times: int = 7) -> float:
-    """Return the least time of some runs [ms]; the first is not counted."""
-    work()
-    found = []
-    for _ in range(times):
-        start = time.perf_counter()
-        work()
-        found.append(time.perf_counter() - start)
-    return 1e3 * min(found)
 
 
 def line(solution: rc.Solution) -> str:
@@ -49,8 +37,8 @@ def line(solution: rc.Solution) -> str:
     assert isinstance(listed, CellsOperator)
     given, loaded = pressure.ravel()[cells], np.flatnonzero(pressure.ravel()[cells])
     tiles = len(Tiles.of(overlap))
-    by_tiles = least(lambda: listed._tiles.scatter(listed._sum.apply(listed._tiles.gather(given))))
-    by_plane = least(lambda: listed._by_the_plane(given, loaded))
+    by_tiles = best(lambda: listed._tiles.scatter(listed._sum.apply(listed._tiles.gather(given))))
+    by_plane = best(lambda: listed._by_the_plane(given, loaded))
     pairs = len(loaded) * tiles / pressure.size
     return (
         f"{len(loaded)} | {len(cells)} | {tiles} | {pressure.shape[0]} x {pressure.shape[1]} | {pairs:.2g} | "

@@ -41,12 +41,11 @@ STUCK = 3  # rounds without progress after which only exact products are trusted
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    Regions of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the
-    tolerance is loose) are solved by a factorisation,
-    larger ones by conjugate gradients in single precision, on the tiles that they touch where that costs less, just as
-    far as the present guess of the region deserves; products in double precision certify. For the half-space the
-    influence matrix is an inverse M-matrix and the flipping ends; for others nothing proves it, so that a run without
-    progress is handed to Polonsky and Keer's method.
+    Regions of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the tolerance is
+    loose) are solved by a factorisation, larger ones by conjugate gradients in single precision, on the tiles that
+    they touch where that costs less, just as far as the present guess of the region deserves; products in double
+    precision certify. For the half-space the influence matrix is an inverse M-matrix and the flipping ends; for
+    others nothing proves it, so that a run without progress is handed to Polonsky and Keer's method.
     """
 
     max_steps: int = 5000

@@ -31,7 +31,7 @@ Place = Box | npt.NDArray[np.intp]
 # 0.6, tried by hand, a curve at 256 x 256 took a third longer.
 LOOKUPS = 1.5
 FILLED = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
-LARGE = 2**21  # cells of a box from which on each pass over it is worth sparing
+LARGE = 2**21  # cells of a box from which on each pass over it is worth sparing (both tried by hand)
 
 
 def bounding_box(mask: Mask) -> Box | None:

@@ -103,7 +103,7 @@ class CellsOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` of the list (all without)."""
-        some = self if cells is None else self._some(cells)
+        some = self if cells is None else self.between(cells)
         matrix = np.empty((len(some.rows), len(some.rows)))
         everything = slice(None)
         for part in some._blocks(len(some.rows)):
@@ -112,18 +112,12 @@ class CellsOperator:
 
     def restrict(self, window: tuple[slice, ...]) -> CellsOperator:
         """Return the map between a part of the list."""
-        return self._some(np.arange(len(self.rows))[window])
+        return self.between(np.arange(len(self.rows))[window])
 
     def between(self, cells: Cells) -> CellsOperator:
         """Return the map between some cells of the list."""
-        return self._some(cells)
-
-    def _some(self, cells: Cells) -> CellsOperator:
-        grid, rows, columns = (
-            Grid(max(1, len(cells)), self.grid.spacing),
-            self.rows[cells],
-            self.columns[cells],
-        )
+        grid = Grid(max(1, len(cells)), self.grid.spacing)
+        rows, columns = self.rows[cells], self.columns[cells]
         return CellsOperator(grid, self.influence, rows, columns, self.positive, self.plane)
 
     @cached_property

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.halfspace.influence import Tables
-from roughcontact.halfspace.tiles import Tiles
+from roughcontact.halfspace.tiles import Tiles, list_loaded
 from roughcontact.machine.layout import APART
 from roughcontact.machine.loader import address, functions
 from roughcontact.threads import join_in, threads
@@ -49,14 +49,13 @@ class DirectSum:
     def apply(self, pressure: Field) -> Field:
         """Return the displacement [m] under `pressure` [Pa]."""
         precision, size = self.kernel.dtype.name, len(self.rows)
-        code, given = functions("tiles", precision), np.ascontiguousarray(pressure, dtype=precision)
-        starts, shifts = np.empty(size + 1, np.int64), np.empty(given.size + 1, np.int64)
-        loaded, sums = np.empty(given.size + 1, precision), np.empty(given.shape, precision)
-        code["list_cells"](size, address(given), address(starts), address(shifts), address(loaded))
-        counters = np.zeros(2 * APART, np.int64)
+        given = np.ascontiguousarray(pressure, dtype=precision)
+        starts, shifts, loaded = list_loaded(given)
+        sums, counters = np.empty(given.shape, precision), np.zeros(2 * APART, np.int64)
+        sum_all = functions("tiles", precision)["sum_all"]
 
         def join(_: int) -> None:
-            code["sum_all"](
+            sum_all(
                 address(counters), size, address(self.rows), address(self.columns),
                 address(starts), address(shifts), address(loaded),
                 address(self.kernel), self.kernel.shape[1], address(sums),

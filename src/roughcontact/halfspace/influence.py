@@ -149,7 +149,8 @@ class _Table:
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values; no offset is negative."""
         flat = rows * self.whole.shape[1] + columns
-        flat += self.first
+        if self.first:
+            flat += self.first
         return np.asarray(self.whole.ravel().take(flat))
 
 

@@ -23,7 +23,7 @@ from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.halfspace.near_far import DECAY, FreeSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.tile_inverse import TileInverse
-from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles, count
+from roughcontact.halfspace.tiles import SIDE, TileMap, Tiles, count, list_loaded
 from roughcontact.machine import loader
 from roughcontact.machine.loader import address, functions
 from roughcontact.threads import spread
@@ -36,7 +36,7 @@ Pair = tuple[int, int]
 Split = FreeSplit | PeriodicSplit
 
 LEAST = 60_000  # cells of a plane from which on tiles may cost less
-DIRECT = 120  # tiles up to which a direct sum over their cells costs less than one by nodes
+DIRECT = 120  # tiles up to which a direct sum over their cells costs less than one by nodes (tried by hand)
 REACH = 3  # tiles: how far the near part of the influence goes
 GROUP = 512  # tiles whose sums one thread adds up at a time
 SMOOTH = 2 / 3  # of the width of what the far part smooths: how far apart nodes may be
@@ -87,9 +87,7 @@ class TileSum:
         given = np.ascontiguousarray(values, dtype=np.float32)
         waves: Single = self.parts.far.apply(self.nodes.spread(given))
         sums = np.ascontiguousarray(self.nodes.gather(waves))
-        starts, shifts = np.empty(size + 1, np.int64), np.empty(given.size + 1, np.int64)
-        some = np.empty(given.size + 1, np.float32)
-        code["list_cells"](size, address(given), address(starts), address(shifts), address(some))
+        starts, shifts, some = list_loaded(given)
         numbers, places = self.map.numbers, self.map.places
 
         def add_near(start: int) -> None:

@@ -9,11 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.machine.layout import SIDE
+from roughcontact.machine.loader import address, functions
 
-__all__ = ["SIDE", "TileMap", "Tiles", "count"]
+__all__ = ["SIDE", "TileMap", "Tiles", "count", "list_loaded"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
+Field = npt.NDArray[Any]  # of single or double precision
 Indices = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 
@@ -123,6 +125,28 @@ class TileMap:
 
     numbers: Indices
     places: Indices
+
+
+def list_loaded(values: Field) -> tuple[Indices, Indices, Field]:
+    """Return the cells of tiles that are not zero, in machine code's order.
+
+    Parameters
+    ----------
+    values : array, shape (n, SIDE * SIDE)
+        Contiguous, in single or double precision.
+
+    Returns
+    -------
+    tuple of arrays
+        Where the list of each tile begins, and at last how many cells there are, shape (n + 1,); how far back in the
+        kernel each cell is; and its value.
+    """
+    precision, room = values.dtype.name, values.size + 1
+    starts, shifts = np.empty(len(values) + 1, np.int64), np.empty(room, np.int64)
+    loaded = np.empty(room, precision)
+    list_cells = functions("tiles", precision)["list_cells"]
+    list_cells(len(values), address(values), address(starts), address(shifts), address(loaded))
+    return starts, shifts, loaded
 
 
 def count(cells: int) -> int:
