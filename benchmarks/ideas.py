@@ -11,6 +11,9 @@ import numpy as np
 
 import roughcontact as rc
 from roughcontact.contact import cascade
+from roughcontact.contact.drivers import Plane
+from roughcontact.contact.pooling import lowest
+from roughcontact.halfspace.patches import PatchOperator
 from roughcontact.machine import loader
 
 EXTRAS = (
@@ -59,40 +62,46 @@ def cases(n):
         yield f"fractal, H = {hurst}, {force}", rough, force * 0.01
 
 
-def pooled_by_mean(separation, factors):
+def means(separation, factors):
     pad = [(0, -n % f) for n, f in zip(separation.shape, factors, strict=True)]
     padded = np.pad(separation, pad, mode="edge")
     blocks = padded.reshape([m for n, f in zip(padded.shape, factors, strict=True) for m in (n // f, f)])
     return blocks.mean(axis=tuple(range(1, blocks.ndim, 2)))
 
 
-def measure(surface, force, kept, pooled=cascade.pooled, available=loader.is_available):
+def measure(surface, force, kept, *changes):
+    """Return products and seconds of one load, with changes of (where, name, what)."""
     extras = Without(rc.half_space(surface.grid, 1.0), kept)
-    before = cascade.pooled, loader.is_available
-    cascade.pooled, loader.is_available = pooled, available
+    before = [getattr(where, name) for where, name, _ in changes]
+    for change in changes:
+        setattr(*change)
     try:
         rc.press(surface, 1.0, force=1e-3 * force, operator=extras)  # whatever is loaded late is loaded now
         start = time.process_time()
         solution = rc.press(surface, 1.0, force=force, operator=extras)
         return f"{solution.steps:4d} {time.process_time() - start:7.3f} s"
     finally:
-        cascade.pooled, loader.is_available = before
+        for (where, name, _), value in zip(changes, before, strict=True):
+            setattr(where, name, value)
 
 
 def main(n):
     def without(*names):
         return (tuple(name for name in EXTRAS if name not in names),)
 
+    none = property(lambda driver: 0.0)
     variants = {
         "all": (EXTRAS,),
         "no inverse": without("approximate_inverse", "local_inverse", "patches"),
         "|q| by FFT": without("local_inverse"),
+        "no relief": (EXTRAS, (Plane, "relief", none), (PatchOperator, "relief", none)),
         "no window": without("positive"),
         "no list": without("between"),
-        "means": (EXTRAS, pooled_by_mean),
+        "summits": (EXTRAS, (cascade, "raised", lowest)),
+        "means": (EXTRAS, (cascade, "raised", means)),
         "no tiles": without("patches"),
         "double": without("keeps_precision", "patches"),
-        "no machine": (EXTRAS, cascade.pooled, lambda: False),
+        "no machine": (EXTRAS, (loader, "is_available", lambda: False)),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))
     for name, surface, force in cases(n):

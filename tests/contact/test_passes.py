@@ -102,6 +102,32 @@ def test_sums_and_fields_are_the_same(precision, begun, conserve):
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("conserve", [False, True])
+def test_relief_is_taken_off_the_diagonal(precision, conserve):
+    """Of what the inverse answers, by what it answers to a constant; sums go over some 300 terms."""
+    driver = Plane(plane())
+    inside = region((21, 34)).astype(precision)
+    r = np.random.default_rng(3).standard_normal((21, 34)).astype(precision)
+    passes = passes_for(driver, Measure(driver.weights), inside, r.copy(), None, None)
+    passes.size()
+    if conserve:
+        passes.share()
+    cells = np.flatnonzero(inside)
+    near, w = np.zeros((len(cells), len(cells))), driver.local_inverse.near
+    # Rows follow rows in memory: the cell beyond the end of one is the first of the next.
+    for dy in range(-2, 3):
+        for dx in range(-2, 3):
+            near[cells[:, None] - cells[None, :] == 34 * dy + dx] = w[abs(dy), abs(dx)]
+    wanted = (near - driver.relief * np.diag(near.sum(axis=0))) @ r.ravel()[cells].astype(np.float64)
+    descent, _, total = passes.precondition()
+    error, area = r.ravel()[cells].astype(np.float64), driver.weights
+    size = np.abs(near) @ np.abs(error)
+    close(passes.turn(0.0, 0.0).ravel()[cells], wanted, size.max(), precision)
+    close(descent, area * (error @ wanted), area * (np.abs(error) @ size), precision)
+    close(total, area * wanted.sum(), area * size.sum(), precision)
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
 def test_outside_nothing_changes_but_the_lack(precision):
     driver = Plane(plane())
     inside = region((21, 34), share=0.1).astype(precision)

@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace import local_inverse
-from roughcontact.halfspace.local_inverse import BLOCK, LARGE, LocalInverse
+from roughcontact.halfspace.local_inverse import BLOCK, LARGE, RELIEF, LocalInverse
 from roughcontact.machine import loader
 from roughcontact.machine.layout import REACH
 from roughcontact.machine.region import Region, with_margins
@@ -86,6 +86,32 @@ def test_symmetric_and_definite_on_any_region(spacing, far, shape):
         # The far part comes of a transform of blocks: some roundings of its largest number.
         np.testing.assert_allclose(found, found.T, rtol=0, atol=1e-14 * scale, err_msg=name)
         assert np.linalg.eigvalsh(found / scale)[0] > 0.01, name
+
+
+@pytest.mark.parametrize("shape", [(12, 10), (21, 20)])
+def test_definite_without_what_the_outside_takes_off(spacing, far, shape):
+    """On any region: were all weights but the first negative, 1 - RELIEF of the least number would be left at least."""
+    inverse = LocalInverse.of(MODULUS, shape, spacing)
+    for name, inside in regions(shape).items():
+        found = matrix(inverse, inside)
+        relieved = found - RELIEF * np.diag(found.sum(axis=0))
+        least, most = (np.linalg.eigvalsh(one / found.max())[0] for one in (relieved, found))
+        assert least > (1 - RELIEF) * most * (1 - 1e-12) > 0, name
+
+
+def test_what_the_outside_takes_off_brings_it_nearer_the_inverse():
+    """Of a disc on a half-space: largest over least number of the product of both, without and with relief."""
+    grid, shape = rc.Grid((24, 24), 1e-3), (24, 24)
+    y, x = np.indices(shape)
+    disc = (y - 11.5) ** 2 + (x - 11.5) ** 2 < 80
+    found = matrix(LocalInverse.of(MODULUS, shape, grid.spacing), disc)
+    influence = rc.half_space(grid, MODULUS).as_matrix(np.flatnonzero(disc))
+
+    def spread(inverse):
+        numbers = np.linalg.eigvals(inverse @ influence).real
+        return numbers.max() / numbers.min()
+
+    assert spread(found - RELIEF * np.diag(found.sum(axis=0))) < 0.8 * spread(found)
 
 
 def test_symmetric_and_definite_in_single_precision(spacing, far):

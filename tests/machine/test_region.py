@@ -92,11 +92,12 @@ def same(found, wanted, inside, size, rounding=2):
 @given(regions())
 def test_weigh(given_region):
     inside, rng = given_region
-    z, error, v = fields(rng, inside, 3)
-    wanted = z * inside
-    hidden(inside, z, error, v)
-    sums = Region(inside).run("weigh", 3, z, inside, error, v).sum(axis=0)
-    same(z, wanted, inside, 0)
+    z, error, v, constant = fields(rng, inside, 4)
+    taken = error * constant * inside.dtype.type(ALPHA)
+    wanted, size = (z - taken) * inside, np.abs(z) + np.abs(taken)
+    hidden(inside, z, error, v, constant)
+    sums = Region(inside).run("weigh", 3, z, inside, error, v, constant, ALPHA).sum(axis=0)
+    same(z, wanted, inside, size)
     there = inside > 0
     z, error, v = (f[there].astype(np.float64) for f in (z, error, v))
     for found, terms in zip(sums, (error * z, z * v, z), strict=True):
@@ -277,7 +278,7 @@ def test_sums_do_not_hang_on_the_number_of_threads(precision):
     for count in (1, 2, 3):
         cells, t, change, wrong, rest = Region(inside), z.copy(), v.copy(), np.zeros_like(z), r.copy()
         with limit_threads(count):
-            one = cells.run("weigh", 3, t, inside, error, v).sum(axis=0)
+            one = cells.run("weigh", 3, t, inside, error, v, r, ALPHA).sum(axis=0)
             two = cells.run("measure", 4, t, v, inside, error).sum(axis=0)
             lower(rest, v, ALPHA, BETA)
             largest = cells.run("advance", 1, change, rest, wrong, t, inside, ALPHA).max(axis=0)

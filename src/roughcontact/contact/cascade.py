@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from functools import reduce
-
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
+from roughcontact.contact.pooling import raised
 from roughcontact.contact.problem import Control, Depth, Terms
 from roughcontact.contact.state import Solver
 from roughcontact.contact.window import Windows, embed
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operator import Coarsenable, Operator, is_semidefinite
 
-__all__ = ["coarse_guess", "coarse_operator", "pooled"]
+__all__ = ["coarse_guess", "coarse_operator"]
 
 Array = npt.NDArray[np.float64]
 
@@ -27,15 +26,13 @@ def coarse_guess(
 ) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on cells of twice the size, recursively.
 
-    The coarse heights are the highest of the fine ones: it is the summits that touch. (Means would serve
-    where long waves carry the contact, and mislead where short ones do.) Without coarser cells the guess is
-    no pressure.
+    Without coarser cells the guess is no pressure.
     """
     coarser = coarse_operator(operator, separation.shape)
     if coarser is None:
         return namespace(separation).zeros_like(separation), 0.0
     part, factors = coarser
-    heights = pooled(separation, factors)
+    heights = raised(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, heights)
     guess = coarse_guess(part, heights, control, solver)
@@ -57,21 +54,6 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
     coarse = operator.coarsened(_coarse_grid(grid, coarse_shape, factors))
     return None if coarse is None else (coarse, factors)
-
-
-def pooled(separation: Array, factors: tuple[int, ...]) -> Array:
-    """Return the lowest value of each block; infinite for a block of missing cells."""
-    xp, padded = namespace(separation), separation
-    for axis, factor in enumerate(factors):
-        lacking = [n if a != axis else -n % factor for a, n in enumerate(padded.shape)]
-        if lacking[axis]:
-            edge = xp.full(tuple(lacking), np.inf, dtype=padded.dtype, device=padded.device)
-            padded = xp.concat([padded, edge], axis=axis)
-    for axis, factor in enumerate(factors):
-        # Slices, not an axis of blocks: a reduction along two numbers takes several times as long.
-        parts = [padded[(slice(None),) * axis + (slice(k, None, factor), ...)] for k in range(factor)]
-        padded = reduce(xp.minimum, parts)
-    return padded
 
 
 def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:

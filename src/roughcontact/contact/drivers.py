@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.convolution import Convolution
-from roughcontact.halfspace.local_inverse import LocalInverse
+from roughcontact.halfspace.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
 from roughcontact.halfspace.patches import PatchOperator
 from roughcontact.halfspace.tiles import Tiles
@@ -67,6 +67,11 @@ class Plane:
     def local_inverse(self) -> LocalInverse | None:
         """What preconditions in machine code, if there is such a thing."""
         return getattr(self.operator, "local_inverse", None)
+
+    @property
+    def relief(self) -> float:
+        """What is taken off the diagonal of that, of what it answers to a constant on a region."""
+        return 0.0 if self.local_inverse is None else RELIEF
 
     def gather(self, field: Any) -> Any:
         """Return the field."""

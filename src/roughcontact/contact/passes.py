@@ -121,24 +121,26 @@ class _Compiled:
         self._driver, self._weight = driver, weight
         self._region = Region(np.ascontiguousarray(inside, dtype=r.dtype))
         self._error, self._z = with_margins(self.change), self.change
-        self._shared: Single | None = None
+        self._relief = float(getattr(driver, "relief", 0.0))
+        self._constant: Single | None = None
+        self._shares = False
 
     def size(self) -> float:
         return self._advanced(0.0)
 
     def share(self) -> float:
-        inside = with_margins(self._region.inside)
-        self._shared = self._inverse(inside)
-        return self._sums("weigh", 3, self._shared, self._region.inside, inside, self.v)[2]
+        self._shares, inside = True, self._region.inside
+        return self._sums("weigh", 3, self._of_constant(), inside, inside, self.v, inside, 0.0)[2]
 
     def precondition(self) -> tuple[float, float, float]:
-        self._z = self._inverse(self._error)
-        a, b, c = self._sums("weigh", 3, self._z, self._region.inside, self._error, self.v)
+        self._z, inside = self._inverse(self._error), self._region.inside
+        constant = self._of_constant() if self._relief else self._z
+        a, b, c = self._sums("weigh", 3, self._z, inside, self._error, self.v, constant, self._relief)
         return a, b, c
 
     def turn(self, beta: float, shift: float) -> Array:
-        shared = self._z if self._shared is None else self._shared
-        self._region.run("turn", 0, self.t, self._z, shared, beta, 0.0 if self._shared is None else shift)
+        shared, by = (self._of_constant(), shift) if self._shares else (self._z, 0.0)
+        self._region.run("turn", 0, self.t, self._z, shared, beta, by)
         return self.t
 
     def measure(self, v: Array) -> tuple[float, float, float, float]:
@@ -154,6 +156,12 @@ class _Compiled:
         fields = self.change, self.r, self._error, self.t, self._region.inside
         return float(self._region.run("advance", 1, *fields, alpha).max())
 
+    def _of_constant(self) -> Single:
+        """Return what the inverse answers to a constant on the region."""
+        if self._constant is None:
+            self._constant = self._inverse(with_margins(self._region.inside))
+        return self._constant
+
     def _inverse(self, field: Single) -> Single:
         """Return about the pressure under a field that is zero outside the region."""
         local: LocalInverse | None = getattr(self._driver, "local_inverse", None)
@@ -161,6 +169,6 @@ class _Compiled:
             return np.ascontiguousarray(self._driver.approximate_inverse(field), dtype=field.dtype)
         return local.on(self._region, field)
 
-    def _sums(self, name: str, count: int, *fields: Single) -> list[float]:
+    def _sums(self, name: str, count: int, *fields: Single | float) -> list[float]:
         sums = self._region.run(name, count, *fields).sum(axis=0)
         return [float(self._weight * one) for one in sums]

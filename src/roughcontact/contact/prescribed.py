@@ -11,11 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
-from roughcontact.contact.cascade import coarse_operator, pooled
+from roughcontact.contact.cascade import coarse_operator
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.pooling import lowest
 from roughcontact.contact.window import Place, bounding_box, embed, take
 from roughcontact.halfspace.operator import Listable, Operator, is_semidefinite
 from roughcontact.threads import one_blas_thread
@@ -235,7 +236,7 @@ def _first(
     if coarser is None:
         return pressure, 0
     part, factors = coarser
-    heights = pooled(xp.where(region, wanted, math.inf), factors)
+    heights = lowest(xp.where(region, wanted, math.inf), factors)
     covered = xp.isfinite(heights)
     if bool(xp.all(covered)) and is_semidefinite(part):
         return pressure, 0

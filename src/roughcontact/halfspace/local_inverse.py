@@ -2,6 +2,11 @@
 
 ``E* q/2`` falls off with the third power of distance: a few cells on each side, with weights fitted to it, are nearly
 as good. On large planes, where a wide region may answer with long waves, blocks of cells carry these.
+
+On a region that would be the inverse if cells outside stayed where they are, and they are free to move: with Q the
+inverse on the whole plane, it is ``Q_RR - Q_RO Q_OO^-1 Q_OR``. What is taken off is the more the nearer the edge. Most
+of what ``Q_RR`` answers to a constant, cell by cell, stands for it here, and takes off a fifth of the steps. What
+remains is definite as far as weights of other cells are negative, and all but the smallest are.
 """
 
 from __future__ import annotations
@@ -20,7 +25,7 @@ from roughcontact.halfspace.influence import definite, wavenumbers
 from roughcontact.machine.layout import REACH
 from roughcontact.machine.region import Region, add_blocks, near, sum_blocks
 
-__all__ = ["LocalInverse", "local_inverse"]
+__all__ = ["RELIEF", "LocalInverse", "local_inverse"]
 
 Array = npt.NDArray[np.float64]
 Field = npt.NDArray[Any]  # of single or double precision
@@ -29,6 +34,9 @@ Pair = tuple[int, int]
 BOX = 64  # cells: the longest wave that the weights are fitted to
 BLOCK = 4  # cells to the side of a block
 SMOOTH = 0.125  # times the square of the waves of blocks: how those near the shortest are damped
+RELIEF = (
+    0.7  # of what it answers to a constant, taken off the diagonal: cells outside a region are free to move
+)
 LARGE = 2**19  # cells of a plane from which on long waves are worth a transform of blocks
 
 

@@ -19,7 +19,7 @@ from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.direct_sum import DirectSum
 from roughcontact.halfspace.influence import Love, Periodic, Tables
-from roughcontact.halfspace.local_inverse import LocalInverse
+from roughcontact.halfspace.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.near_far import DECAY, FreeSplit, PeriodicSplit
 from roughcontact.halfspace.nodes import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.tile_inverse import TileInverse
@@ -123,6 +123,11 @@ class PatchOperator:
     forward: TileSum | DirectSum
     inverse: TileInverse
     gain: float = 3e-5
+
+    @property
+    def relief(self) -> float:
+        """What is taken off the diagonal of the inverse, of what it answers to a constant on a region."""
+        return RELIEF
 
     def gather(self, field: Any) -> Any:
         """Return a field of the plane on the tiles, zero beyond the edge."""

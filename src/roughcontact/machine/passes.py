@@ -20,7 +20,7 @@ LIST = "indices index index index index "
 KINDS = {
     "list_groups": "index reals indices indices",
     "near": LIST + "index reals reals reals",
-    "weigh": LIST + "reals reals reals reals doubles",
+    "weigh": LIST + "reals reals reals reals reals real doubles",
     "turn": LIST + "reals reals reals real real",
     "measure": LIST + "reals reals reals reals doubles",
     "advance": LIST + "reals reals reals reals reals real doubles",
@@ -80,10 +80,11 @@ def _near(module: Any, precision: str) -> None:
 def _conjugate(module: Any, precision: str) -> None:
     """Write what changes and measures directions, see `roughcontact.contact.passes`."""
     with Code(module, "weigh", precision, KINDS["weigh"]) as code:
-        *cells, z, inside, error, v, sums = code.arguments
+        *cells, z, inside, error, v, constant, relief, sums = code.arguments
 
         def weigh(at: Index, take: Take) -> Sequence[Number]:
-            new = take(z, at) * take(inside, at)
+            by = code.for_all(relief) if take is Reals.take else relief
+            new = (take(z, at) - take(error, at) * take(constant, at) * by) * take(inside, at)
             z.put(at, new)
             return take(error, at) * new, new * take(v, at), new
 
