@@ -16,6 +16,8 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver, SinglePlane
+from roughcontact.contact.fields import fields_on
+from roughcontact.contact.measure import Measure
 from roughcontact.halfspace.tiles import SIDE, Tiles
 from roughcontact.threads import one_blas_thread
 
@@ -35,10 +37,15 @@ def least(work: Callable[[], object], times: int = 9) -> float:
 
 def step(driver: Driver, region: np.ndarray, heights: np.ndarray) -> float:
     """Return what one step of conjugate gradients takes on a region [ms]: that many take more than few."""
-    inside, lacking = (driver.narrow(driver.gather(field)) for field in (region.astype(float), heights))
+    kept, lacking = driver.gather(region), driver.narrow(driver.gather(heights))
+    measure, none = Measure(driver.weights), np.zeros_like(lacking)
+
+    def solve(count: int) -> None:
+        fields = fields_on(driver, measure, kept, lacking.copy(), none)
+        relax(driver, fields, conserve=True, limit=0.0, max_steps=count)
 
     def steps(count: int) -> float:
-        return least(lambda: relax(driver, inside, lacking, conserve=True, limit=0.0, max_steps=count))
+        return least(lambda: solve(count))
 
     return (steps(12) - steps(2)) / 10
 

@@ -10,6 +10,8 @@ from roughcontact.contact import drivers, window
 from roughcontact.contact.active_set import ActiveSet
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver, Plane, SinglePlane, driver_on
+from roughcontact.contact.fields import fields_on
+from roughcontact.contact.measure import Measure
 from roughcontact.halfspace import patches
 from roughcontact.halfspace.patches import ListPatches, Patches, PatchOperator
 
@@ -171,16 +173,11 @@ def test_one_driver_takes_off_what_it_says(rough):
     for driver in (SinglePlane(operator), patch):
         lacking = np.where(region, rough.heights, 0.0)
         unit = float(np.abs(lacking).max())
-        inside = driver.gather(region).astype(np.float32)
-        found = relax(
-            driver,
-            inside,
-            driver.narrow(driver.gather(lacking / unit)),
-            conserve=False,
-            limit=driver.gain,
-            max_steps=200,
-        )
-        change = unit * driver.scatter(found.change).astype(float)
+        part = driver.narrow(driver.gather(lacking / unit))
+        measure, kept = Measure(driver.weights), driver.gather(region)
+        fields = fields_on(driver, measure, kept, part, np.zeros_like(part))
+        relax(driver, fields, conserve=False, limit=driver.gain, max_steps=200)
+        change = unit * driver.scatter(fields.change).astype(float)
         left = np.where(region, lacking - operator.apply(change), 0.0)
         # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).
         wrong = 1.5e-4 * operator.apply(np.abs(change)).max()

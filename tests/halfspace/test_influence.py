@@ -4,18 +4,25 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.halfspace.influence import NEAR, Love, Periodic, Strip, Tables
+from roughcontact.halfspace.influence import NEAR, Love, Periodic, Strip, Tables, table_of_waves
 
 LIMIT = (150, 200)
 INFLUENCES = {
     "free": Love((0.3, 0.5), 2.0),
     "periodic": Periodic(rc.Grid(LIMIT, (0.3, 0.5), True), 2.0),
 }
+LARGEST = max(float(one.table((1, 1))[0, 0]) for one in INFLUENCES.values())  # of all values
 
 
 @pytest.fixture(params=INFLUENCES)
 def tables(request):
     return Tables(INFLUENCES[request.param], LIMIT)
+
+
+def same(found, wanted, size=None):
+    """Equal but for roundings of the largest: of a period, small tables are made wave by wave, large ones not."""
+    atol = 8 * np.finfo(found.dtype).eps * (size or LARGEST)
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=atol)
 
 
 def signed(tables, shape):
@@ -36,7 +43,7 @@ def check_both_sides(tables, shape, precision="float64"):
     assert found.shape[0] >= shape[0]
     assert middle >= shape[1]
     part = found[: shape[0], middle - shape[1] + 1 : middle + shape[1]]
-    np.testing.assert_array_equal(part, signed(tables, shape).astype(precision))
+    same(part, signed(tables, shape).astype(precision))
     assert np.isfinite(found).all()
 
 
@@ -44,7 +51,37 @@ def check_single_values(tables, far=LIMIT, seed=0):
     rng = np.random.default_rng(seed)
     rows, columns = (rng.integers(1 - n, n, 300) for n in far)
     values = tables.influence.table(LIMIT)[np.abs(rows), np.abs(columns)]
-    np.testing.assert_array_equal(tables.at(rows, columns), values)
+    same(tables.at(rows, columns), values)
+
+
+@pytest.mark.parametrize("period", [(16, 20), (15, 20), (16, 21), (9, 7), (1, 12), (70, 130)], ids=str)
+def test_a_table_of_waves_is_the_sum_of_them(period):
+    """Of all waves of both axes, one by one: an even function of the offset."""
+    rng = np.random.default_rng(0)
+    transform = rng.random((period[0] // 2 + 1, period[1] // 2 + 1))
+    y, x = (np.arange(n) for n in period)
+    folded = transform[np.minimum(y, period[0] - y)[:, None], np.minimum(x, period[1] - x)]
+    whole = np.fft.ifft2(folded).real
+    for shape in ((1, 1), (1, 5), (3, 2), period):
+        shape = tuple(min(a, b) for a, b in zip(shape, period, strict=True))
+        found = table_of_waves(transform, period, shape)
+        assert found.shape == shape
+        same(found, whole[: shape[0], : shape[1]], transform.mean())
+
+
+@pytest.mark.parametrize("name", INFLUENCES)
+def test_one_value_takes_no_table_of_others(name, monkeypatch):
+    """That of a cell on itself is asked for first, and often."""
+    made = []
+    table = type(INFLUENCES[name]).table
+    monkeypatch.setattr(
+        type(INFLUENCES[name]), "table", lambda self, shape: made.append(shape) or table(self, shape)
+    )
+    tables = Tables(INFLUENCES[name], LIMIT)
+    nothing = np.zeros(1, np.intp)
+    first = tables.at(nothing, nothing)
+    assert tables.at(nothing, nothing) == first
+    assert made == [(1, 1)]
 
 
 @pytest.mark.parametrize("shape", [(8, 8), (40, 24), (16, 200), (152, 208), (300, 8), (8, 300)], ids=str)
@@ -68,16 +105,14 @@ def test_to_both_sides_as_they_grow(tables, shapes):
         for precision in ("float32", "float64"):
             check_both_sides(tables, shape, precision)
             check_single_values(tables)
-            np.testing.assert_array_equal(
-                tables.table(shape), tables.influence.table(LIMIT)[: shape[0], : shape[1]]
-            )
+            same(tables.table(shape), tables.influence.table(LIMIT)[: shape[0], : shape[1]])
 
 
 def test_the_table_may_grow_between(tables):
     whole = tables.influence.table(LIMIT)
     for shape in ((30, 30), (70, 90), (100, 100), LIMIT):
         check_both_sides(tables, (24, 32))
-        np.testing.assert_array_equal(tables.table(shape), whole[: shape[0], : shape[1]])
+        same(tables.table(shape), whole[: shape[0], : shape[1]])
         check_both_sides(tables, (40, 16), "float32")
         check_single_values(tables, shape)
 
@@ -119,8 +154,8 @@ def test_single_values_of_either_sign(tables, far, both):
         check_single_values(tables, far, seed)
     rows, columns = np.mgrid[1 - far[0] : far[0], 1 - far[1] : far[1]]
     values = tables.influence.table(LIMIT)[np.abs(rows), np.abs(columns)]
-    np.testing.assert_array_equal(tables.at(rows, columns), values)
-    np.testing.assert_array_equal(tables.at(rows, columns, far), values)
+    same(tables.at(rows, columns), values)
+    same(tables.at(rows, columns, far), values)
     assert tables.at(rows[:0], columns[:0]).size == 0
 
 

@@ -106,6 +106,25 @@ def test_weigh(given_region):
 
 @many
 @given(regions())
+def test_a_region_is_empty(given_region):
+    inside, _ = given_region
+    assert Region(inside).is_empty() == (not inside.any())
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (1, 8), (3, 3), (5, 13), (4, 16), (17,)])
+def test_a_region_of_one_cell_is_not_empty(precision, shape):
+    """Wherever it is: in a whole group, or in what is left after the last."""
+    inside = np.zeros(shape, precision)
+    assert Region(inside).is_empty()
+    for at in np.ndindex(shape):
+        inside[at] = 1
+        assert not Region(inside).is_empty()
+        inside[at] = 0
+
+
+@many
+@given(regions())
 def test_turn(given_region):
     inside, rng = given_region
     t, z, uniform = fields(rng, inside, 3)
@@ -150,20 +169,29 @@ def test_advance(given_region):
 @given(regions())
 def test_let_go(given_region):
     inside, rng = given_region
-    base, change, moved = fields(rng, inside, 3)
-    before, p = inside > 0, base + change
+    base, change, moved, t, error = fields(rng, inside, 5)
+    before, p, was = inside > 0, base + change, change.copy()
     pulls = before & (p < 0)
-    hidden(inside, base, change, moved)
-    cells = Region(inside)
-    count, lost, carried, left = cells.run("let_go", 4, base, change, inside, moved).sum(axis=0)
+    others = [(field, field * (before & ~pulls)) for field in (t, error)]
+    hidden(inside, base, change, moved, t, error)
+    cells, given_base = Region(inside), base.copy()
+    given_fields = base, change, inside, moved, t, error
+    count, lost, carried, left = cells.run("let_go", 4, *given_fields).sum(axis=0)
     np.testing.assert_array_equal(inside, before & ~pulls)
     assert count == pulls.sum()
     assert left == inside.sum()
+    worked_on = reached(before.astype(inside.dtype))
+    same(change, was - p * pulls, before.astype(inside.dtype), np.abs(was) + np.abs(p))
+    np.testing.assert_array_equal(change[worked_on & ~pulls], was[worked_on & ~pulls])
+    for field, wanted in others:
+        same(field, wanted, before.astype(inside.dtype), 0)
     p = p.astype(np.float64)
     close(lost, -p[pulls].sum(), p[pulls], inside.dtype)
     close(carried, p[inside > 0].sum(), p[inside > 0], inside.dtype)
     np.testing.assert_array_equal(moved[pulls], -p[pulls])
-    assert (moved[reached(before.astype(inside.dtype)) & ~pulls] == 0).all()
+    assert (moved[worked_on & ~pulls] == 0).all()
+    assert np.isnan(moved[~worked_on]).all()
+    np.testing.assert_array_equal(base, given_base)
 
 
 @many
@@ -172,11 +200,14 @@ def test_share_out(given_region):
     inside, rng = given_region
     base, change, moved = fields(rng, inside, 3)
     p = (base + change).astype(np.float64)
-    wanted = moved - inside * (p * ALPHA + BETA)
-    size = np.abs(moved) + np.abs(p) + 1
+    less = inside * (p * ALPHA + BETA)
+    wanted, left = moved - less, change - less
+    size = np.abs(p) + 1
+    sizes = np.abs(moved) + size, np.abs(change) + size
     hidden(inside, base, change, moved)
     Region(inside).run("share_out", 0, base, change, inside, moved, ALPHA, BETA)
-    same(moved, wanted, inside, size, 3)
+    same(moved, wanted, inside, sizes[0], 3)
+    same(change, left, inside, sizes[1], 3)
 
 
 @many
@@ -214,18 +245,21 @@ def test_lower(given_region):
 
 
 @many
-@given(regions())
-def test_margins_are_zero(given_region):
+@given(regions(), st.sampled_from([None, *PRECISIONS, np.dtype(np.float32), np.float64]))
+def test_margins_are_zero(given_region, precision):
     inside, rng = given_region
     field = fields(rng, inside, 1)[0]
-    found = with_margins(field)
-    np.testing.assert_array_equal(found, field)
-    assert found.flags.c_contiguous
-    assert not np.shares_memory(found, field)
-    room, margin = found.base, REACH * (field.shape[1] + 1) + WIDTH // field.itemsize
-    before = (found.__array_interface__["data"][0] - room.__array_interface__["data"][0]) // field.itemsize
-    assert min(before, room.size - before - field.size) >= margin
-    assert np.count_nonzero(room) == np.count_nonzero(field)
+    for given_field in (field, np.asfortranarray(field), *(() if precision is None else (inside > 0,))):
+        found = with_margins(given_field, precision)
+        assert found.dtype == (given_field.dtype if precision is None else precision)
+        np.testing.assert_array_equal(found, given_field.astype(found.dtype))
+        assert found.flags.c_contiguous
+        assert not np.shares_memory(found, given_field)
+        room, margin = found.base, REACH * (found.shape[1] + 1) + WIDTH // found.itemsize
+        start, whole = (f.__array_interface__["data"][0] for f in (found, room))
+        before = (start - whole) // found.itemsize
+        assert min(before, room.size - before - found.size) >= margin
+        assert np.count_nonzero(room) == np.count_nonzero(given_field)
 
 
 @many
@@ -250,23 +284,39 @@ def test_near(given_region):
     assert (error <= terms * np.finfo(inside.dtype).eps * size[there]).all()
 
 
+@pytest.mark.parametrize("few", [-1.0, 1.0], ids=["all of the plane", "group by group"])
 @many
-@given(regions(), st.integers(1, 6))
-def test_blocks(given_region, side):
+@given(regions(), st.integers(1, 8), st.booleans())
+def test_blocks(few, given_region, side, fits):
+    """Group by group where rows are whole groups, and groups whole blocks: else all of the plane."""
     inside, rng = given_region
+    lanes = WIDTH // inside.itemsize
+    if fits:
+        inside = np.ascontiguousarray(np.tile(inside, (1, lanes))[:, : -(-inside.shape[1] // lanes) * lanes])
     field = fields(rng, inside, 1)[0]
-    sums = sum_blocks(field, side)
-    ny, nx = field.shape
-    assert sums.shape == (-(-ny // side), -(-nx // side))
-    eps, out = np.finfo(field.dtype).eps, np.random.default_rng(0).standard_normal(sums.shape)
-    added, out = field.copy(), out.astype(field.dtype)
-    add_blocks(added, out, side)
+    field *= inside
+    by_groups = few > 0 and inside.shape[1] % lanes == 0 and lanes % side == 0
+    shown = field.copy()
+    if by_groups:
+        hidden(inside, shown)
+    cells, (ny, nx) = Region(inside), field.shape
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(region, "FEW", few)
+        sums = sum_blocks(cells, shown, side)
+        assert sums.shape == (-(-ny // side), -(-nx // side))
+        out = np.random.default_rng(0).standard_normal(sums.shape).astype(field.dtype)
+        added = shown.copy()
+        add_blocks(cells, added, out, side)
+    worked_on = reached(inside) if by_groups else np.ones(inside.shape, bool)
+    eps = np.finfo(field.dtype).eps
     for b, a in np.ndindex(sums.shape):
         square = np.s_[b * side : (b + 1) * side, a * side : (a + 1) * side]
         terms = field[square].astype(np.float64)
-        bound = 2 * side * eps * np.abs(terms).sum()  # each is rounded once for each row and each column
+        bound = terms.size * eps * np.abs(terms).sum()  # one rounding or less for each
         assert sums[b, a] == pytest.approx(terms.sum(), rel=0, abs=bound)
-        np.testing.assert_array_equal(added[square], field[square] + out[b, a])
+        there = worked_on[square]
+        np.testing.assert_array_equal(added[square][there], (field[square] + out[b, a])[there])
+        assert np.isnan(added[square][~there]).all()
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

@@ -18,13 +18,14 @@ __all__ = ["coarse_guess", "coarse_operator"]
 Array = npt.NDArray[np.float64]
 
 COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
+SMALL = 512  # cells along it up to which a level more costs more than the steps that it saves
 COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 
 
 def coarse_guess(
     operator: Operator, separation: Array, control: Control, solver: Solver
 ) -> tuple[Array, float]:
-    """Return a pressure [Pa] and a depth [m] to start from, found on cells of twice the size, recursively.
+    """Return a pressure [Pa] and a depth [m] to start from, found on larger cells, recursively.
 
     Without coarser cells the guess is no pressure.
     """
@@ -46,11 +47,12 @@ def coarse_guess(
 
 
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
-    """Return the operator on cells of twice the size and the factor of each axis; None if that ends here."""
+    """Return the operator on larger cells and the factor of each axis, 1, 2 or 4; None if that ends here."""
     grid = operator.grid
     if max(shape) <= COARSEST or not (isinstance(operator, Coarsenable) and isinstance(grid, Grid)):
         return None
-    factors = tuple(2 if n > COARSEST // 2 else 1 for n in shape)
+    most = 4 if max(shape) <= SMALL else 2
+    factors = tuple(most if n >= most * COARSEST else 2 if n > COARSEST // 2 else 1 for n in shape)
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
     coarse = operator.coarsened(_coarse_grid(grid, coarse_shape, factors))
     return None if coarse is None else (coarse, factors)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import largest, namespace, without_negative
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
-from roughcontact.contact.free_cells import free_cells, shared
+from roughcontact.contact.fields import fields_on, shared
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Force, Terms
 
@@ -71,42 +72,36 @@ def press_region(
     depth = measure.mean(level, kept) if terms.depth is None else terms.depth
     # What was not measured is never touched; nor is what a driver has beyond the edge.
     there = driver.gather(xp.isfinite(separation))
-    lacking = xp.where(there, depth - level, 0.0)
+    whole = bool(xp.all(there))
+    lacking = depth - (level if whole else xp.where(there, level, math.inf))
     # In this unit single precision holds all numbers.
-    unit = largest(xp.where(kept, lacking, 0.0)) or limit or 1.0
-    lacking = driver.narrow(xp.where(there, lacking / unit, NEVER))
+    unit = largest(lacking[kept]) or limit or 1.0
+    lacking = driver.narrow(lacking / unit)
+    if not whole:
+        lacking = xp.where(there, lacking, NEVER)
     base, held = driver.narrow(start / unit), (start >= hardness) & ~kept
     goal = limit / unit
-    free = free_cells(kept, held, hardness / unit, measure, base)
-    change, left = xp.zeros_like(base), (base > 0) & ~kept & ~held
+    fields = fields_on(driver, measure, kept, lacking, base, held, hardness / unit)
+    left = (base > 0) & ~kept & ~held
     moved = xp.where(left, -base, 0.0) if bool(xp.any(left)) else None
-    if moved is not None and conserve:
-        moved = shared(moved, base, free.inside, measure)
-    target, last, steps, rounds = max(goal, DEPTH_OF_SOLVE), None, 0, 0
+    if moved is not None:
+        moved = shared(moved, base, fields.inside, measure) if conserve else moved
+        fields.change += moved
+    target, steps, rounds = max(goal, DEPTH_OF_SOLVE), 0, 0
     while steps < max_steps and rounds < ROUNDS:
-        some, error = bool(xp.any(free.inside)), 0.0
+        some, error = not fields.is_empty(), 0.0
         if conserve and not some:  # none is left to take the force
             break
         if moved is not None:
-            change += moved
-            lacking -= driver.apply(moved)
+            fields.follow(driver.apply(moved))
             steps += 1
         if some:
-            found = relax(
-                driver,
-                free.inside,
-                lacking,
-                conserve=conserve,
-                limit=target,
-                max_steps=max_steps - steps,
-                last=last,
-            )
-            change += found.change
-            lacking, last, error, steps = found.lacking, found.last, found.largest, steps + found.steps
-        moved = free.let_go(base, change, conserve)
+            error, done = relax(driver, fields, conserve=conserve, limit=target, max_steps=max_steps - steps)
+            steps += done
+        moved = fields.let_go(conserve)
         if moved is not None:
             continue
-        worst = free.take_in(lacking, 0.5 * goal)
+        worst = fields.take_in(0.5 * goal)
         if worst:
             target = max(goal, DEPTH_OF_SOLVE * max(error, worst))
             rounds += 1
@@ -114,10 +109,14 @@ def press_region(
             target = goal
         else:
             break
-    p = start + unit * xp.astype(change, xp.float64)
-    p = xp.where((free.inside > 0) & (p > 0), p, 0.0)
-    if free.held is not None:
-        p = xp.where(free.held, hardness, p)
+    # In place: planes are large.
+    p = xp.astype(fields.change, xp.float64)
+    p *= unit
+    p += start
+    p = without_negative(p)
+    p *= fields.inside
+    if fields.held is not None:
+        p = xp.where(fields.held, hardness, p)
     elif isinstance(terms.control, Force):
         total = measure.total(p)
         if not total > 0:  # nothing came of it

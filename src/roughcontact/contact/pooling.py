@@ -29,9 +29,17 @@ def raised(separation: Array, factors: tuple[int, ...]) -> Array:
     separation : array
         Of cells [m], infinite where one is missing.
     factors : tuple of int
-        Cells of a block along each axis. Only blocks of two by two tell slopes from roughness, and only where they
-        are whole; of others it is the lowest separation.
+        Cells of a block along each axis, 1, 2 or 4: blocks of four are blocks of blocks. Only blocks of two by two tell
+        slopes from roughness, and only where they are whole; of others it is the lowest separation.
     """
+    for _ in range(max(factors).bit_length() - 1):
+        halves = tuple(min(f, 2) for f in factors)
+        separation = _raised(separation, halves)
+        factors = tuple(f // half for f, half in zip(factors, halves, strict=True))
+    return separation
+
+
+def _raised(separation: Array, factors: tuple[int, ...]) -> Array:
     low = lowest(separation, factors)
     if factors != (2, 2):
         return low

@@ -15,6 +15,7 @@ from roughcontact.contact.cascade import coarse_operator
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
+from roughcontact.contact.fields import fields_on
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.pooling import lowest
 from roughcontact.contact.window import Place, bounding_box, embed, take
@@ -208,16 +209,17 @@ def _solve(
             driver = Plane(operator)  # the other has done what it could
         before = error
         part = driver.narrow(driver.gather(lacking) / error)  # so that single precision holds all numbers
-        found = relax(
+        measure, none = Measure(driver.weights), namespace(part).zeros_like(part)
+        fields = fields_on(driver, measure, driver.gather(region), part, none)
+        _, done = relax(
             driver,
-            xp.astype(driver.gather(region), part.dtype),
-            part,
+            fields,
             conserve=False,
             limit=max(0.5 * limit / error, driver.gain),
             max_steps=max_steps - steps,
         )
-        start = start + driver.scatter(error * xp.astype(found.change, xp.float64))
-        steps += found.steps
+        start = start + driver.scatter(error * xp.astype(fields.change, xp.float64))
+        steps += done
         u, exact = operator.apply(start), True
 
 

@@ -13,8 +13,9 @@ import scipy.fft
 from roughcontact.grid import Grid
 from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier, strip
 
-__all__ = ["Influence", "Love", "Periodic", "Strip", "Tables"]
+__all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
+SMALL = 64  # cells of a table along its shorter side up to which it is made of the waves, one by one
 NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
 
 Array = npt.NDArray[np.float64]
@@ -115,15 +116,12 @@ class Periodic:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        ny, nx = self.grid.shape
-        half = self.multiplier()
-        full = np.concatenate([half, half[ny - half.shape[0] : 0 : -1]])
-        table = scipy.fft.irfft2(full, s=(ny, nx))
-        return np.ascontiguousarray(table[: shape[0], : shape[1]])
+        return table_of_waves(self.multiplier(), self.grid.shape, shape)
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
-        return np.asarray(self.table(self.grid.shape)[np.abs(rows), np.abs(columns)])
+        a, b = np.abs(rows), np.abs(columns)
+        return np.asarray(self.table((int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1))[a, b])
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return E* q/2 [Pa/m]."""
@@ -210,7 +208,7 @@ class Tables:
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
         if not self.has(needed):
-            if min(self._largest.values.shape) < NEAR:
+            if min(self._largest.values.shape) < NEAR and needed != (1, 1):
                 self.table(tuple(min(NEAR, end) for end in self.limit))
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
@@ -246,6 +244,24 @@ class Tables:
         """Return the influence function of the same body on the cells of `grid`; None if there is none."""
         coarse = self.influence.coarsened(grid)
         return None if coarse is None else Tables(coarse, grid.shape)
+
+
+def table_of_waves(multiplier: Array, period: tuple[int, ...], shape: tuple[int, ...]) -> Array:
+    """Return the values, at offsets from zero up to `shape`, of what has this even transform over a period."""
+    ny, nx = period
+    if min(shape) <= SMALL:  # a transform would make the whole table
+        return _waves(ny, shape[0]) @ multiplier @ _waves(nx, shape[1]).T
+    full = np.concatenate([multiplier, multiplier[ny - multiplier.shape[0] : 0 : -1]])
+    return np.ascontiguousarray(scipy.fft.irfft2(full, s=(ny, nx))[: shape[0], : shape[1]])
+
+
+def _waves(length: int, count: int) -> Array:
+    """Return what each wave of an even function of so many cells contributes to its first values."""
+    waves = np.arange(length // 2 + 1)
+    often = np.where(waves * 2 % length == 0, 1.0, 2.0)
+    return np.asarray(
+        often / length * np.cos(2 * np.pi / length * (np.arange(count)[:, None] * waves % length))
+    )
 
 
 def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence import Love
+from roughcontact.halfspace.influence import Love, table_of_waves
 from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 from roughcontact.halfspace.layer_bases import Base
 from roughcontact.halfspace.layer_kernel import LayerKernel, layer_kernel
@@ -152,15 +152,12 @@ class LayerWaves:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        ny, nx = self.grid.shape
-        half = self.multiplier()
-        full = np.concatenate([half, half[ny - half.shape[0] : 0 : -1]])
-        table = scipy.fft.irfft2(full, s=(ny, nx))
-        return np.ascontiguousarray(table[: shape[0], : shape[1]])
+        return table_of_waves(self.multiplier(), self.grid.shape, shape)
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
-        return np.asarray(self.table(self.grid.shape)[np.abs(rows), np.abs(columns)])
+        a, b = np.abs(rows), np.abs(columns)
+        return np.asarray(self.table((int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1))[a, b])
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return the pressure per displacement wave [Pa/m]."""

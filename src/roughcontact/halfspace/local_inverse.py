@@ -84,7 +84,7 @@ class LocalInverse:
         """Return the pressure [Pa] on a region under a displacement [m] that is zero elsewhere, and has margins."""
         pressure = near(region, field, self.near.astype(field.dtype))
         if self.far is not None:
-            add_blocks(pressure, self.far.apply(sum_blocks(field, BLOCK)), BLOCK)
+            add_blocks(region, pressure, self.far.apply(sum_blocks(region, field, BLOCK)), BLOCK)
         return pressure
 
 

@@ -24,12 +24,14 @@ KINDS = {
     "turn": LIST + "reals reals reals real real",
     "measure": LIST + "reals reals reals reals doubles",
     "advance": LIST + "reals reals reals reals reals real doubles",
-    "let_go": LIST + "reals reals reals reals doubles",
+    "let_go": LIST + "reals reals reals reals reals reals doubles",
     "share_out": LIST + "reals reals reals reals real real",
     "take_in": "index reals reals real doubles",
     "lower": "index reals reals real real",
     "sum_blocks": "index index index reals reals reals",
     "add_blocks": "index index index reals reals reals",
+    "sum_blocks_on": LIST + "index index index reals reals",
+    "add_blocks_on": LIST + "index index index reals reals",
 }
 Take = Callable[[Reals, Index], Number]
 
@@ -43,6 +45,7 @@ def write(module: Any, precision: str) -> None:
     _lower(module, precision)
     _sum_blocks(module, precision)
     _add_blocks(module, precision)
+    _blocks_on(module, precision)
 
 
 def _list_groups(module: Any, precision: str) -> None:
@@ -78,7 +81,7 @@ def _near(module: Any, precision: str) -> None:
 
 
 def _conjugate(module: Any, precision: str) -> None:
-    """Write what changes and measures directions, see `roughcontact.contact.passes`."""
+    """Write what changes and measures directions, see `roughcontact.contact.fields`."""
     with Code(module, "weigh", precision, KINDS["weigh"]) as code:
         *cells, z, inside, error, v, constant, relief, sums = code.arguments
 
@@ -120,9 +123,9 @@ def _conjugate(module: Any, precision: str) -> None:
 
 
 def _bound(module: Any, precision: str) -> None:
-    """Write what lets go of cells and takes them in, see `roughcontact.contact.free_cells`."""
+    """Write what lets go of cells and takes them in, see `roughcontact.contact.fields`."""
     with Code(module, "let_go", precision, KINDS["let_go"]) as code:
-        *cells, base, change, inside, moved, sums = code.arguments
+        *cells, base, change, inside, moved, t, error, sums = code.arguments
 
         def let_go(at: Index, take: Take) -> Sequence[Number]:
             p, was = take(base, at) + take(change, at), take(inside, at)
@@ -131,6 +134,9 @@ def _bound(module: Any, precision: str) -> None:
             inside.put(at, stays)
             lost = p * (was - stays)
             moved.put(at, -lost)
+            change.put(at, take(change, at) - lost)
+            for field in (t, error):
+                field.put(at, take(field, at) * stays)
             return was - stays, -lost, p * stays, stays
 
         _through(code, cells, 4, let_go, sums)
@@ -139,8 +145,9 @@ def _bound(module: Any, precision: str) -> None:
 
         def share_out(at: Index, take: Take) -> Sequence[Number]:
             by, all_ = (code.for_all(x) if take is Reals.take else x for x in (share, alike))
-            p = take(base, at) + take(change, at)
-            moved.put(at, take(moved, at) - take(inside, at) * (p * by + all_))
+            less = take(inside, at) * ((take(base, at) + take(change, at)) * by + all_)
+            for field in (moved, change):
+                field.put(at, take(field, at) - less)
             return ()
 
         _through(code, cells, 0, share_out, None)
@@ -199,6 +206,37 @@ def _add_blocks(module: Any, precision: str) -> None:
             for y in code.range(block * side, (block * side + side).smaller(ny)):
                 for x, take in _each(code, nx):
                     field.put(y * nx + x, take(field, y * nx + x) + take(row, x))
+
+
+def _blocks_on(module: Any, precision: str) -> None:
+    """Write both for the groups of a LIST alone, of rows that are whole groups, which are whole blocks.
+
+    Parameters: the columns of the plane, the side of a block, how many blocks a row has, the field, and the blocks.
+    """
+    with Code(module, "sum_blocks_on", precision, KINDS["sum_blocks_on"]) as code:
+        *plan, field, blocks = code.arguments
+        for block, begin, end in _blocks_of_groups(code, *plan):
+            total = code.variable(blocks.take_one(block))
+            for cell in code.range(begin, end):
+                total.set(total.get() + field.take_one(cell))
+            blocks.put(block, total.get())
+    with Code(module, "add_blocks_on", precision, KINDS["add_blocks_on"]) as code:
+        *plan, field, blocks = code.arguments
+        for block, begin, end in _blocks_of_groups(code, *plan):
+            share = blocks.take_one(block)
+            for cell in code.range(begin, end):
+                field.put(cell, field.take_one(cell) + share)
+
+
+def _blocks_of_groups(code: Code, *plan: Any) -> Iterator[tuple[Index, Index, Index]]:
+    """Loop over the pieces of blocks that groups are: which block, the first cell and the one after the last."""
+    groups, first, last, _, _, nx, side, across = plan
+    for k in code.range(first, last):
+        y = groups[k] // nx
+        block = y // side * across + (groups[k] - y * nx) // side
+        for b in code.range(0, code.index(code.count) // side):
+            begin = groups[k] + b * side
+            yield block + b, begin, begin + side
 
 
 def _each(code: Code, n: Index) -> Iterator[tuple[Index, Take]]:

@@ -18,6 +18,7 @@ Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
+FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group
 SEVERAL = 4  # parts from which on threads are worth waking
 
 
@@ -39,6 +40,10 @@ class Region:
         self._code["list_groups"](inside.size, address(inside), address(groups), address(found))
         self._groups = groups[: int(found[0])].copy()
 
+    def is_empty(self) -> bool:
+        """Whether there is none."""
+        return not (len(self._groups) or self.inside.ravel()[self._whole :].any())
+
     def run(self, name: str, count: int, *arguments: Field | float) -> Array:
         """Run a function over these cells, and return so many sums for each part of them."""
         run, size = self._code[name], len(self._groups)
@@ -54,6 +59,15 @@ class Region:
 
         _all(part, range(parts))
         return sums
+
+    def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> bool:
+        """Run a function on the blocks that these cells are of; return whether that is possible, and worth it."""
+        columns, lanes = field.shape[-1], WIDTH // field.itemsize
+        if columns % lanes or lanes % side or len(self._groups) * lanes > FEW * field.size:
+            return False
+        plan = 0, len(self._groups), self._whole, self.inside.size, columns, side, blocks.shape[1]
+        self._code[name](address(self._groups), *plan, address(field), address(blocks))
+        return True
 
 
 def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
@@ -85,11 +99,11 @@ def take_in(inside: Field, lacking: Field, least: float) -> float:
     return float(worst[0])
 
 
-def with_margins(field: Field) -> Field:
+def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
     """Return a copy of a plane with as much zero before and behind it as a sum over near cells looks at."""
-    row = field.shape[-1] if field.ndim > 1 else 0
-    margin = REACH * (row + 1) + WIDTH // field.itemsize
-    room = np.zeros(field.size + 2 * margin, dtype=field.dtype)
+    row, dtype = field.shape[-1] if field.ndim > 1 else 0, np.dtype(precision or field.dtype)
+    margin = REACH * (row + 1) + WIDTH // dtype.itemsize
+    room = np.zeros(field.size + 2 * margin, dtype=dtype)
     room[margin : margin + field.size] = field.ravel()
     return room[margin : margin + field.size].reshape(field.shape)
 
@@ -104,17 +118,19 @@ def near(region: Region, field: Field, weights: Field) -> Field:
     return answer
 
 
-def sum_blocks(field: Field, side: int) -> Field:
-    """Return the sums over square blocks of a plane, those at its far edges cut off by them."""
+def sum_blocks(region: Region, field: Field, side: int) -> Field:
+    """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off."""
     ny, nx = field.shape
-    blocks = np.empty((-(-ny // side), -(-nx // side)), dtype=field.dtype)
-    _blocks("sum_blocks", field, blocks, side)
+    blocks = np.zeros((-(-ny // side), -(-nx // side)), dtype=field.dtype)
+    if not region.run_on_blocks("sum_blocks_on", field, blocks, side):
+        _blocks("sum_blocks", field, blocks, side)
     return blocks
 
 
-def add_blocks(field: Field, blocks: Field, side: int) -> None:
-    """Add to each cell of a plane what its block has."""
-    _blocks("add_blocks", field, blocks, side)
+def add_blocks(region: Region, field: Field, blocks: Field, side: int) -> None:
+    """Add to each cell of a region, or of more of its plane, what its block has."""
+    if not region.run_on_blocks("add_blocks_on", field, blocks, side):
+        _blocks("add_blocks", field, blocks, side)
 
 
 def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:

@@ -1,0 +1,230 @@
+"""The fields of a solve on a region: in machine code where there is some, else by the library of the arrays."""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import is_numpy, largest, namespace
+from roughcontact.contact.compiled_fields import CompiledFields
+from roughcontact.contact.drivers import Driver
+from roughcontact.contact.measure import Measure
+from roughcontact.machine import loader
+
+__all__ = ["Fields", "fields_on", "shared"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+
+class Fields(Protocol):
+    """The fields of one solve, and what is done to them; sums are weighted.
+
+    Inside the region are the cells whose pressure is free, between its bounds. There t is the direction, v what it
+    causes, and z the lack after the preconditioner; outside only r and the change mean anything.
+
+    Attributes
+    ----------
+    inside : array
+        One on the cells that are free, zero elsewhere.
+    change : array
+        Of the pressure, so far.
+    r : array
+        Displacement that is lacking.
+    t, v : array
+    """
+
+    inside: Array
+    change: Array
+    r: Array
+    t: Array
+    v: Array
+
+    @property
+    def held(self) -> Mask | None:
+        """Cells at the hardness; None without one."""
+        ...
+
+    def is_empty(self) -> bool:
+        """Whether no cell is free."""
+        ...
+
+    def level(self, conserve: bool) -> float:
+        """Return the area of the region; where the force is kept, take the mean lack inside off all of them."""
+        ...
+
+    def size(self) -> float:
+        """Return the largest lack inside."""
+        ...
+
+    def share(self) -> float:
+        """Have changes of pressure shared by the region, as its inverse of a constant is; return the sum of that."""
+        ...
+
+    def precondition(self) -> tuple[float, float, float]:
+        """Find z, and return its products with r and with v, and its sum."""
+        ...
+
+    def turn(self, beta: float, shift: float) -> Array:
+        """Make t the direction ``beta t + z``, less `shift` times what is shared, and return it."""
+        ...
+
+    def measure(self, v: Array) -> tuple[float, float, float, float]:
+        """Take v, and return the product of t and v, the sum of v, the product of t and r, and the sum of t."""
+        ...
+
+    def advance(self, alpha: float, mean: float) -> float:
+        """Add ``alpha t`` to the change, take ``alpha (v - mean)`` off r, and return the largest lack inside."""
+        ...
+
+    def let_go(self, conserve: bool) -> Array | None:
+        """Free no longer the cells whose pressure is out of bounds; return what takes it there, None if none is.
+
+        Where the force is kept, the rest of the cells shares what they leave. The change has it already, r has not.
+        """
+        ...
+
+    def follow(self, displacement: Array) -> None:
+        """Take what a change has caused off what is lacking."""
+        ...
+
+    def take_in(self, least: float) -> float:
+        """Free the cells that lack more than `least`, or as much too little; return the largest lack, 0 if none."""
+        ...
+
+
+def fields_on(
+    driver: Driver,
+    measure: Measure,
+    kept: Mask,
+    lacking: Array,
+    base: Array,
+    held: Mask | None = None,
+    ceiling: float = math.inf,
+) -> Fields:
+    """Return the fields of a solve.
+
+    Parameters
+    ----------
+    driver : Driver
+        Its precision is that of the fields.
+    kept : bool array
+        Cells that are free at first.
+    lacking, base : array
+        Displacement that is lacking, finite, which is overwritten, and the pressure that changes.
+    held : bool array, optional
+        Cells at the hardness at first.
+    ceiling : float
+        The hardness.
+    """
+    if is_numpy(lacking) and not measure.varies and ceiling == math.inf and loader.takes(lacking):
+        return CompiledFields(driver, float(measure.weights), kept, lacking, base)
+    return _Generic(driver, measure, kept, lacking, base, held, ceiling)
+
+
+def shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:
+    """Return a change of pressure together with what keeps the force, shared by the cells inside."""
+    carrying = p * inside
+    total = measure.total(carrying)
+    if not total > 0:  # new cells only
+        carrying, total = inside, measure.total(inside)
+    if not total > 0:
+        return change
+    # A ratio of sums of the same size: in single precision a whole is not known as well as its part.
+    return change - measure.total(change) / total * carrying
+
+
+class _Generic:
+    def __init__(
+        self,
+        driver: Driver,
+        measure: Measure,
+        kept: Mask,
+        lacking: Array,
+        base: Array,
+        held: Mask | None,
+        ceiling: float,
+    ) -> None:
+        xp = namespace(lacking)
+        self.inside, self.r, self.change = xp.astype(kept, lacking.dtype), lacking, xp.zeros_like(lacking)
+        self.t, self.v = xp.zeros_like(lacking), lacking
+        self._driver, self._measure, self._base, self._ceiling = driver, measure, base, ceiling
+        self._kept, self._held = kept, xp.zeros_like(kept) if held is None else held
+        self._error, self._z = lacking, lacking
+        self._shared: Array | None = None
+
+    @property
+    def held(self) -> Mask | None:
+        return self._held if self._ceiling < math.inf else None
+
+    def is_empty(self) -> bool:
+        return not bool(namespace(self._kept).any(self._kept))
+
+    def level(self, conserve: bool) -> float:
+        self._shared, area = None, self._measure.total(self.inside)
+        if conserve:
+            self.r -= self._measure.dot(self.inside, self.r) / area
+        return area
+
+    def size(self) -> float:
+        self._error = self.r * self.inside
+        return largest(self._error)
+
+    def share(self) -> float:
+        self._shared = self._driver.approximate_inverse(self.inside) * self.inside
+        return self._measure.total(self._shared)
+
+    def precondition(self) -> tuple[float, float, float]:
+        self._z = self._driver.approximate_inverse(self._error)
+        self._z *= self.inside
+        dot = self._measure.dot
+        return dot(self._error, self._z), dot(self._z, self.v), self._measure.total(self._z)
+
+    def turn(self, beta: float, shift: float) -> Array:
+        self.t *= beta
+        self.t += self._z
+        if self._shared is not None:
+            self.t -= shift * self._shared
+        return self.t  # type: ignore[no-any-return]
+
+    def measure(self, v: Array) -> tuple[float, float, float, float]:
+        self.v, dot = v, self._measure.dot
+        return dot(self.t, v), dot(self.inside, v), dot(self._error, self.t), self._measure.total(self.t)
+
+    def advance(self, alpha: float, mean: float) -> float:
+        self.change += alpha * self.t
+        self.r -= alpha * (self.v - mean if mean else self.v)
+        return self.size()
+
+    def let_go(self, conserve: bool) -> Array | None:
+        xp, p = namespace(self.r), self._base + self.change
+        low, high = self._kept & (p < 0), self._kept & (p > self._ceiling)
+        if not bool(xp.any(low | high)):
+            return None
+        moved = xp.where(low, -p, 0.0)
+        if self._ceiling < math.inf:
+            moved = xp.where(high, self._ceiling - p, moved)
+        self._now(self._kept & ~(low | high), self._held | high)
+        self.t *= self.inside
+        if conserve:
+            moved = shared(moved, p, self.inside, self._measure)
+        self.change += moved
+        return moved  # type: ignore[no-any-return]
+
+    def follow(self, displacement: Array) -> None:
+        self.r -= displacement
+
+    def take_in(self, least: float) -> float:
+        xp, lacking = namespace(self.r), self.r
+        added = ((lacking > least) & ~self._kept & ~self._held) | ((lacking < -least) & self._held)
+        if not bool(xp.any(added)):
+            return 0.0
+        self._now(self._kept | added, self._held & ~added)
+        return largest(xp.where(added, lacking, 0.0))
+
+    def _now(self, kept: Mask, held: Mask) -> None:
+        self._kept, self._held = kept, held
+        self.inside = namespace(kept).astype(kept, self.inside.dtype)
