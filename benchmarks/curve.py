@@ -169,12 +169,12 @@ def quiet(runs: list[dict[str, Any]]) -> list[float]:
     return [run["seconds"] for run in runs if not run["disturbed"]]
 
 
-def compare(names: list[str], n: int, seed: int, repeats: int) -> list[dict[str, Any]]:
+def compare(names: list[str], n: int, seed: int, repeats: int, tolerance: float) -> list[dict[str, Any]]:
     """Print the lines of one surface and return the measurements; the first name is the reference."""
     rounds = {}
     for name in names:
         try:
-            rounds[name] = [certified(name, n, seed, ASPHER_START)]
+            rounds[name] = [certified(name, n, seed, tolerance)]
         except RuntimeError as error:
             print(f"{name}: not shown ({error})")
     for _ in range(PATIENCE * repeats - 1):
@@ -195,7 +195,7 @@ def compare(names: list[str], n: int, seed: int, repeats: int) -> list[dict[str,
         columns = "".join(f"{'-' if value is None else f'{value:.2f}':>9}" for value in (*shown, ratio))
         print(
             f"{name:16}{n:>6}{seed:>6}{columns}{memory:>9.0f}{memory - before:>9.0f}{error:>10.1e}"
-            f"  {trouble}{left_out}"
+            f"{'-' if name == 'roughcontact' else format(runs[0]['tolerance'], '.1e'):>11}  {trouble}{left_out}"
         )
         records.append(
             {"program": name, "n": n, "seed": seed, "ratio": ratio, "trouble": trouble, "rounds": runs}
@@ -212,6 +212,9 @@ def main() -> int:
     parser.add_argument("--programs", type=lambda text: text.split(","), default=list(PROGRAMS))
     parser.add_argument("--repeats", type=int, default=2)
     parser.add_argument("--threads", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument(
+        "--tolerance", type=float, default=ASPHER_START, help="of ASPHER, at which its search begins"
+    )
     parser.add_argument("--json", type=Path)
     parser.add_argument("--worker", nargs=4, help=argparse.SUPPRESS)
     args = parser.parse_args()
@@ -233,9 +236,14 @@ def main() -> int:
     print(f"threads for every program: {args.threads}; roughcontact with stiffness, ASPHER without")
     print(
         f"{'program':16}{'n':>6}{'seed':>6}{'time/s':>9}{'fastest':>9}{'slowest':>9}{'ratio':>9}"
-        f"{'peak/MB':>9}{'grown/MB':>9}{'residual':>10}"
+        f"{'peak/MB':>9}{'grown/MB':>9}{'residual':>10}{'tolerance':>11}"
     )
-    records = [r for n in args.sizes for seed in args.seeds for r in compare(names, n, seed, args.repeats)]
+    records = [
+        record
+        for n in args.sizes
+        for seed in args.seeds
+        for record in compare(names, n, seed, args.repeats, args.tolerance)
+    ]
     if args.json:
         args.json.write_text(json.dumps(records, indent=1) + "\n")
     return int(any(record["trouble"] for record in records))

@@ -28,7 +28,6 @@ __all__ = [
     "require_floating",
     "require_numpy",
     "wants_gradient",
-    "without_negative",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -123,13 +122,6 @@ def largest(array: Any) -> float:
         return max(float(array.max()), -float(array.min()))
     xp = namespace(array)
     return max(float(xp.max(array)), -float(xp.min(array)))
-
-
-def without_negative(array: Any) -> Any:
-    """Return an array, or the same with zeros for what is negative, in place where that is quicker."""
-    if isinstance(array, np.ndarray):
-        return np.maximum(array, 0.0, out=array)
-    return namespace(array).clip(array, min=0.0)
 
 
 class Placed:

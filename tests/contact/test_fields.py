@@ -1,6 +1,7 @@
 """Fields of a solve: machine code does what arrays of any library do, and so do whole solves."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -29,6 +30,7 @@ class Bare:
     """A driver whose preconditioner is the same for both kinds of fields."""
 
     operator: Operator
+    relief: ClassVar[float] = 0.0
 
     @property
     def weights(self):
@@ -45,6 +47,7 @@ class Seeing:
     """A driver whose preconditioner sees all cells from each: so it would what is left of an error outside."""
 
     weights = 0.25
+    relief = 0.0
 
     @staticmethod
     def approximate_inverse(displacement):
@@ -99,7 +102,7 @@ def test_sums_and_fields_are_the_same(precision, begun, conserve):
     def same(a, b, size=None):
         close(a, b, np.abs(b).max() if size is None else size, precision, 300)
 
-    same(one.level(conserve), two.level(conserve))
+    same(one.begin(conserve), two.begin(conserve))
     same(one.r, two.r)
     np.testing.assert_array_equal(one.inside, two.inside)
     one.r[...] = two.r
@@ -176,9 +179,9 @@ def test_what_one_solve_shared_the_next_does_not(compiled):
     driver, kept = Bare(plane()), region((21, 34))
     r = np.random.default_rng(7).standard_normal((21, 34))
     fields = (on if compiled else generic)(driver, kept, r)
-    fields.level(True)
+    fields.begin(True)
     fields.share()
-    fields.level(False)
+    fields.begin(False)
     fields.size()
     fields.precondition()
     alike = fields.turn(0.0, 0.0).copy()
@@ -378,7 +381,7 @@ def is_on(fields, kept):
     precision = fields.r.dtype
     assert fields.inside.dtype == precision
     assert fields.is_empty() == (not kept.any())
-    assert fields.level(False) == 0.25 * kept.sum()
+    assert fields.begin(False) == 0.25 * kept.sum()
     assert fields.share() == 0.25 * kept.sum() ** 2
     error = (fields.r * kept).astype(np.float64)
     assert fields.size() == np.abs(error).max()
@@ -511,7 +514,7 @@ def test_what_is_lacking_follows_and_is_levelled(start, conserve):
         close(fields.r, wanted, size, precision, 2)
         if conserve and not rest.any():
             continue
-        assert fields.level(conserve) == 0.25 * rest.sum()
+        assert fields.begin(conserve) == 0.25 * rest.sum()
         if conserve:
             wanted -= wanted[rest].mean()
         close(fields.r, wanted, size, precision)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact import cascade
+from roughcontact.contact.cascade import coarse_operator
 from roughcontact.contact.pooling import lowest, raised
 
 SHAPES = [(8, 6), (7, 6), (8, 5), (9, 7), (1, 8), (2, 2)]
@@ -58,6 +60,51 @@ def test_blocks_with_missing_cells_have_the_lowest_of_the_rest():
 def test_without_blocks_of_two_by_two_it_is_the_lowest(factors):
     field = np.random.default_rng(3).random((6, 6)[: len(factors)])
     np.testing.assert_array_equal(raised(field, factors), lowest(field, factors))
+
+
+@pytest.mark.parametrize("shape", [(8, 12), (9, 7), (5, 16), (4, 4), (3, 2)])
+@pytest.mark.parametrize("factors", [(4, 4), (4, 2), (2, 4), (4, 1)])
+def test_blocks_of_four_are_blocks_of_blocks(shape, factors):
+    field = np.random.default_rng(4).random(shape)
+    found, halves = raised(field, factors), tuple(min(f, 2) for f in factors)
+    assert found.shape == tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
+    rest = tuple(f // half for f, half in zip(factors, halves, strict=True))
+    np.testing.assert_array_equal(found, raised(raised(field, halves), rest))
+
+
+@pytest.mark.parametrize(
+    ("shape", "factors"),
+    [
+        ((65, 65), (2, 2)),
+        ((255, 255), (2, 2)),
+        ((256, 256), (4, 4)),
+        ((512, 512), (4, 4)),
+        ((513, 513), (2, 2)),
+        ((512, 100), (4, 2)),
+        ((512, 32), (4, 1)),
+        ((2048, 512), (2, 2)),
+    ],
+    ids=str,
+)
+def test_up_to_512_cells_levels_are_four_times_as_coarse(shape, factors):
+    operator = rc.half_space(rc.Grid(shape, 1.0), 1.0)
+    coarse, found = coarse_operator(operator, shape)
+    assert found == factors
+    assert coarse.grid.shape == tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
+    assert coarse.grid.spacing == factors
+
+
+def test_64_cells_are_the_coarsest():
+    assert coarse_operator(rc.half_space(rc.Grid((64, 64), 1.0), 1.0), (64, 64)) is None
+
+
+def test_a_smooth_surface_takes_fewer_products_than_from_its_summits(monkeypatch):
+    """Slopes do not count: the summits of a sphere's blocks would put its contact too high by what they rise."""
+    x = (np.arange(256) + 0.5) / 256 - 0.5
+    sphere = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((256, 256), 1 / 256))
+    steps = rc.press(sphere, 1.0, force=0.01).steps
+    monkeypatch.setattr(cascade, "raised", lowest)
+    assert steps < 0.75 * rc.press(sphere, 1.0, force=0.01).steps
 
 
 @pytest.mark.parametrize("hurst", [-0.5, 0.8])

@@ -18,7 +18,7 @@ __all__ = ["coarse_guess", "coarse_operator"]
 Array = npt.NDArray[np.float64]
 
 COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
-SMALL = 512  # cells along it up to which a level more costs more than the steps that it saves
+SMALL = 512  # cells along it up to which a level more costs more than the steps that it saves (tried by hand)
 COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 
 

@@ -26,22 +26,23 @@ class CompiledFields:
     def __init__(self, driver: Driver, weight: float, kept: Mask, lacking: Field, base: Field) -> None:
         self.r, self._base = (np.ascontiguousarray(field, dtype=lacking.dtype) for field in (lacking, base))
         self.inside = with_margins(kept, lacking.dtype)
-        self.change, self.t, self.v = np.zeros_like(self.r), np.zeros_like(self.r), self.r
-        self._error, self._z, self._moved = with_margins(self.change), self.r, np.zeros_like(self.r)
+        self.change, self.t, self.v = self._zeros(), self._zeros(), self.r
+        self._error, self._z = with_margins(self.change), self.r
+        self._moved: Field | None = None  # zero everywhere, as long as it is kept
         self._driver, self._weight = driver, weight
-        self._relief = float(getattr(driver, "relief", 0.0))
+        self._relief = driver.relief
         self._shares = False
 
     def is_empty(self) -> bool:
         """Return whether no cell is free."""
         return self._region.is_empty()
 
-    def level(self, conserve: bool) -> float:
+    def begin(self, conserve: bool) -> float:
         """Return the area of the region; take the mean lack off where the force is kept."""
         self._shares = False
         lack, _, _, area = self._sums("measure", 4, self.inside, self.r, self.inside, self.inside)
         if conserve:
-            self.r -= self.r.dtype.type(lack / area)
+            self.r -= lack / area
         return area
 
     def size(self) -> float:
@@ -50,6 +51,7 @@ class CompiledFields:
 
     def share(self) -> float:
         """Have changes shared; return the sum of the shares."""
+        # The inverse with its relief answers to a constant with a part of this: only ratios count.
         self._shares = True
         constant = self._of_constant, self.inside, self.inside, self.v, self.inside, 0.0
         return self._sums("weigh", 3, *constant)[2]
@@ -80,10 +82,11 @@ class CompiledFields:
 
     def let_go(self, conserve: bool) -> Field | None:
         """Let go of cells that pull; return what that moves."""
-        region, moved = self._region, self._moved
+        region, moved = self._region, self._zeros() if self._moved is None else self._moved
         fields = self._base, self.change, self.inside, moved, self.t, self._error
         count, lost, carried, left = region.run("let_go", 4, *fields).sum(axis=0)
         if not count:
+            self._moved = moved
             return None
         if conserve and left:
             # What cells carry tells their shares; new cells carry nothing yet.
@@ -91,7 +94,7 @@ class CompiledFields:
             region.run(
                 "share_out", 0, self._base, self.change, self.inside, moved, float(share), float(alike)
             )
-        self._moved = np.zeros_like(moved)
+        self._moved = None
         self._changed()
         return moved
 
@@ -105,6 +108,9 @@ class CompiledFields:
         if worst:
             self._changed()
         return worst
+
+    def _zeros(self) -> Field:
+        return np.zeros(self.r.shape, self.r.dtype)  # of memory that is touched where it is needed
 
     @cached_property
     def _region(self) -> Region:

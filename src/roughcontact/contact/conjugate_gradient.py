@@ -39,22 +39,22 @@ def relax(
     positive definite whatever the boundary condition. Each direction is made conjugate to the one before by their
     products themselves, so that neither a driver that is none too exact nor a region that has changed a little mislead.
     """
-    area = fields.level(conserve)
+    area = fields.begin(conserve)
     size, steps = fields.size(), 0
     if not size > limit:
         return size, steps
     resultant = fields.share() if conserve else 1.0
-    curvature, level, _, force = fields.measure(fields.v)
+    curvature, sum_of_v, _, force = fields.measure(fields.v)
     while size > limit and steps < max_steps:
-        mean = level / area if conserve else 0.0
+        mean = sum_of_v / area if conserve else 0.0
         descent, overlap, total = fields.precondition()
         if not descent > 0:
             break
-        beta = -(overlap - mean * total) / curvature if curvature else 0.0
+        beta = -(overlap - mean * total) / curvature if curvature > 0 else 0.0
         t = fields.turn(beta, (total + beta * force) / resultant)
-        curvature, level, descent, force = fields.measure(driver.apply(t))
+        curvature, sum_of_v, descent, force = fields.measure(driver.apply(t))
         if not curvature > 0:  # rounding has eaten the direction
             break
-        size = fields.advance(descent / curvature, level / area if conserve else 0.0)
+        size = fields.advance(descent / curvature, sum_of_v / area if conserve else 0.0)
         steps += 1
     return size, steps

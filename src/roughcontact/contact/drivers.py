@@ -38,6 +38,11 @@ class Driver(Linear, Invertible, Protocol):
         """What one round can take off an error; 0 where the products are exact."""
         ...
 
+    @property
+    def relief(self) -> float:
+        """What is taken off the diagonal of its inverse, of what that answers to a constant on a region."""
+        ...
+
     def gather(self, field: Any) -> Any:
         """Return a field of the plane on the cells of the driver."""
         ...

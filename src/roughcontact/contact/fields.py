@@ -52,8 +52,8 @@ class Fields(Protocol):
         """Whether no cell is free."""
         ...
 
-    def level(self, conserve: bool) -> float:
-        """Return the area of the region; where the force is kept, take the mean lack inside off all of them."""
+    def begin(self, conserve: bool) -> float:
+        """Return the area of the region; where the force is kept, take the mean lack inside off all lacks."""
         ...
 
     def size(self) -> float:
@@ -163,7 +163,7 @@ class _Generic:
     def is_empty(self) -> bool:
         return not bool(namespace(self._kept).any(self._kept))
 
-    def level(self, conserve: bool) -> float:
+    def begin(self, conserve: bool) -> float:
         self._shared, area = None, self._measure.total(self.inside)
         if conserve:
             self.r -= self._measure.dot(self.inside, self.r) / area

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace, without_negative
+from roughcontact.arrays import largest, namespace
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.fields import fields_on, shared
@@ -57,7 +57,8 @@ def press_region(
     separation, terms
         The problem.
     region : bool array
-        Cells whose pressure is free. Of the others those under the hardness keep it, the rest carries nothing.
+        Cells whose pressure is free, one at least, none of them missing. Of the others those under the hardness keep
+        it, the rest carries nothing.
     pressure, displacement : array
         Where to start [Pa], and its image [m].
     limit : float
@@ -113,7 +114,7 @@ def press_region(
     p = xp.astype(fields.change, xp.float64)
     p *= unit
     p += start
-    p = without_negative(p)
+    p = xp.where(p > 0, p, 0.0)
     p *= fields.inside
     if fields.held is not None:
         p = xp.where(fields.held, hardness, p)

@@ -226,7 +226,7 @@ def _solve(
 def _first(
     operator: Operator, region: Mask, wanted: Array, limit: float, max_steps: int
 ) -> tuple[Array, int]:
-    """Return a first pressure: the answer itself for few cells, else that of cells of twice the size."""
+    """Return a first pressure: the answer itself for few cells, else that of larger cells."""
     xp = namespace(wanted)
     pressure = xp.zeros_like(wanted)
     if is_numpy(region) and np.count_nonzero(region) <= factorised(operator, DENSE_LIMIT):

@@ -15,7 +15,7 @@ from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
-SMALL = 64  # cells of a table along its shorter side up to which it is made of the waves, one by one
+SMALL = 64  # cells to the side of a table up to which it is made of the waves one by one (tried by hand)
 NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
 
 Array = npt.NDArray[np.float64]
@@ -249,7 +249,7 @@ class Tables:
 def table_of_waves(multiplier: Array, period: tuple[int, ...], shape: tuple[int, ...]) -> Array:
     """Return the values, at offsets from zero up to `shape`, of what has this even transform over a period."""
     ny, nx = period
-    if min(shape) <= SMALL:  # a transform would make the whole table
+    if max(shape) <= SMALL:  # a transform would make the whole table
         return _waves(ny, shape[0]) @ multiplier @ _waves(nx, shape[1]).T
     full = np.concatenate([multiplier, multiplier[ny - multiplier.shape[0] : 0 : -1]])
     return np.ascontiguousarray(scipy.fft.irfft2(full, s=(ny, nx))[: shape[0], : shape[1]])
@@ -271,7 +271,7 @@ def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
 def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
-    return np.asarray(np.hypot(qy[:, None], qx))
+    return np.asarray(np.sqrt(qy[:, None] ** 2 + qx**2))  # hypot takes ten times as long (tried by hand)
 
 
 def definite(wavenumber: Array) -> Array:

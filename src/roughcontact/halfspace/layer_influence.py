@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence import Love, table_of_waves
+from roughcontact.halfspace.influence import Love, table_of_waves, wavenumbers
 from roughcontact.halfspace.kernels import love, love_table, periodic_multiplier
 from roughcontact.halfspace.layer_bases import Base
 from roughcontact.halfspace.layer_kernel import LayerKernel, layer_kernel
@@ -140,11 +139,7 @@ class LayerWaves:
 
     def multiplier(self) -> Array:
         """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
-        qy, qx = (
-            2 * np.pi * scipy.fft.rfftfreq(n, step)
-            for n, step in zip(self.grid.shape, self.grid.spacing, strict=True)
-        )
-        q = np.hypot(qy[:, None], qx)
+        q = wavenumbers(self.grid.shape, self.grid.spacing)
         q[0, 0] = 1.0
         multiplier = periodic_multiplier(q) * self.stack.answer(q)
         multiplier[0, 0] = self.stack.mean

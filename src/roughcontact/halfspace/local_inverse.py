@@ -5,8 +5,9 @@ as good. On large planes, where a wide region may answer with long waves, blocks
 
 On a region that would be the inverse if cells outside stayed where they are, and they are free to move: with Q the
 inverse on the whole plane, it is ``Q_RR - Q_RO Q_OO^-1 Q_OR``. What is taken off is the more the nearer the edge. Most
-of what ``Q_RR`` answers to a constant, cell by cell, stands for it here, and takes off a fifth of the steps. What
-remains is definite as far as weights of other cells are negative, and all but the smallest are.
+of what ``Q_RR`` answers to a constant, cell by cell, stands for it here (`benchmarks/ideas.py` shows the steps that it
+saves). What remains is definite as far as weights of other cells are negative, and all but the smallest are. Fields in
+machine code do that, see `roughcontact.contact.compiled_fields`.
 """
 
 from __future__ import annotations
@@ -34,9 +35,7 @@ Pair = tuple[int, int]
 BOX = 64  # cells: the longest wave that the weights are fitted to
 BLOCK = 4  # cells to the side of a block
 SMOOTH = 0.125  # times the square of the waves of blocks: how those near the shortest are damped
-RELIEF = (
-    0.7  # of what it answers to a constant, taken off the diagonal: cells outside a region are free to move
-)
+RELIEF = 0.7  # of its answer to a constant on a region, taken off its diagonal
 LARGE = 2**19  # cells of a plane from which on long waves are worth a transform of blocks
 
 

@@ -123,11 +123,7 @@ class PatchOperator:
     forward: TileSum | DirectSum
     inverse: TileInverse
     gain: float = 3e-5
-
-    @property
-    def relief(self) -> float:
-        """What is taken off the diagonal of the inverse, of what it answers to a constant on a region."""
-        return RELIEF
+    relief: ClassVar[float] = RELIEF
 
     def gather(self, field: Any) -> Any:
         """Return a field of the plane on the tiles, zero beyond the edge."""

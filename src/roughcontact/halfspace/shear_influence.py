@@ -13,6 +13,7 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cerruti import cerruti, cerruti_table
+from roughcontact.halfspace.influence import wavenumbers
 
 __all__ = ["Cerruti", "ShearCompliance", "ShearInfluence", "ShearWaves"]
 
@@ -124,7 +125,7 @@ def _waves(shape: tuple[int, ...], spacing: tuple[float, ...]) -> tuple[Array, A
     direction, both squares are 1/2.
     """
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
-    q = np.hypot(qy[:, None], qx)
+    q = wavenumbers(shape, spacing)
     square = np.where(q > 0, q * q, 1.0)
     cos, sin, cross = qx**2 / square, qy[:, None] ** 2 / square, qy[:, None] * qx / square
     cos[0, 0] = sin[0, 0] = 0.5

@@ -18,7 +18,7 @@ Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
-FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group
+FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (tried by hand)
 SEVERAL = 4  # parts from which on threads are worth waking
 
 
@@ -60,14 +60,15 @@ class Region:
         _all(part, range(parts))
         return sums
 
-    def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> bool:
-        """Run a function on the blocks that these cells are of; return whether that is possible, and worth it."""
-        columns, lanes = field.shape[-1], WIDTH // field.itemsize
-        if columns % lanes or lanes % side or len(self._groups) * lanes > FEW * field.size:
-            return False
-        plan = 0, len(self._groups), self._whole, self.inside.size, columns, side, blocks.shape[1]
+    def finds_blocks(self, side: int) -> bool:
+        """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
+        columns, lanes = self.inside.shape[-1], WIDTH // self.inside.itemsize
+        return not (columns % lanes or lanes % side) and len(self._groups) * lanes <= FEW * self.inside.size
+
+    def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
+        """Run a function on the blocks that these cells are of."""
+        plan = 0, len(self._groups), self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
         self._code[name](address(self._groups), *plan, address(field), address(blocks))
-        return True
 
 
 def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
@@ -122,14 +123,18 @@ def sum_blocks(region: Region, field: Field, side: int) -> Field:
     """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off."""
     ny, nx = field.shape
     blocks = np.zeros((-(-ny // side), -(-nx // side)), dtype=field.dtype)
-    if not region.run_on_blocks("sum_blocks_on", field, blocks, side):
+    if region.finds_blocks(side):
+        region.run_on_blocks("sum_blocks_on", field, blocks, side)
+    else:
         _blocks("sum_blocks", field, blocks, side)
     return blocks
 
 
 def add_blocks(region: Region, field: Field, blocks: Field, side: int) -> None:
-    """Add to each cell of a region, or of more of its plane, what its block has."""
-    if not region.run_on_blocks("add_blocks_on", field, blocks, side):
+    """Add to each cell of a region what its block has; what others get means nothing."""
+    if region.finds_blocks(side):
+        region.run_on_blocks("add_blocks_on", field, blocks, side)
+    else:
         _blocks("add_blocks", field, blocks, side)
 
 
