@@ -17,8 +17,8 @@ def relax(
     ----------
     driver : Driver
     fields : Fields
-        Of the solve: the change and what it leaves lacking are found there. What it begins with is left alone by the
-        last direction, of nearly the same region.
+        Of the solve: the change, and what it leaves lacking, are found there. Directions leave alone the last one of
+        an earlier run on nearly the same region.
     conserve : bool
         Whether the change has no resultant. Then a displacement that is lacking everywhere alike is none.
     limit : float
