@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact import cascade
+from roughcontact.contact import cascade, pooling
 from roughcontact.contact.cascade import coarse_operator
 from roughcontact.contact.pooling import lowest, raised
 
@@ -36,6 +36,16 @@ def test_a_plane_has_its_mean():
     y, x = np.indices((8, 6)).astype(float)
     field = 3.0 + 2.0 * y - 0.5 * x
     np.testing.assert_allclose(raised(field, (2, 2)), field.reshape(4, 2, 3, 2).mean(axis=(1, 3)), rtol=1e-15)
+
+
+@pytest.mark.parametrize("rows", [1, 2, 7, 20, 21, 45])
+def test_rows_are_worked_on_in_slabs(rows, monkeypatch):
+    """Of 20 here: none of them, some, whole ones, and an odd row at last."""
+    field = np.random.default_rng(5).random((rows, 10))
+    field[rows // 2, 3] = np.inf
+    whole = raised(field, (2, 2))
+    monkeypatch.setattr(pooling, "SLAB", 20)
+    np.testing.assert_array_equal(raised(field, (2, 2)), whole)
 
 
 @pytest.mark.parametrize("out", [1.0, -1.0])
