@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from functools import cache
+from queue import SimpleQueue
+from threading import Lock, Thread
 from typing import TypeVar
 
 from threadpoolctl import ThreadpoolController
@@ -70,13 +72,13 @@ def join_in(work: Callable[[int], None], count: int) -> None:
     The first is this one: it could do all alone, and when it returns all is done. It waits for no other to come, or to
     find that nothing is left: `work` must hold what they look at. If it is interrupted, others may still be at work.
     """
-    others: list[Future[None]] = []
+    wanted = [True]
     try:
-        others.extend(_pool().submit(work, k) for k in range(1, count))
+        if count > 1:
+            _crew().call(work, range(1, count), wanted)
         work(0)
     finally:
-        for other in others:
-            other.cancel()
+        wanted.clear()
 
 
 @contextmanager
@@ -97,6 +99,38 @@ def _available() -> int:
     return max(1, min(MOST, cores, int(asked) if asked.isdigit() and int(asked) else cores))
 
 
+class _Crew:
+    """Threads that wait for calls, of which nobody asks what became of them: a pool takes ten times as long to ask."""
+
+    def __init__(self) -> None:
+        self._calls: SimpleQueue[tuple[Callable[[int], None], int, list[bool]]] = SimpleQueue()
+        self._size = 0
+        self._lock = Lock()
+
+    def call(self, work: Callable[[int], None], numbers: Sequence[int], wanted: list[bool]) -> None:
+        """Have others do some work for each number, as long as it is wanted when they come to it."""
+        if self._size < len(numbers):
+            with self._lock:
+                while self._size < len(numbers):
+                    Thread(target=self._answer, name=f"roughcontact-{self._size}", daemon=True).start()
+                    self._size += 1
+        for k in numbers:
+            self._calls.put((work, k, wanted))
+
+    def _answer(self) -> None:
+        while True:
+            work, k, wanted = self._calls.get()
+            if wanted:
+                with suppress(BaseException):  # whoever called could do all alone
+                    work(k)
+            del work, wanted  # what they hold is not held while waiting
+
+
+@cache
+def _crew() -> _Crew:
+    return _Crew()
+
+
 @cache
 def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
@@ -108,4 +142,5 @@ def _controller() -> ThreadpoolController:
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_pool.cache_clear)  # a forked process has none of these threads
+    for _threads in (_pool, _crew):
+        os.register_at_fork(after_in_child=_threads.cache_clear)  # a forked process has none of these threads

@@ -357,7 +357,7 @@ class Given:
         """Return both kinds of fields so far, with the error on the whole region, and what it shares, in them."""
         found = both_of(Seeing, self.kept, self.lacking, self.base)
         for fields in found:
-            fields.change += self.change
+            fields.change[...] += self.change
             fields.t[...] = self.t
             fields.size()
             fields.share()
@@ -444,7 +444,7 @@ def test_cells_are_let_go_again(start):
     for fields in start.both():
         first = fields.let_go(False)
         before = None if first is None else first.copy()
-        fields.change -= start.t * fields.inside
+        fields.change[...] -= start.t * fields.inside
         p = start.base + fields.change
         pulls = start.kept & ~start.pulls & (p < 0)
         moved = fields.let_go(False)
@@ -464,7 +464,7 @@ def test_bounds_may_lie_otherwise_in_memory(order):
     base, change = (np.array(kept * f, order=order) for f in rng.standard_normal((2, 9, 14)))
     lacking, displacement = (np.array(f, order=order) for f in rng.standard_normal((2, 9, 14)))
     for fields in both_of(Seeing, np.array(kept, order=order), lacking, base):
-        fields.change += change
+        fields.change[...] += change
         moved = fields.let_go(False)
         rest = kept & ~(kept & (base + change < 0))
         np.testing.assert_array_equal(fields.inside > 0, rest)
@@ -480,7 +480,7 @@ def test_new_cells_share_alike():
     kept, base = np.ones((4, 9), bool), np.zeros((4, 9))
     change = np.where(np.arange(36).reshape(4, 9) < 6, -3.0, 0.0)
     for fields in both_of(Seeing, kept, base, base):
-        fields.change += change
+        fields.change[...] += change
         moved = fields.let_go(True)
         np.testing.assert_allclose(moved.ravel()[:6], 3.0)
         np.testing.assert_allclose(moved.ravel()[6:], -6 * 3.0 / 30)

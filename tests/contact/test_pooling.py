@@ -1,12 +1,18 @@
 """The height that blocks of cells have: slopes do not count, summits do, and what is missing is left out."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from libraries import Strict
 from roughcontact.contact import cascade, pooling
-from roughcontact.contact.cascade import coarse_operator
+from roughcontact.contact.cascade import coarse_guess, coarse_operator
 from roughcontact.contact.pooling import lowest, raised
+from roughcontact.contact.problem import Depth
+from roughcontact.contact.state import State
+from roughcontact.contact.status import Status
 
 SHAPES = [(8, 6), (7, 6), (8, 5), (9, 7), (1, 8), (2, 2)]
 
@@ -124,3 +130,67 @@ def test_a_rough_surface_takes_few_products_from_its_coarse_guess(hurst):
     solution = rc.press(rough, 1.0, force=3e-5)
     assert solution.status.converged
     assert solution.steps < 10
+
+
+def blocks(coarse, factors, separation):
+    """Return the pressure of each cell's block, none where the cell is missing."""
+    wanted = np.zeros(separation.shape)
+    for at in np.ndindex(separation.shape):
+        block = tuple(k // factor for k, factor in zip(at, factors, strict=True))
+        wanted[at] = coarse[block] if np.isfinite(separation[at]) else 0.0
+    return wanted
+
+
+@pytest.mark.parametrize("shape", [*SHAPES, (13,), (16,)])
+@pytest.mark.parametrize("factors", [(2, 2), (1, 2), (4, 4), (4, 1)])
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_cells_have_the_pressure_of_their_block(shape, factors, share, elsewhere):
+    factors, rng = factors[: len(shape)], np.random.default_rng(6)
+    many = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
+    coarse = rng.random(many) * (rng.random(many) < share)
+    for missing in (0.0, 0.3):
+        separation = np.where(rng.random(shape) < missing, np.inf, 1.0)
+        given = [Strict.put(f) if elsewhere else f for f in (coarse, separation)]
+        found = cascade._spread(given[0], factors, given[1])
+        np.testing.assert_array_equal(
+            Strict.get(found) if elsewhere else found, blocks(coarse, factors, separation)
+        )
+
+
+class Corner:
+    """A window that is the whole, and a solution with some pressure in its corner, or none."""
+
+    strength: ClassVar[float] = 0.0
+    answers: ClassVar[list] = []
+
+    def __init__(self, operator):
+        pass
+
+    def solve(self, solver, separation, terms, guess):
+        p = np.zeros(separation.shape)
+        p[-3:, -2:] = self.strength * (1 + np.arange(6).reshape(3, 2))
+        self.answers.append(p)
+        return State(p, 0.25, 0.0, 1, Status.CONVERGED), tuple(slice(0, n) for n in p.shape)
+
+
+@pytest.mark.parametrize("shape", [(66, 70), (65, 67), (130, 75)])
+@pytest.mark.parametrize("strength", [0.0, 3.0])
+def test_a_guess_is_the_coarse_answer_on_the_cells(shape, strength, monkeypatch):
+    monkeypatch.setattr(cascade, "Windows", Corner)
+    monkeypatch.setattr(Corner, "strength", strength)
+    rng, operator = np.random.default_rng(7), rc.half_space(rc.Grid(shape, 1.0), 1.0)
+    separation = np.where(rng.random(shape) < 0.1, np.inf, rng.random(shape))
+    _, factors = coarse_operator(operator, shape)
+    found, depth = coarse_guess(operator, separation, Depth(5.0), rc.ActiveSet())
+    assert depth == 0.25
+    np.testing.assert_array_equal(found, blocks(Corner.answers[-1], factors, separation))
+    assert found.any() == (strength > 0)
+
+
+def test_without_coarser_cells_a_guess_is_no_pressure():
+    separation = np.random.default_rng(7).random((64, 64))
+    found, depth = coarse_guess(
+        rc.half_space(rc.Grid((64, 64), 1.0), 1.0), separation, Depth(0.5), rc.ActiveSet()
+    )
+    assert (found.shape, found.any(), depth) == ((64, 64), False, 0.0)

@@ -1,5 +1,8 @@
 """The contract of every operator."""
 
+import gc
+from weakref import ref
+
 import numpy as np
 import oracles
 import pytest
@@ -9,7 +12,7 @@ from roughcontact.halfspace.half_periodic import half_periodic
 from roughcontact.halfspace.layer import layer
 from roughcontact.halfspace.line import LineOperator
 from roughcontact.halfspace.multilevel import MultilevelOperator
-from roughcontact.halfspace.operator import Operator, is_positive, is_semidefinite
+from roughcontact.halfspace.operator import Operator, is_positive, is_semidefinite, self_influence
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
 PLANES = [
@@ -194,3 +197,76 @@ def test_periodic_waves_answer_with_two_over_q():
 def test_nonsense_is_refused(grid, more, message):
     with pytest.raises(ValueError, match=message):
         rc.half_space(grid, **({"modulus": 1.0} | more))
+
+
+class Asked:
+    """A body that counts how often it is asked for its matrix."""
+
+    def __init__(self, own=2.0):
+        self.own, self.times = own, 0
+
+    def as_matrix(self, cells=None):
+        self.times += 1
+        assert cells.tolist() == [0]
+        return np.full((1, 1), self.own)
+
+
+class Unhashable(Asked):
+    __hash__ = None
+
+    def __eq__(self, other):
+        raise AssertionError("never compared")
+
+
+class WithoutReferences:
+    __slots__ = ("asked",)
+
+    def __init__(self):
+        self.asked = Asked()
+
+    def as_matrix(self, cells=None):
+        return self.asked.as_matrix(cells)
+
+
+def test_what_a_cell_does_to_itself(operator):
+    own = operator.as_matrix(np.zeros(1, np.intp))
+    for _ in range(2):
+        found = self_influence(operator)
+        assert type(found) is float
+        assert found == own[0, 0]
+    close(found, operator.as_matrix()[0, 0])
+
+
+def test_it_is_asked_once():
+    """Of each: others are asked by themselves, even when one has gone and another lies where it was."""
+    one, two = Asked(), Asked(3.0)
+    assert [self_influence(body) for body in (one, two, one, two)] == [2.0, 3.0, 2.0, 3.0]
+    assert (one.times, two.times) == (1, 1)
+    for own in (4.0, 5.0, 6.0):
+        assert self_influence(Asked(own)) == own
+
+
+@pytest.mark.parametrize("kind", [Unhashable, WithoutReferences])
+def test_it_is_told_by_what_cannot_be_remembered(kind):
+    body = kind()
+    assert [self_influence(body) for _ in range(2)] == [2.0, 2.0]
+    assert getattr(body, "asked", body).times == 2
+
+
+def test_what_was_asked_is_not_kept_alive():
+    body = Asked()
+    self_influence(body)
+    gone = ref(body)
+    del body
+    gc.collect()
+    assert gone() is None
+
+
+def test_what_has_no_matrix_is_asked_again():
+    """What went wrong is heard of, and not remembered."""
+    body = Asked()
+    body.as_matrix = lambda cells: {}["no matrix"]
+    with pytest.raises(KeyError, match="no matrix"):
+        self_influence(body)
+    del body.as_matrix
+    assert self_influence(body) == 2.0

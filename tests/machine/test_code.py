@@ -348,3 +348,40 @@ def test_parts_are_shared_between_threads_and_phases_wait_for_each_other(precisi
         np.testing.assert_array_equal(second, np.arange(parts, 0, -1))
         run(counters, taken, first, second)  # who comes late finds nothing left
         np.testing.assert_array_equal(taken, 1)
+
+
+@pytest.mark.parametrize("size", [0, 1, 3, 4, 7, 8, 9, 23])
+def test_conditions_in_lanes_and_one_by_one(precision, size):
+    """Whichever takes them, each number is written once, from numbers of both precisions and truth values."""
+
+    def body(code, n, a, wide, given, limit, least, answers, rounded, flags):
+        for at, take in code.each(n):
+            x, y, flag = take(a, at), take(wide, at), take(given, at)
+            more = y.is_more_than(take.alike(limit))
+            both, either = code.both(more, flag), code.either(more, flag)
+            results = [
+                x.where(flag, -7.0),
+                x.where(code.neither(flag)),
+                x.replaced(2.5),
+                x.larger(take.alike(least)),
+            ]
+            for k, result in enumerate(results):
+                answers.put(at + n * k, result)
+            for k, result in enumerate([more, both, either, y.is_below(0.0)]):
+                flags.put(at + n * k, result)
+            rounded.put(at, y.rounded_to(x.value.type.element if take.lanes else x.value.type))
+
+    kinds = "index reals doubles flags double real reals reals flags"
+    run = made(precision, tiny=(kinds, body)).tiny
+    a, wide = numbers(precision, size), numbers("float64", size, 1)
+    given = numbers("float64", size, 2) > 0
+    wide[1:2], limit, least = 0.1, 0.1, 0.25
+    answers, flags = np.full((5, size), np.nan, precision), np.full((5, size), 9, np.uint8)
+    rounded = np.full(size + 1, np.nan, precision)
+    seen = np.where(given, np.uint8(255), np.uint8(0))  # whatever is not zero is true
+    run(size, a, wide, seen, limit, least, answers, rounded, flags)
+    more = wide > limit
+    wanted = [np.where(given, a, -7), np.where(given, 0, a), np.full(size, 2.5), np.maximum(a, least)]
+    np.testing.assert_array_equal(answers, [*wanted, np.full(size, np.nan)])
+    np.testing.assert_array_equal(rounded, [*wide.astype(precision), np.nan])
+    np.testing.assert_array_equal(flags, [more, more & given, more | given, wide < 0, np.full(size, 9)])

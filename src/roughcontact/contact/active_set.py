@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.bounds import depth_of, within
+from roughcontact.contact.bounds import within
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.hard import press_hard
@@ -21,6 +21,7 @@ from roughcontact.contact.problem import Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
+from roughcontact.contact.verdict import Guess, guess_region, judge_pressure
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.operator import Operator, is_semidefinite
@@ -83,7 +84,6 @@ class ActiveSet:
         """Return what guessing the region again and again leads to: converged, or stagnated."""
         measure, judge = Measure(operator.weights), Judge.of(operator, terms)
         control, tolerance, given, hardness = terms.control, terms.tolerance, terms.depth, terms.hardness
-        own = judge.self_influence
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         xp = namespace(separation)
         # Factorisations are made on the host, and know no hardness.
@@ -95,12 +95,7 @@ class ActiveSet:
         driver: Driver | None = None
         guessed = True
         while True:
-            carrying, held = p > 0, p >= hardness
-            gap = u + separation
-            d = depth_of(measure, gap, p, carrying & ~held) if given is None else given
-            gap -= d
-            scale = judge.scale(u)
-            r = judge.residual(p, u, gap)
+            d, r, scale = judge_pressure(judge, measure, terms, p, u, separation)
             if r <= tolerance and exact:
                 return State(p, d, r, steps, Status.CONVERGED, tangent)
             if r <= tolerance:  # the certificate stands on an exact product
@@ -111,20 +106,18 @@ class ActiveSet:
             if steps >= self.max_steps or idle > 12:
                 return State(p, d, r, steps, Status.STAGNATED)
             allowed = 0.5 * tolerance * scale
-            region = carrying | (gap < -allowed)
-            if hardness < math.inf:
-                region = (region & ~held) | (held & (gap > allowed))
-            if guessed:
-                # From other cells or another load: keep what a projected step of one cell leaves of it.
-                wrong = region & (p * own < gap)
-                region &= ~wrong
-                if _worth_sifting(region, wrong, measure, dense_limit):
-                    limit = LOOSE * r * scale
-                    region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
-                guessed = False
-            del gap  # planes are large: none is kept beyond its use
-            count, size = int(xp.count_nonzero(region)), math.prod(region.shape)
-            if not count and bool(xp.any(held)):  # where all give way no region tells the depth
+            # From other cells or another load: keep what a projected step of one cell leaves of it.
+            guess = guess_region(
+                terms, p, u, separation, d, allowed, judge.self_influence if guessed else math.inf
+            )
+            region, count = guess.region, guess.count
+            if guessed and _worth_sifting(guess, measure, dense_limit):
+                limit = LOOSE * r * scale
+                region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
+                count = int(np.count_nonzero(region))
+            guessed, size = False, math.prod(region.shape)
+            # Where all give way no region tells the depth.
+            if not count and hardness < math.inf and bool(xp.any(p >= hardness)):
                 return State(p, d, r, steps, Status.STAGNATED)
             if not count:  # too shallow a depth for this grid
                 p, u = xp.zeros_like(p), xp.zeros_like(p)
@@ -144,7 +137,7 @@ class ActiveSet:
                 tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
                 steps += 1
             else:
-                driver = driver_on(operator, region | carrying, driver) if idle < STUCK else Plane(operator)
+                driver = driver_on(operator, guess.taken, driver) if idle < STUCK else Plane(operator)
                 found = press_region(
                     driver,
                     separation,
@@ -162,12 +155,9 @@ class ActiveSet:
             u, exact = operator.apply(p), True
 
 
-def _worth_sifting(region: Mask, wrong: Mask, measure: Measure, limit: int) -> bool:
+def _worth_sifting(guess: Guess, measure: Measure, limit: int) -> bool:
     """Whether a guess is bad, and its matrix large, not too large: one load to the next is a good guess."""
-    if not limit:
-        return False
-    count = int(region.sum())
-    return wrong.sum() > count / 100 and SIFTED < count <= limit and not measure.varies
+    return guess.wrong > guess.count / 100 and SIFTED < guess.count <= limit and not measure.varies
 
 
 def _sifted(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.pooling import raised
 from roughcontact.contact.problem import Control, Depth, Terms
 from roughcontact.contact.state import Solver
-from roughcontact.contact.window import Windows, embed
+from roughcontact.contact.window import Windows, bounding_box, embed
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operator import Coarsenable, Operator, is_semidefinite
 
@@ -38,12 +38,22 @@ def coarse_guess(
         control = _reachable(control, separation, heights)
     guess = coarse_guess(part, heights, control, solver)
     state, place = Windows(part).solve(solver, heights, Terms(control, COARSE_TOLERANCE), guess)
+    return _spread(embed(state.pressure, place, heights.shape), factors, separation), state.depth
+
+
+def _spread(coarse: Array, factors: tuple[int, ...], separation: Array) -> Array:
+    """Return the pressure on the cells of which blocks have another, zero where a cell is missing."""
     xp = namespace(separation)
-    pressure = embed(state.pressure, place, heights.shape)
-    for axis, factor in enumerate(factors):
-        pressure = xp.repeat(pressure, factor, axis=axis)
-    fine = pressure[tuple(slice(0, n) for n in separation.shape)]
-    return xp.where(xp.isfinite(separation), fine, 0.0), state.depth
+    # Only where there is some, which elsewhere than on the host would cost a look: planes are large.
+    some = bounding_box(coarse > 0) if is_numpy(coarse) else None
+    box = tuple(slice(0, n) for n in coarse.shape) if some is None else some
+    fine, there = coarse[box], []
+    for axis, (part, factor, n) in enumerate(zip(box, factors, separation.shape, strict=True)):
+        fine = xp.repeat(fine, factor, axis=axis)
+        there.append(slice(part.start * factor, min(part.stop * factor, n)))
+    place = tuple(there)
+    fine = fine[tuple(slice(0, part.stop - part.start) for part in place)]
+    return embed(xp.where(xp.isfinite(separation[place]), fine, 0.0), place, tuple(separation.shape))
 
 
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.drivers import Driver
 from roughcontact.halfspace.local_inverse import LocalInverse
-from roughcontact.machine.region import Region, lower, take_in, with_margins
+from roughcontact.machine import planes, room
+from roughcontact.machine.region import Located, Region, lower, take_in, with_margins, zeros_with_margins
 
 __all__ = ["CompiledFields"]
 
 Field = npt.NDArray[Any]  # of single or double precision
+Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 
@@ -23,15 +25,62 @@ class CompiledFields:
 
     held = None
 
-    def __init__(self, driver: Driver, weight: float, kept: Mask, lacking: Field, base: Field) -> None:
-        self.r, self._base = (np.ascontiguousarray(field, dtype=lacking.dtype) for field in (lacking, base))
-        self.inside = with_margins(kept, lacking.dtype)
-        self.change, self.t, self.v = self._zeros(), self._zeros(), self.r
-        self._error, self._z = with_margins(self.change), self.r
-        self._moved: Field | None = None  # zero everywhere, as long as it is kept
+    def __init__(self, driver: Driver, weight: float, inside: Field, lacking: Field, base: Field) -> None:
+        self._inside = Located.of(inside)  # with margins
+        self._r, self._base = (self._located(field) for field in (lacking, base))
+        self._change, self._t, self._v = self._zeros(), self._zeros(), self._r
+        self._error, self._z = Located.of(with_margins(self.change)), self._r
+        self._moved: Located | None = None  # zero everywhere, as long as it is kept
         self._driver, self._weight = driver, weight
         self._relief = driver.relief
         self._shares = False
+
+    @classmethod
+    def scaled(
+        cls,
+        driver: Driver,
+        weight: float,
+        region: Mask,
+        given: tuple[Array, Array, Array],
+        depth: float | None,
+        otherwise: float,
+    ) -> tuple[Self, float]:
+        """Return the fields for a separation, a displacement and a pressure [Pa] to start from, and their unit."""
+        separation, displacement, start = (np.ascontiguousarray(f, dtype=np.float64) for f in given)
+        region, precision = np.ascontiguousarray(region), driver.narrow(np.empty(0)).dtype
+        levels = planes.levels(separation, displacement, region)
+        if depth is None:
+            depth = levels.mean
+        unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
+        inside = zeros_with_margins(region.shape, precision)
+        lacking, base = (room.empty(region.shape, precision) for _ in range(2))
+        planes.narrow(separation, displacement, start, region, depth, unit, inside, lacking, base)
+        return cls(driver, weight, inside, lacking, base), unit
+
+    @property
+    def inside(self) -> Field:
+        """One on the cells that are free, zero elsewhere."""
+        return self._inside.field
+
+    @property
+    def change(self) -> Field:
+        """Of the pressure, so far."""
+        return self._change.field
+
+    @property
+    def r(self) -> Field:
+        """What is lacking."""
+        return self._r.field
+
+    @property
+    def t(self) -> Field:
+        """The direction."""
+        return self._t.field
+
+    @property
+    def v(self) -> Field:
+        """What it causes."""
+        return self._v.field
 
     def is_empty(self) -> bool:
         """Return whether no cell is free."""
@@ -40,9 +89,9 @@ class CompiledFields:
     def begin(self, conserve: bool) -> float:
         """Return the area of the region; take the mean lack off where the force is kept."""
         self._shares = False
-        lack, _, _, area = self._sums("measure", 4, self.inside, self.r, self.inside, self.inside)
+        lack, _, _, area = self._sums("measure", 4, self._inside, self._r, self._inside, self._inside)
         if conserve:
-            self.r -= lack / area
+            self.r[...] -= lack / area
         return area
 
     def size(self) -> float:
@@ -53,26 +102,26 @@ class CompiledFields:
         """Have changes shared; return the sum of the shares."""
         # The inverse with its relief answers to a constant with a part of this: only ratios count.
         self._shares = True
-        constant = self._of_constant, self.inside, self.inside, self.v, self.inside, 0.0
+        constant = self._of_constant, self._inside, self._inside, self._v, self._inside, 0.0
         return self._sums("weigh", 3, *constant)[2]
 
     def precondition(self) -> tuple[float, float, float]:
         """Find z; return its products with r and v, and its sum."""
         self._z = self._inverse(self._error)
         constant = self._of_constant if self._relief else self._z
-        a, b, c = self._sums("weigh", 3, self._z, self.inside, self._error, self.v, constant, self._relief)
+        a, b, c = self._sums("weigh", 3, self._z, self._inside, self._error, self._v, constant, self._relief)
         return a, b, c
 
     def turn(self, beta: float, shift: float) -> Field:
         """Turn t; return it."""
         shared, by = (self._of_constant, shift) if self._shares else (self._z, 0.0)
-        self._region.run("turn", 0, self.t, self._z, shared, beta, by)
+        self._region.run("turn", 0, self._t, self._z, shared, beta, by)
         return self.t
 
     def measure(self, v: Field) -> tuple[float, float, float, float]:
         """Take v; return t v, the sum of v, t r, and the sum of t."""
-        self.v = np.ascontiguousarray(v, dtype=self.r.dtype)
-        a, b, c, d = self._sums("measure", 4, self.t, self.v, self.inside, self._error)
+        self._v = self._located(v)
+        a, b, c, d = self._sums("measure", 4, self._t, self._v, self._inside, self._error)
         return a, b, c, d
 
     def advance(self, alpha: float, mean: float) -> float:
@@ -83,24 +132,30 @@ class CompiledFields:
     def let_go(self, conserve: bool) -> Field | None:
         """Let go of cells that pull; return what that moves."""
         region, moved = self._region, self._zeros() if self._moved is None else self._moved
-        fields = self._base, self.change, self.inside, moved, self.t, self._error
-        count, lost, carried, left = region.run("let_go", 4, *fields).sum(axis=0)
+        fields = self._base, self._change, self._inside, moved, self._t, self._error
+        count, *sums = region.run("let_go", 4, *fields)
         if not count:
             self._moved = moved
             return None
-        if conserve and left:
-            # What cells carry tells their shares; new cells carry nothing yet.
-            share, alike = (lost / carried, 0.0) if carried > 0 else (0.0, lost / left)
-            region.run(
-                "share_out", 0, self._base, self.change, self.inside, moved, float(share), float(alike)
-            )
+        if conserve:
+            self._share_out(moved, *sums)
         self._moved = None
         self._changed()
-        return moved
+        return moved.field
+
+    def leave(self, conserve: bool) -> Field | None:
+        """Take the pressure of other cells to zero; return what does."""
+        moved = self._zeros()
+        count, *sums = planes.leave(self.inside, self._base.field, self.change, moved.field)
+        if not count:
+            return None
+        if conserve:
+            self._share_out(moved, *sums)
+        return moved.field
 
     def follow(self, displacement: Field) -> None:
         """Take what a change has caused off what is lacking."""
-        lower(self.r, np.ascontiguousarray(displacement, dtype=self.r.dtype), 1.0, 0.0)
+        lower(self.r, self._located(displacement).field, 1.0, 0.0)
 
     def take_in(self, least: float) -> float:
         """Free the cells that lack more; return the largest lack."""
@@ -109,17 +164,32 @@ class CompiledFields:
             self._changed()
         return worst
 
-    def _zeros(self) -> Field:
-        return np.zeros(self.r.shape, self.r.dtype)  # of memory that is touched where it is needed
+    def pressure(self, start: Array, unit: float) -> Array:
+        """Return the pressure that there is now."""
+        return planes.widen(np.ascontiguousarray(start, dtype=np.float64), self.change, self.inside, unit)
+
+    def _share_out(self, moved: Located, lost: float, carried: float, left: float) -> None:
+        """Have the region keep the force that has been lost, and move as well."""
+        if not left:
+            return
+        # What cells carry tells their shares; new cells carry nothing yet.
+        share, alike = (lost / carried, 0.0) if carried > 0 else (0.0, lost / left)
+        self._region.run("share_out", 0, self._base, self._change, self._inside, moved, share, alike)
+
+    def _located(self, field: Field) -> Located:
+        return Located.of(np.ascontiguousarray(field, dtype=self.inside.dtype))
+
+    def _zeros(self) -> Located:
+        return Located.of(room.zeros(self.inside.shape, self.inside.dtype))
 
     @cached_property
     def _region(self) -> Region:
         return Region(self.inside)
 
     @cached_property
-    def _of_constant(self) -> Field:
+    def _of_constant(self) -> Located:
         """What the inverse answers to a constant on the region."""
-        return self._inverse(self.inside)
+        return self._inverse(self._inside)
 
     def _changed(self) -> None:
         """Forget what hangs on the region."""
@@ -127,16 +197,15 @@ class CompiledFields:
             self.__dict__.pop(name, None)
 
     def _advanced(self, alpha: float) -> float:
-        fields = self.change, self.r, self._error, self.t, self.inside
-        return float(self._region.run("advance", 1, *fields, alpha).max())
+        fields = self._change, self._r, self._error, self._t, self._inside
+        return self._region.run("advance", 1, *fields, alpha, largest=True)[0]
 
-    def _inverse(self, field: Field) -> Field:
+    def _inverse(self, field: Located) -> Located:
         """Return about the pressure under a field that is zero outside the region and has margins."""
         local: LocalInverse | None = getattr(self._driver, "local_inverse", None)
         if local is None:
-            return np.ascontiguousarray(self._driver.approximate_inverse(field), dtype=field.dtype)
-        return local.on(self._region, field)
+            return self._located(self._driver.approximate_inverse(field.field))
+        return self._located(local.on(self._region, field.field))
 
-    def _sums(self, name: str, count: int, *fields: Field | float) -> list[float]:
-        sums = self._region.run(name, count, *fields).sum(axis=0)
-        return [float(self._weight * one) for one in sums]
+    def _sums(self, name: str, count: int, *arguments: Located | float) -> list[float]:
+        return [self._weight * one for one in self._region.run(name, count, *arguments)]

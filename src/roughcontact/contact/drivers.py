@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.convolution import Convolution
 from roughcontact.halfspace.local_inverse import RELIEF, LocalInverse
-from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision
+from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision, self_influence
 from roughcontact.halfspace.patches import PatchOperator
 from roughcontact.halfspace.tiles import Tiles
 
@@ -43,8 +43,8 @@ class Driver(Linear, Invertible, Protocol):
         """What is taken off the diagonal of its inverse, of what that answers to a constant on a region."""
         ...
 
-    def gather(self, field: Any) -> Any:
-        """Return a field of the plane on the cells of the driver."""
+    def gather(self, field: Any, beyond: float = 0.0) -> Any:
+        """Return a field of the plane on the cells of the driver, another value beyond its edge."""
         ...
 
     def scatter(self, values: Any) -> Any:
@@ -78,7 +78,7 @@ class Plane:
         """What is taken off the diagonal of that, of what it answers to a constant on a region."""
         return 0.0 if self.local_inverse is None else RELIEF
 
-    def gather(self, field: Any) -> Any:
+    def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return the field."""
         return field
 
@@ -165,7 +165,7 @@ def first_product(operator: Operator, pressure: Array, driver: Driver | None = N
 
 def _tame(operator: Operator) -> bool:
     """Whether its influences are numbers of single precision."""
-    return SAFE < float(operator.as_matrix(np.zeros(1, np.intp))[0, 0]) < 1 / SAFE
+    return SAFE < self_influence(operator) < 1 / SAFE
 
 
 def _plane(operator: Operator) -> Plane:

@@ -12,9 +12,12 @@ from roughcontact.arrays import is_numpy, largest, namespace
 from roughcontact.contact.compiled_fields import CompiledFields
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.problem import Terms
 from roughcontact.machine import loader
+from roughcontact.machine.layout import NEVER
+from roughcontact.machine.region import with_margins
 
-__all__ = ["Fields", "fields_on", "shared"]
+__all__ = ["Fields", "fields_on", "scaled_fields", "shared"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -25,23 +28,32 @@ class Fields(Protocol):
 
     Inside the region are the cells whose pressure is free, between its bounds. There t is the direction, v what it
     causes, and z the lack after the preconditioner; outside only r and the change mean anything.
-
-    Attributes
-    ----------
-    inside : array
-        One on the cells that are free, zero elsewhere.
-    change : array
-        Of the pressure, so far.
-    r : array
-        Displacement that is lacking.
-    t, v : array
     """
 
-    inside: Array
-    change: Array
-    r: Array
-    t: Array
-    v: Array
+    @property
+    def inside(self) -> Array:
+        """One on the cells that are free, zero elsewhere."""
+        ...
+
+    @property
+    def change(self) -> Array:
+        """Of the pressure, so far."""
+        ...
+
+    @property
+    def r(self) -> Array:
+        """Displacement that is lacking."""
+        ...
+
+    @property
+    def t(self) -> Array:
+        """The direction."""
+        ...
+
+    @property
+    def v(self) -> Array:
+        """What it causes."""
+        ...
 
     @property
     def held(self) -> Mask | None:
@@ -87,12 +99,23 @@ class Fields(Protocol):
         """
         ...
 
+    def leave(self, conserve: bool) -> Array | None:
+        """Take the pressure of cells that are not free to zero; return what does, None if they have none.
+
+        As there. It is for the beginning; cells at the hardness stay there.
+        """
+        ...
+
     def follow(self, displacement: Array) -> None:
         """Take what a change has caused off what is lacking."""
         ...
 
     def take_in(self, least: float) -> float:
         """Free the cells that lack more than `least`, or as much too little; return the largest lack, 0 if none."""
+        ...
+
+    def pressure(self, start: Array, unit: float) -> Array:
+        """Return the pressure in the region that began as `start` and has changed, in a `unit`; nowhere negative."""
         ...
 
 
@@ -120,9 +143,65 @@ def fields_on(
     ceiling : float
         The hardness.
     """
-    if is_numpy(lacking) and not measure.varies and ceiling == math.inf and loader.takes(lacking):
-        return CompiledFields(driver, float(measure.weights), kept, lacking, base)
+    if has_machine_code(lacking, measure, ceiling):
+        inside = with_margins(kept, lacking.dtype)
+        return CompiledFields(driver, float(measure.weights), inside, lacking, base)
     return _Generic(driver, measure, kept, lacking, base, held, ceiling)
+
+
+def scaled_fields(
+    driver: Driver,
+    measure: Measure,
+    terms: Terms,
+    region: Mask,
+    start: Array,
+    separation: Array,
+    displacement: Array,
+    otherwise: float,
+) -> tuple[Fields, float]:
+    """Return the fields of a solve for what is lacking of a depth, and their unit.
+
+    Parameters
+    ----------
+    driver : Driver
+    measure : Measure
+    terms : Terms
+        Where no depth is prescribed it is the mean level of the region.
+    region : bool array
+        Cells that are free at first, on those of the driver.
+    start, displacement : array
+        Pressure [Pa] and its image [m], there too.
+    separation : array
+        There too [m]; infinite where a cell never touches.
+    otherwise : float
+        Unit where nothing is lacking, if it is not zero [m].
+
+    Returns
+    -------
+    fields : Fields
+    unit : float
+        What is lacking in the region at most [m]: then single precision holds all numbers. Pressures are in the unit
+        too [Pa].
+    """
+    ceiling = terms.hardness
+    if has_machine_code(separation, measure, ceiling):
+        fields = separation, displacement, start
+        return CompiledFields.scaled(driver, float(measure.weights), region, fields, terms.depth, otherwise)
+    xp = namespace(separation)
+    level = separation + displacement
+    depth = measure.mean(level, region) if terms.depth is None else terms.depth
+    unit = largest((depth - level)[region]) or otherwise or 1.0
+    there = xp.isfinite(separation)
+    lacking = driver.narrow((depth - xp.where(there, level, 0.0)) / unit)
+    lacking = xp.where(there, lacking, NEVER)
+    held = (start >= ceiling) & ~region
+    base = driver.narrow(start / unit)
+    return _Generic(driver, measure, region, lacking, base, held, ceiling / unit), unit
+
+
+def has_machine_code(field: Array, measure: Measure, ceiling: float) -> bool:
+    """Whether there is machine code for such fields."""
+    return is_numpy(field) and not measure.varies and ceiling == math.inf and loader.takes(field)
 
 
 def shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:
@@ -214,6 +293,16 @@ class _Generic:
         self.change += moved
         return moved  # type: ignore[no-any-return]
 
+    def leave(self, conserve: bool) -> Array | None:
+        left = (self._base > 0) & ~self._kept & ~self._held
+        if not bool(namespace(left).any(left)):
+            return None
+        moved = namespace(left).where(left, -self._base, 0.0)
+        if conserve:
+            moved = shared(moved, self._base, self.inside, self._measure)
+        self.change += moved
+        return moved  # type: ignore[no-any-return]
+
     def follow(self, displacement: Array) -> None:
         self.r -= displacement
 
@@ -224,6 +313,15 @@ class _Generic:
             return 0.0
         self._now(self._kept | added, self._held & ~added)
         return largest(xp.where(added, lacking, 0.0))
+
+    def pressure(self, start: Array, unit: float) -> Array:
+        xp = namespace(start)
+        p = xp.astype(self.change, xp.float64)  # in place: planes are large
+        p *= unit
+        p += start
+        p = xp.where(p > 0, p, 0.0)
+        p *= self.inside
+        return p  # type: ignore[no-any-return]
 
     def _now(self, kept: Mask, held: Mask) -> None:
         self._kept, self._held = kept, held

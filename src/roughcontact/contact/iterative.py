@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import namespace
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
-from roughcontact.contact.fields import fields_on, shared
+from roughcontact.contact.fields import scaled_fields
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Force, Terms
 
@@ -22,7 +22,6 @@ Mask = npt.NDArray[np.bool_]
 
 DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved that is but a guess
 ROUNDS = 20  # of adding cells, before an exact product has its say
-NEVER = -1e30  # a lack of displacement that brings no cell into contact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,26 +67,12 @@ def press_region(
     """
     measure, xp = Measure(driver.weights), namespace(pressure)
     conserve, hardness = terms.depth is None, terms.hardness
-    kept, start = driver.gather(region), driver.gather(pressure)
-    level = driver.gather(separation) + driver.gather(displacement)
-    depth = measure.mean(level, kept) if terms.depth is None else terms.depth
+    start, kept = driver.gather(pressure), driver.gather(region)
     # What was not measured is never touched; nor is what a driver has beyond the edge.
-    there = driver.gather(xp.isfinite(separation))
-    whole = bool(xp.all(there))
-    lacking = depth - (level if whole else xp.where(there, level, math.inf))
-    # In this unit single precision holds all numbers.
-    unit = largest(lacking[kept]) or limit or 1.0
-    lacking = driver.narrow(lacking / unit)
-    if not whole:
-        lacking = xp.where(there, lacking, NEVER)
-    base, held = driver.narrow(start / unit), (start >= hardness) & ~kept
+    level = driver.gather(separation, math.inf), driver.gather(displacement)
+    fields, unit = scaled_fields(driver, measure, terms, kept, start, *level, limit)
     goal = limit / unit
-    fields = fields_on(driver, measure, kept, lacking, base, held, hardness / unit)
-    left = (base > 0) & ~kept & ~held
-    moved = xp.where(left, -base, 0.0) if bool(xp.any(left)) else None
-    if moved is not None:
-        moved = shared(moved, base, fields.inside, measure) if conserve else moved
-        fields.change += moved
+    moved = fields.leave(conserve)
     target, steps, rounds = max(goal, DEPTH_OF_SOLVE), 0, 0
     while steps < max_steps and rounds < ROUNDS:
         some, error = not fields.is_empty(), 0.0
@@ -110,12 +95,7 @@ def press_region(
             target = goal
         else:
             break
-    # In place: planes are large.
-    p = xp.astype(fields.change, xp.float64)
-    p *= unit
-    p += start
-    p = xp.where(p > 0, p, 0.0)
-    p *= fields.inside
+    p = fields.pressure(start, unit)
     if fields.held is not None:
         p = xp.where(fields.held, hardness, p)
     elif isinstance(terms.control, Force):

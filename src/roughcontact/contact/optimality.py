@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import largest, namespace
 from roughcontact.contact.problem import Force, Terms
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, self_influence
 
 __all__ = ["Judge"]
 
@@ -47,8 +47,8 @@ class Judge:
         At given depth nothing is allowed for rounding: the pressure has no given size there, and one that
         has run away could excuse itself.
         """
-        own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
-        return cls(own, UNITS if isinstance(terms.control, Force) else 0.0, terms.hardness)
+        allowance = UNITS if isinstance(terms.control, Force) else 0.0
+        return cls(self_influence(operator), allowance, terms.hardness)
 
     def scale(self, displacement: Array) -> float:
         """Return what residuals are relative to [m]: the largest displacement."""
@@ -70,12 +70,14 @@ class Judge:
         lifted = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
         yielding = self.hardness < math.inf
         lowest = float(xp.min(xp.where(pressure == self.hardness, 0.0, gap) if yielding else gap))
-        violation = max(-lowest, lifted)
-        if math.isnan(violation):
+        return self.relative(max(-lowest, lifted), self.scale(displacement), strongest)
+
+    def relative(self, violation: float, scale: float, strongest: float) -> float:
+        """Return the residual of the largest violation [m], beside the largest displacement [m] and pressure [Pa]."""
+        if not (math.isfinite(violation) and math.isfinite(scale)):
             return math.inf
         if violation <= 0:
             return 0.0
-        scale = self.scale(displacement)
         relative = violation / scale if scale > 0 else math.inf
         rounding = self.allowance * self.self_influence * strongest
         return min(relative, UNITS) if violation <= rounding else relative

@@ -15,7 +15,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on
-from roughcontact.halfspace.operator import Operator, exact_of, is_semidefinite
+from roughcontact.halfspace.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
 
 __all__ = [
@@ -138,7 +138,7 @@ def is_resolved(size: Array, cell: float, whole: float) -> Mask:
 
 def cell_stiffness(operator: Operator) -> float:
     """Return the stiffness of a single cell in contact [N/m] (thesis, eq. 4.16 and its neighbour 4.15)."""
-    influence = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
+    influence = self_influence(operator)
     return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf
 
 

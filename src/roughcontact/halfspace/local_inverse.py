@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -65,14 +66,10 @@ class LocalInverse:
         shape, spacing : tuple
             Cells along each axis, and their size [m].
         """
-        wanted = modulus / 2 * definite(wavenumbers((BOX, BOX), spacing))
-        if math.prod(shape) < LARGE:
-            return cls(_fitted(wanted, wanted), None)
-        angle = 2 * math.pi / BOX * np.arange(BOX // 2 + 1) * BLOCK
-        seen = np.where(
-            angle <= math.pi, np.sinc(angle / (2 * math.pi)) ** 2 * np.exp(-SMOOTH * angle**2), 0.0
-        )
-        near = _fitted(wanted - wanted * np.outer(seen, seen), wanted)
+        large = math.prod(shape) >= LARGE
+        near = modulus / 2 / spacing[1] * _near(spacing[0] / spacing[1], large)
+        if not large:
+            return cls(near, None)
         blocks = tuple(fast_even_length(-(-n // BLOCK)) for n in shape)
         box = blocks[0], blocks[1]
         damping = [np.exp(-SMOOTH * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box]
@@ -91,6 +88,17 @@ def local_inverse(modulus: float, grid: Grid) -> LocalInverse | None:
     """Return the inverse for the cells of a half-space; None for a single row, which has no plane of waves."""
     ny, nx = grid.shape
     return LocalInverse.of(modulus, (ny, nx), grid.spacing) if min(ny, nx) > 1 else None
+
+
+@lru_cache(maxsize=64)
+def _near(ratio: float, large: bool) -> Array:
+    """Return the weights of near cells, as long as so many widths, for ``q``; with blocks for the rest of it."""
+    wanted = definite(wavenumbers((BOX, BOX), (ratio, 1.0)))
+    if not large:
+        return _fitted(wanted, wanted)
+    angle = 2 * math.pi / BOX * np.arange(BOX // 2 + 1) * BLOCK
+    seen = np.where(angle <= math.pi, np.sinc(angle / (2 * math.pi)) ** 2 * np.exp(-SMOOTH * angle**2), 0.0)
+    return _fitted(wanted - wanted * np.outer(seen, seen), wanted)
 
 
 def _fitted(wanted: Array, scale: Array) -> Array:

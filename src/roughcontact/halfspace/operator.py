@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Protocol, runtime_checkable
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -21,9 +23,11 @@ __all__ = [
     "is_positive",
     "is_semidefinite",
     "keeps_precision",
+    "self_influence",
 ]
 
 Array = npt.NDArray[np.float64]
+_known: WeakKeyDictionary[Operator, float] = WeakKeyDictionary()  # what several ask of one operator
 
 
 class Linear(Protocol):
@@ -103,6 +107,17 @@ def is_semidefinite(operator: Operator) -> bool:
 def keeps_precision(operator: Operator) -> bool:
     """Whether products with fields in single precision are in single precision; no, unless the operator says so."""
     return bool(getattr(operator, "keeps_precision", False))
+
+
+def self_influence(operator: Operator) -> float:
+    """Return the displacement of the first cell per unit pressure on itself [m/Pa]."""
+    try:
+        return _known[operator]
+    except (KeyError, TypeError, ValueError):  # not asked yet, or nothing to remember it by
+        own = float(operator.as_matrix(np.zeros(1, np.intp))[0, 0])
+    with suppress(TypeError, ValueError):
+        _known[operator] = own
+    return own
 
 
 @runtime_checkable

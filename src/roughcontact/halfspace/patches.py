@@ -125,9 +125,9 @@ class PatchOperator:
     gain: float = 3e-5
     relief: ClassVar[float] = RELIEF
 
-    def gather(self, field: Any) -> Any:
-        """Return a field of the plane on the tiles, zero beyond the edge."""
-        return self.tiles.gather(field)
+    def gather(self, field: Any, beyond: float = 0.0) -> Any:
+        """Return a field of the plane on the tiles, another value beyond the edge."""
+        return self.tiles.gather(field, beyond)
 
     def scatter(self, values: Any) -> Any:
         """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""

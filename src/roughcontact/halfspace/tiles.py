@@ -81,12 +81,12 @@ class Tiles:
         return len(self.rows)
 
     @overload
-    def gather(self, field: Mask) -> Mask: ...
+    def gather(self, field: Mask, beyond: float = 0.0) -> Mask: ...
     @overload
-    def gather(self, field: Array) -> Array: ...
-    def gather(self, field: Any) -> Any:
-        """Return the values of a field on the tiles, zero where it has none."""
-        return np.where(self.cells >= 0, field.ravel()[self.cells], field.dtype.type(0))
+    def gather(self, field: Array, beyond: float = 0.0) -> Array: ...
+    def gather(self, field: Any, beyond: float = 0.0) -> Any:
+        """Return the values of a field on the tiles, another where it has none."""
+        return np.where(self.cells >= 0, field.ravel()[self.cells], field.dtype.type(beyond))
 
     def scatter(self, values: Array) -> Array:
         """Return the field that has `values` on the tiles and is zero elsewhere."""

@@ -15,9 +15,19 @@ from typing import Any, Generic, TypeVar, overload
 from llvmlite import ir
 
 from roughcontact.machine.layout import APART, WIDTH
-from roughcontact.machine.values import INDEX, Index, Indices, Number, Reals, constant, spread_out
+from roughcontact.machine.values import (
+    FLAG,
+    INDEX,
+    Flags,
+    Index,
+    Indices,
+    Number,
+    Reals,
+    constant,
+    spread_out,
+)
 
-__all__ = ["PRECISIONS", "Code", "Variable"]
+__all__ = ["PRECISIONS", "Code", "Take", "Variable"]
 
 PRECISIONS = {"float32": (ir.FloatType(), 4), "float64": (ir.DoubleType(), 8)}
 
@@ -41,6 +51,22 @@ class Variable(Generic[T]):
         value.builder.store(value.value, self.place)
 
 
+@dataclass(frozen=True, slots=True)
+class Take:
+    """What takes numbers from memory: one for each lane, or a single one."""
+
+    code: Code
+    lanes: bool
+
+    def __call__(self, field: Reals | Flags, at: Index) -> Any:
+        """Return the numbers, or conditions, from an index on."""
+        return field.take(at) if self.lanes else field.take_one(at)
+
+    def alike(self, number: Number) -> Number:
+        """Return a number beside what is taken: in each lane, or as it is."""
+        return self.code.for_all(number) if self.lanes else number
+
+
 class Code:
     """A function that is being written; used as a context, which ends it.
 
@@ -53,8 +79,8 @@ class Code:
     precision : {"float32", "float64"}
         Of its real numbers.
     parameters : str
-        Their kinds, separated by spaces: "index", "indices", "real", "reals", and "doubles" of double precision
-        whatever the others are. The arguments are in `arguments`.
+        Their kinds, separated by spaces: "index", "indices", "real", "reals", "double" and "doubles" of double
+        precision whatever the others are, and "flags". The arguments are in `arguments`.
     """
 
     def __init__(self, module: Any, name: str, precision: str, parameters: str) -> None:
@@ -64,7 +90,9 @@ class Code:
             "indices": INDEX.as_pointer(),
             "real": real,
             "reals": real.as_pointer(),
+            "double": ir.DoubleType(),
             "doubles": ir.DoubleType().as_pointer(),
+            "flags": FLAG.as_pointer(),
         }
         names = parameters.split()
         kind = ir.FunctionType(ir.VoidType(), [kinds[n] for n in names])
@@ -80,8 +108,10 @@ class Code:
                 return Index(value, builder)
             if name == "indices":
                 return Indices(value, builder)
-            if name == "real":
+            if name in ("real", "double"):
                 return Number(value, builder)
+            if name == "flags":
+                return Flags(value, builder, self.count)
             if name == "doubles":
                 return Reals(value, builder, ir.VectorType(ir.DoubleType(), self.count), 8)
             return Reals(value, builder, self.lanes, size)
@@ -117,9 +147,26 @@ class Code:
         """Return the condition that one of two holds."""
         return self.builder.or_(one, other)
 
+    def both(self, one: Any, other: Any) -> Any:
+        """Return the condition that both of two hold."""
+        return self.builder.and_(one, other)
+
+    def neither(self, one: Any) -> Any:
+        """Return the condition that another does not hold."""
+        return self.builder.not_(one)
+
     def for_all(self, number: Number) -> Number:
         """Return a number in each lane."""
-        return Number(spread_out(number.value, self.lanes, self.builder), self.builder)
+        lanes = ir.VectorType(number.value.type, self.count)
+        return Number(spread_out(number.value, lanes, self.builder), self.builder)
+
+    def each(self, n: Index) -> Iterator[tuple[Index, Take]]:
+        """Loop over numbers, as many at once as there are lanes, the rest one by one; the body is written twice."""
+        whole = n // self.count * self.count
+        for at in self.range(0, whole, self.count):
+            yield at, Take(self, True)
+        for at in self.range(whole, n):
+            yield at, Take(self, False)
 
     def variable(self, first: T) -> Variable[T]:
         """Return what changes, and what it is at first."""

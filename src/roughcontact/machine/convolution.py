@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.machine.layout import APART, HALF, WIDTH
 from roughcontact.machine.loader import address, functions
-from roughcontact.machine.room import room_for
+from roughcontact.machine.room import aligned, empty
 from roughcontact.threads import join_in, threads
 
 __all__ = ["Convolution", "fits"]
@@ -103,26 +103,28 @@ class Convolution:
         (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
         half, blocks, rows = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
         given = np.ascontiguousarray(plane, dtype=self.precision)
-        answer = np.empty((ny, nx), dtype=self.precision)
+        answer = empty((ny, nx), self.precision)
         workers = threads() if ny * mx * given.itemsize >= LARGE else 1
         parts = PARTS * workers
         # What a thread needs: rows as they come and in order, or one column.
         raw = -(-half // lanes) * 2 * lanes * lanes
         size = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
         counters = np.zeros(6 * APART, np.int64)
-        with room_for(blocks * rows * 2 * lanes + workers * size, self.precision) as room:
-            spectrum, own = room[workers * size :], room[: workers * size].reshape(workers, size)
+        room = aligned(workers * size + blocks * rows * 2 * lanes, self.precision)
+        own = address(room)
+        arguments = (
+            address(counters), address(given), address(answer), ny, nx,
+            own + workers * size * room.itemsize, rows, half, *self.rows.arguments, address(self.rows.places),
+            address(self.turns), my, *self.columns.arguments, address(self.multiplier), address(self.folded),
+            -(-rows // (parts * lanes)) * lanes, -(-blocks // parts),
+        )  # fmt: skip
 
-            def join(k: int) -> None:
-                # With arrays, not their addresses: they live as long as anyone works on them.
-                convolve(
-                    address(counters), address(given), address(answer), ny, nx, address(spectrum), rows,
-                    half, *self.rows.arguments, address(self.rows.places), address(self.turns),
-                    my, *self.columns.arguments, address(self.multiplier), address(self.folded),
-                    -(-rows // (parts * lanes)) * lanes, -(-blocks // parts), address(own[k]), raw,
-                )  # fmt: skip
+        step, held = size * room.itemsize, (self, counters, given, answer, room)
 
-            join_in(join, workers)
+        def join(k: int, _: object = held) -> None:  # they live as long as anyone works on them
+            convolve(*arguments, own + k * step, raw)
+
+        join_in(join, workers)
         return answer
 
 

@@ -14,12 +14,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["address", "functions", "is_available", "takes"]
+__all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
-COMMON = ("code", "layout", "loader", "stencil", "values")  # modules whose text all code hangs on
+COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code hangs on
 DIGEST = 32  # bytes of the check sum before the code
 _POINTER = ctypes.c_void_p
 _ENGINES: list[Any] = []  # they own the code that runs
+_NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
 _REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 
@@ -31,6 +32,11 @@ def is_available() -> bool:
     except (AttributeError, ImportError, OSError, RuntimeError):
         return False
     return True
+
+
+def code_for(family: str, field: Any) -> Mapping[str, Callable[..., None]]:
+    """Return the functions of a module for the precision of a NumPy array."""
+    return functions(family, _NAMES[field.dtype.char])
 
 
 @cache
@@ -61,7 +67,7 @@ def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
 
 def takes(field: Any) -> bool:
     """Whether machine code can work on a NumPy array: double or single precision, in the order of this machine."""
-    return field.dtype.name in _REALS and bool(field.dtype.isnative) and is_available()
+    return field.dtype.char in _NAMES and bool(field.dtype.isnative) and is_available()
 
 
 def address(array: Any) -> int:
@@ -126,6 +132,8 @@ def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, 
         "indices": _POINTER,
         "reals": _POINTER,
         "doubles": _POINTER,
+        "flags": _POINTER,
+        "double": ctypes.c_double,
         "real": _REALS[precision],
     }
     return {

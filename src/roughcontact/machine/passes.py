@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from roughcontact.machine.code import Code
+from roughcontact.machine.code import Code, Take
 from roughcontact.machine.stencil import sum_near
 from roughcontact.machine.values import Index, Number, Reals
 
@@ -33,7 +33,6 @@ KINDS = {
     "sum_blocks_on": LIST + "index index index reals reals",
     "add_blocks_on": LIST + "index index index reals reals",
 }
-Take = Callable[[Reals, Index], Number]
 
 
 def write(module: Any, precision: str) -> None:
@@ -70,7 +69,7 @@ def _near(module: Any, precision: str) -> None:
         *cells, nx, field, answer, weights = code.arguments
 
         def near(at: Index, take: Take) -> Sequence[Number]:
-            weight = weights.take_for_all if take is Reals.take else weights.take_one
+            weight = weights.take_for_all if take.lanes else weights.take_one
             answer.put(
                 at,
                 sum_near(lambda y, x: take(field, at + nx * y + x), lambda k: weight(code.index(k))),
@@ -86,8 +85,8 @@ def _conjugate(module: Any, precision: str) -> None:
         *cells, z, inside, error, v, constant, relief, sums = code.arguments
 
         def weigh(at: Index, take: Take) -> Sequence[Number]:
-            by = code.for_all(relief) if take is Reals.take else relief
-            new = (take(z, at) - take(error, at) * take(constant, at) * by) * take(inside, at)
+            taken = take(error, at) * take(constant, at) * take.alike(relief)
+            new = (take(z, at) - taken) * take(inside, at)
             z.put(at, new)
             return take(error, at) * new, new * take(v, at), new
 
@@ -96,8 +95,8 @@ def _conjugate(module: Any, precision: str) -> None:
         *cells, t, z, uniform, beta, shift = code.arguments
 
         def turn(at: Index, take: Take) -> Sequence[Number]:
-            b, s = (code.for_all(x) if take is Reals.take else x for x in (beta, shift))
-            t.put(at, take(t, at) * b + take(z, at) - take(uniform, at) * s)
+            going_on = take(t, at) * take.alike(beta) + take(z, at)
+            t.put(at, going_on - take(uniform, at) * take.alike(shift))
             return ()
 
         _through(code, cells, 0, turn, None)
@@ -113,8 +112,7 @@ def _conjugate(module: Any, precision: str) -> None:
         *cells, change, r, error, t, inside, alpha, sums = code.arguments
 
         def advance(at: Index, take: Take) -> Sequence[Number]:
-            a = code.for_all(alpha) if take is Reals.take else alpha
-            change.put(at, take(change, at) + take(t, at) * a)
+            change.put(at, take(change, at) + take(t, at) * take.alike(alpha))
             wrong = take(r, at) * take(inside, at)
             error.put(at, wrong)
             return (wrong.larger(-wrong),)
@@ -144,8 +142,8 @@ def _bound(module: Any, precision: str) -> None:
         *cells, base, change, inside, moved, share, alike = code.arguments
 
         def share_out(at: Index, take: Take) -> Sequence[Number]:
-            by, all_ = (code.for_all(x) if take is Reals.take else x for x in (share, alike))
-            less = take(inside, at) * ((take(base, at) + take(change, at)) * by + all_)
+            carried = take(base, at) + take(change, at)
+            less = take(inside, at) * (carried * take.alike(share) + take.alike(alike))
             for field in (moved, change):
                 field.put(at, take(field, at) - less)
             return ()
@@ -154,9 +152,8 @@ def _bound(module: Any, precision: str) -> None:
     with Code(module, "take_in", precision, KINDS["take_in"]) as code:
         n, inside, lacking, least, sums = code.arguments
         worst = code.variable(code.zero()), code.variable(code.one(0.0))
-        for at, take in _each(code, n):
-            lanes = take is Reals.take
-            some, limit = worst[0 if lanes else 1], code.for_all(least) if lanes else least
+        for at, take in code.each(n):
+            some, limit = worst[0 if take.lanes else 1], take.alike(least)
             lack = take(lacking, at)
             free = take(inside, at)
             # Of a cell that is free already nothing is asked; of one that lacks too little neither.
@@ -171,9 +168,8 @@ def _lower(module: Any, precision: str) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
     with Code(module, "lower", precision, KINDS["lower"]) as code:
         n, r, v, alpha, mean = code.arguments
-        for at, take in _each(code, n):
-            a, m = (code.for_all(x) if take is Reals.take else x for x in (alpha, mean))
-            r.put(at, take(r, at) - (take(v, at) - m) * a)
+        for at, take in code.each(n):
+            r.put(at, take(r, at) - (take(v, at) - take.alike(mean)) * take.alike(alpha))
 
 
 def _sum_blocks(module: Any, precision: str) -> None:
@@ -185,7 +181,7 @@ def _sum_blocks(module: Any, precision: str) -> None:
             for x in code.range(0, across * side):
                 row.put(x, code.one(0.0))
             for y in code.range(block * side, (block * side + side).smaller(ny)):
-                for x, take in _each(code, nx):
+                for x, take in code.each(nx):
                     row.put(x, take(row, x) + take(field, y * nx + x))
             for b in code.range(0, across):
                 total = code.variable(code.one(0.0))
@@ -204,7 +200,7 @@ def _add_blocks(module: Any, precision: str) -> None:
                 for x in code.range(b * side, b * side + side):
                     row.put(x, blocks.take_one(block * across + b))
             for y in code.range(block * side, (block * side + side).smaller(ny)):
-                for x, take in _each(code, nx):
+                for x, take in code.each(nx):
                     field.put(y * nx + x, take(field, y * nx + x) + take(row, x))
 
 
@@ -239,15 +235,6 @@ def _blocks_of_groups(code: Code, *plan: Any) -> Iterator[tuple[Index, Index, In
             yield block + b, begin, begin + side
 
 
-def _each(code: Code, n: Index) -> Iterator[tuple[Index, Take]]:
-    """Loop over numbers, as many at a time as there are lanes, and the rest one by one; the body is written twice."""
-    whole = n // code.count * code.count
-    for at in code.range(0, whole, code.count):
-        yield at, Reals.take
-    for at in code.range(whole, n):
-        yield at, Reals.take_one
-
-
 def _through(
     code: Code,
     cells: Sequence[Any],
@@ -264,11 +251,11 @@ def _through(
 
     lanes = [code.variable(code.zero().in_double()) for _ in range(count)]
     for k in code.range(begin, end):
-        for total, number in zip(lanes, body(groups[k], Reals.take), strict=True):
+        for total, number in zip(lanes, body(groups[k], Take(code, True)), strict=True):
             total.set(both(total.get(), number.in_double()))
     totals = [code.variable(code.across(total.get(), both)) for total in lanes]
     for at in code.range(single, last):
-        for total, number in zip(totals, body(at, Reals.take_one), strict=True):
+        for total, number in zip(totals, body(at, Take(code, False)), strict=True):
             total.set(both(total.get(), number.in_double()))
     for place, total in enumerate(totals):
         assert sums is not None

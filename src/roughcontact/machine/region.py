@@ -2,24 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+import math
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.machine.layout import REACH, WIDTH
-from roughcontact.machine.loader import address, functions
-from roughcontact.threads import spread
+from roughcontact.machine.loader import address, code_for
+from roughcontact.machine.planes import in_parts
+from roughcontact.machine.room import empty, zeros
 
-__all__ = ["Region", "add_blocks", "lower", "near", "sum_blocks", "take_in", "with_margins"]
+__all__ = [
+    "Located",
+    "Region",
+    "add_blocks",
+    "lower",
+    "near",
+    "sum_blocks",
+    "take_in",
+    "with_margins",
+    "zeros_with_margins",
+]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (tried by hand)
-SEVERAL = 4  # parts from which on threads are worth waking
+
+
+class Located(NamedTuple):
+    """A field, and where it begins: machine code asks for that again and again."""
+
+    field: Field
+    at: int
+
+    @classmethod
+    def of(cls, field: Field) -> Self:
+        """Return a field with its place."""
+        return cls(field, address(field))
 
 
 class Region:
@@ -33,32 +55,42 @@ class Region:
 
     def __init__(self, inside: Field) -> None:
         self.inside = inside
-        self._code = functions("passes", inside.dtype.name)
+        self._code = code_for("passes", inside)
         lanes = WIDTH // inside.itemsize
         self._whole = inside.size // lanes * lanes
         groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
         self._code["list_groups"](inside.size, address(inside), address(groups), address(found))
         self._groups = groups[: int(found[0])].copy()
+        self._ends = address(self._groups), len(self._groups), self._whole, inside.size
 
     def is_empty(self) -> bool:
         """Whether there is none."""
         return not (len(self._groups) or self.inside.ravel()[self._whole :].any())
 
-    def run(self, name: str, count: int, *arguments: Field | float) -> Array:
-        """Run a function over these cells, and return so many sums for each part of them."""
-        run, size = self._code[name], len(self._groups)
+    def run(
+        self, name: str, count: int, *arguments: Located | Field | float, largest: bool = False
+    ) -> list[float]:
+        """Run a function over these cells, and return so many sums, or the largest, of what it finds."""
+        run, (groups, size, whole, end) = self._code[name], self._ends
         parts = max(1, -(-size // PART))
-        sums, groups = np.zeros((parts, count)), self._groups
+        totals = np.zeros((parts, count))
+        # Addresses: the caller holds the fields until all is done.
+        given = [
+            a.at if isinstance(a, Located) else address(a) if isinstance(a, np.ndarray) else a
+            for a in arguments
+        ]
+        first, step = address(totals) if count else 0, count * totals.itemsize
 
         def part(k: int) -> None:
-            # With arrays, not their addresses: they live as long as anyone works on them.
-            given = [address(a) if isinstance(a, np.ndarray) else a for a in arguments]
-            last = k == parts - 1
-            ends = k * PART, min((k + 1) * PART, size), self._whole, self.inside.size if last else self._whole
-            run(address(groups), *ends, *given, *((address(sums[k]),) if count else ()))
+            last = (k + 1) * PART, whole, whole
+            ends = last if k < parts - 1 else (size, whole, end)
+            run(groups, k * PART, *ends, *given, *((first + k * step,) if count else ()))
 
-        _all(part, range(parts))
-        return sums
+        in_parts(part, range(parts))
+        found: list[float] = (
+            totals[0] if parts == 1 else totals.max(axis=0) if largest else totals.sum(axis=0)
+        ).tolist()
+        return found
 
     def finds_blocks(self, side: int) -> bool:
         """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
@@ -73,40 +105,36 @@ class Region:
 
 def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
-    run, lanes = functions("passes", r.dtype.name)["lower"], WIDTH // r.itemsize
+    run, lanes = code_for("passes", r)["lower"], WIDTH // r.itemsize
     size = PART * lanes
 
     def part(start: int) -> None:
         offset = start * r.itemsize
         run(min(size, r.size - start), address(r) + offset, address(v) + offset, alpha, mean)
 
-    _all(part, range(0, r.size, size))
-
-
-def _all(part: Callable[[int], None], starts: Sequence[int]) -> None:
-    """Do all parts, on several threads if they are many."""
-    if len(starts) < SEVERAL:
-        for start in starts:
-            part(start)
-    else:
-        spread(part, starts)
+    in_parts(part, range(0, r.size, size))
 
 
 def take_in(inside: Field, lacking: Field, least: float) -> float:
     """Count as inside what lacks more than `least`, and than nothing; return the largest lack of what was not, or 0."""
     worst, given = np.zeros(1), np.ascontiguousarray(lacking, dtype=inside.dtype)
-    run = functions("passes", inside.dtype.name)["take_in"]
+    run = code_for("passes", inside)["take_in"]
     run(inside.size, address(inside), address(given), least, address(worst))
     return float(worst[0])
 
 
 def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
     """Return a copy of a plane with as much zero before and behind it as a sum over near cells looks at."""
-    row, dtype = field.shape[-1] if field.ndim > 1 else 0, np.dtype(precision or field.dtype)
+    copy = zeros_with_margins(field.shape, precision or field.dtype)
+    copy[...] = field
+    return copy
+
+
+def zeros_with_margins(shape: tuple[int, ...], precision: npt.DTypeLike) -> Field:
+    """Return a plane of zeros with such margins."""
+    row, dtype, size = shape[-1] if len(shape) > 1 else 0, np.dtype(precision), math.prod(shape)
     margin = REACH * (row + 1) + WIDTH // dtype.itemsize
-    room = np.zeros(field.size + 2 * margin, dtype=dtype)
-    room[margin : margin + field.size] = field.ravel()
-    return room[margin : margin + field.size].reshape(field.shape)
+    return zeros((size + 2 * margin,), dtype)[margin : margin + size].reshape(shape)
 
 
 def near(region: Region, field: Field, weights: Field) -> Field:
@@ -114,7 +142,7 @@ def near(region: Region, field: Field, weights: Field) -> Field:
 
     The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same.
     """
-    answer = np.empty_like(field)
+    answer = empty(field.shape, field.dtype)
     region.run("near", 0, field.shape[-1], field, answer, weights)
     return answer
 
@@ -140,5 +168,5 @@ def add_blocks(region: Region, field: Field, blocks: Field, side: int) -> None:
 
 def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:
     row = np.empty(blocks.shape[1] * side + WIDTH, dtype=field.dtype)
-    code = functions("passes", field.dtype.name)[name]
+    code = code_for("passes", field)[name]
     code(*field.shape, side, address(field), address(blocks), address(row))

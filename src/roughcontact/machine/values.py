@@ -5,14 +5,16 @@ Operators on them do not compute: they write down what is to be computed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from llvmlite import ir
 
-__all__ = ["INDEX", "Index", "Indices", "Number", "Reals", "constant"]
+__all__ = ["FLAG", "INDEX", "Flags", "Index", "Indices", "Number", "Reals", "constant"]
 
 INDEX = ir.IntType(64)
+FLAG = ir.IntType(8)  # a truth value in memory, as NumPy has it
 _FUSE = ("contract",)  # a product and a sum may be one instruction; nothing else may change
 
 
@@ -43,9 +45,9 @@ class Number:
         larger = self.builder.fcmp_ordered(">", self.value, other.value)
         return Number(self.builder.select(larger, self.value, other.value), self.builder)
 
-    def is_below(self, limit: float) -> Any:
+    def is_below(self, limit: Number | float) -> Any:
         """Return the condition that a number is below another, lane by lane."""
-        return self.builder.fcmp_ordered("<", self.value, constant(self.value.type, limit))
+        return self.builder.fcmp_ordered("<", self.value, self._with(limit))
 
     def is_at_most(self, limit: Number) -> Any:
         """Return the condition that a number is no more than another, lane by lane."""
@@ -55,25 +57,40 @@ class Number:
         """Return the condition that a single number is not zero."""
         return self.builder.fcmp_unordered("!=", self.value, constant(self.value.type, 0.0))
 
+    def replaced(self, value: float) -> Number:
+        """Return another number, in as many lanes."""
+        return Number(self._with(value), self.builder)
+
+    def where(self, condition: Any, other: float = 0.0) -> Number:
+        """Return the number where a condition holds, else another."""
+        return Number(self.builder.select(condition, self.value, self._with(other)), self.builder)
+
     def where_not(self, condition: Any) -> Number:
         """Return the number where a condition does not hold, else zero."""
-        nothing = constant(self.value.type, 0.0)
-        return Number(self.builder.select(condition, nothing, self.value), self.builder)
+        return Number(self.builder.select(condition, self._with(0.0), self.value), self.builder)
 
     def sign(self) -> Number:
         """Return one for what is more than nothing, else zero."""
-        more = self.builder.fcmp_ordered(">", self.value, constant(self.value.type, 0.0))
-        one, nothing = (constant(self.value.type, x) for x in (1.0, 0.0))
-        return Number(self.builder.select(more, one, nothing), self.builder)
+        return self.replaced(1.0).where(self.is_more_than(0.0))
+
+    def is_more_than(self, limit: Number | float) -> Any:
+        """Return the condition that a number is more than another, lane by lane."""
+        return self.builder.fcmp_ordered(">", self.value, self._with(limit))
 
     def in_double(self) -> Number:
         """Return the number in double precision."""
+        return self._converted(ir.DoubleType(), self.builder.fpext)
+
+    def rounded_to(self, real: Any) -> Number:
+        """Return the number, of double precision, in that of a type."""
+        return self._converted(real, self.builder.fptrunc)
+
+    def _converted(self, real: Any, convert: Callable[[Any, Any], Any]) -> Number:
         kind = self.value.type
         lanes = isinstance(kind, ir.VectorType)
-        if isinstance(kind.element if lanes else kind, ir.DoubleType):
+        if (kind.element if lanes else kind) == real:
             return self
-        double = ir.VectorType(ir.DoubleType(), kind.count) if lanes else ir.DoubleType()
-        return Number(self.builder.fpext(self.value, double), self.builder)
+        return Number(convert(self.value, ir.VectorType(real, kind.count) if lanes else real), self.builder)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +189,38 @@ class Reals:
 
     def _place(self, at: Index) -> Any:
         return self.builder.bitcast(self.builder.gep(self.pointer, [at.value]), self.lanes.as_pointer())
+
+
+@dataclass(frozen=True, slots=True)
+class Flags:
+    """Truth values in memory, a byte each."""
+
+    pointer: Any
+    builder: Any
+    count: int  # of lanes
+
+    def take(self, at: Index) -> Any:
+        """Return the conditions from an index on, one in each lane."""
+        found = self.builder.load(self._place(at))
+        found.align = 1
+        return self.builder.icmp_unsigned("!=", found, ir.Constant(found.type, None))
+
+    def take_one(self, at: Index) -> Any:
+        """Return a single condition."""
+        found = self.builder.load(self.builder.gep(self.pointer, [at.value]))
+        return self.builder.icmp_unsigned("!=", found, ir.Constant(FLAG, 0))
+
+    def put(self, at: Index, condition: Any) -> None:
+        """Write a condition, or those of all lanes, from an index on."""
+        if isinstance(condition.type, ir.VectorType):
+            bytes_ = self.builder.zext(condition, ir.VectorType(FLAG, self.count))
+            self.builder.store(bytes_, self._place(at)).align = 1
+        else:
+            self.builder.store(self.builder.zext(condition, FLAG), self.builder.gep(self.pointer, [at.value]))
+
+    def _place(self, at: Index) -> Any:
+        lanes = ir.VectorType(FLAG, self.count)
+        return self.builder.bitcast(self.builder.gep(self.pointer, [at.value]), lanes.as_pointer())
 
 
 def constant(kind: Any, value: float) -> Any:

@@ -12,6 +12,7 @@ from roughcontact.arrays import beside, is_numpy, namespace
 from roughcontact.contact.tangential.selection import Selection
 from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
+from roughcontact.halfspace.operator import self_influence
 from roughcontact.halfspace.shear import ShearOperator
 from roughcontact.halfspace.shear_sums import DenseShear
 
@@ -72,7 +73,7 @@ class Interface:
                 matrix = part.as_matrix(np.flatnonzero(region))
                 cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
                 part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
-        own = float(part.as_matrix(np.zeros(1, np.intp))[0, 0])
+        own = self_influence(part)
         exact = getattr(part, "exact", None) or part
         return cls(part, exact, Selection.of(region), basis, Selection.of(contact), floating, own)
 

@@ -1,0 +1,148 @@
+"""Whole fields for machine code, of any shape: in parts, on several threads where they are large."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.machine.layout import WIDTH
+from roughcontact.machine.loader import address, code_for
+from roughcontact.machine.room import empty
+from roughcontact.threads import spread
+
+__all__ = ["Levels", "Look", "in_parts", "leave", "levels", "look", "mark", "narrow", "widen"]
+
+Field = npt.NDArray[Any]  # of single or double precision
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+PART = 2**17  # cells that are taken at once; totals are made part by part, whatever the threads
+SEVERAL = 4  # parts from which on threads are worth waking
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What there is to see of a pressure, over all cells; levels are separation and displacement together.
+
+    Attributes
+    ----------
+    highest, lowest : float
+        Level [m] of those that carry something, and of all.
+    displacement : float
+        The largest [m].
+    strongest, weakest : float
+        Pressure [Pa].
+    level : float
+        Sum over those that carry something [m].
+    count : int
+        How many they are.
+    """
+
+    highest: float
+    lowest: float
+    displacement: float
+    strongest: float
+    weakest: float
+    level: float
+    count: int
+
+
+class Levels(NamedTuple):
+    """The highest and the lowest level of some cells [m], and their mean."""
+
+    highest: float
+    lowest: float
+    mean: float
+
+
+def look(pressure: Array, displacement: Array, separation: Array) -> Look | None:
+    """Return what there is to see; None where some pressure or displacement is no finite number."""
+    run = code_for("judging", pressure)["look"]
+    found = _totals(run, 5, 8, pressure, displacement, separation)
+    highest, raised, moved, strongest, weakened, level, count, nothing = found
+    if nothing != 0:  # or is no number
+        return None
+    return Look(highest, -raised, moved, strongest, -weakened, level, int(count))
+
+
+def mark(
+    pressure: Array, displacement: Array, separation: Array, depth: float, least: float, own: float
+) -> tuple[Mask, int, int]:
+    """Return the cells that carry something or whose gap is below the least, but for wrong ones; and how many both are.
+
+    Those are wrong whose gap is more than what they carry would displace, if each moved itself by `own` alone [m/Pa].
+    """
+    region = empty(pressure.shape, bool)
+    given = pressure, displacement, separation, depth, least, own, region
+    stay, wrong = _totals(code_for("judging", pressure)["mark"], 0, 2, *given)
+    return region, int(stay), int(wrong)
+
+
+def levels(separation: Array, displacement: Array, region: Mask) -> Levels:
+    """Return the levels of a region that has some cell."""
+    code = code_for("judging", separation)
+    highest, raised, total, count = _totals(code["levels"], 2, 4, separation, displacement, region)
+    return Levels(highest, -raised, total / count)
+
+
+def narrow(
+    separation: Array,
+    displacement: Array,
+    pressure: Array,
+    region: Mask,
+    depth: float,
+    unit: float,
+    inside: Field,
+    lacking: Field,
+    base: Field,
+) -> None:
+    """Write, in a unit: one inside a region and zero elsewhere, what is lacking of a depth, and the pressure."""
+    fields = separation, displacement, pressure, region
+    run = code_for("scaling", inside)["narrow"]
+    _totals(run, 0, 0, *fields, depth, 1 / unit, inside, lacking, base)
+
+
+def leave(inside: Field, base: Field, change: Field, moved: Field) -> list[float]:
+    """Write what takes the pressure of cells outside, where they have some, and only there.
+
+    Returns how many they are, the sum of what is written, that of the pressure inside, and how many cells are inside.
+    """
+    return _totals(code_for("scaling", inside)["leave"], 0, 4, inside, base, change, moved)
+
+
+def widen(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
+    """Return a pressure with its change, in a unit, zero where it would be negative and outside."""
+    answer = empty(pressure.shape, np.float64)
+    _totals(code_for("scaling", inside)["widen"], 0, 0, pressure, change, inside, unit, answer)
+    return answer
+
+
+def in_parts(part: Callable[[int], None], starts: Sequence[int]) -> None:
+    """Do all parts, on several threads if they are many; whoever calls waits for all of them."""
+    if len(starts) < SEVERAL:
+        for start in starts:
+            part(start)
+    else:
+        spread(part, starts)
+
+
+def _totals(run: Callable[..., None], most: int, count: int, *arguments: Field | Mask | float) -> list[float]:
+    """Run a function over all cells; return the largest over all parts of its first totals, sums of the others."""
+    size = next(a.size for a in arguments if isinstance(a, np.ndarray))
+    assert PART % WIDTH == 0
+    starts = range(0, max(size, 1), PART)
+    totals = np.zeros((len(starts), count))
+    # Addresses: the caller holds the arrays until all is done.
+    given = [(address(a), a.itemsize) if isinstance(a, np.ndarray) else (a, 0) for a in arguments]
+
+    def part(start: int) -> None:
+        at = [first + start * step if step else first for first, step in given]
+        ends = (address(totals[start // PART]),) if count else ()
+        run(min(PART, size - start), *at, *ends)
+
+    in_parts(part, starts)
+    return [*totals[:, :most].max(axis=0).tolist(), *totals[:, most:].sum(axis=0).tolist()]
