@@ -32,12 +32,15 @@ ASPHER_START = 1e-8  # its own tolerance, tightened until every checked load is 
 PROGRAMS = {"roughcontact": "roughcontact", "aspher-warm": "aspher", "aspher-nested": "aspher"}
 
 
-Point = tuple[float, float, int]  # residual, depth [m] and cells in contact of one load
+Point = tuple[int, float, float, int]  # number, residual, depth [m] and cells in contact of one load
 Curve = tuple[Callable[[], Any], Callable[[Any], list[Point]]]
 
 
-def ours(problem: Any, forces: Any, tolerance: float) -> Curve:  # ours keeps its default tolerance
-    """Return what is timed, and how to take residual, depth and cells of the checked loads from its result."""
+def ours(problem: Any, forces: Any, tolerance: float, most: float) -> Curve:
+    """Return what is timed, and how to take residual, depth and cells of the checked loads from its result.
+
+    Ours keeps its default tolerance, and goes on to its end.
+    """
     from certificate import Judge
 
     import roughcontact as rc
@@ -55,14 +58,15 @@ def ours(problem: Any, forces: Any, tolerance: float) -> Curve:  # ours keeps it
             if i in CHECKED:
                 certificate = judge.certify(problem.heights, solution.pressure, forces[i])
                 cells = round(curve.contact_area[i] / surface.grid.cell_area)
-                found.append((max(certificate.error, float(curve.residual[i])), float(curve.depth[i]), cells))
+                error = max(certificate.error, float(curve.residual[i]))
+                found.append((i, error, float(curve.depth[i]), cells))
         return found
 
     return run, points
 
 
-def aspher(problem: Any, forces: Any, tolerance: float, *, warm: bool) -> Curve:
-    """Return the same for ASPHER; the judge takes depth and cells from its pressure."""
+def aspher(problem: Any, forces: Any, tolerance: float, most: float, *, warm: bool) -> Curve:
+    """Return the same for ASPHER, cut after so many seconds; the judge takes depth and cells from its pressure."""
     import aspher
     import numpy as np
     import peer_aspher
@@ -73,7 +77,7 @@ def aspher(problem: Any, forces: Any, tolerance: float, *, warm: bool) -> Curve:
     def run() -> dict[int, Any]:
         gap = np.negative(problem.heights).ravel()
         solver = aspher.ContactSolver(grid_size=n, backend="fft") if warm else None
-        pressure = None
+        pressure, start = None, time.perf_counter()
         for i, force in enumerate(forces):
             if solver is None:
                 pressure, _ = peer_aspher.solve(
@@ -85,27 +89,31 @@ def aspher(problem: Any, forces: Any, tolerance: float, *, warm: bool) -> Curve:
                     gap, p_nominal=force, tol=tolerance, precond="fourier-fft", p_init=before
                 )
                 pressure = np.asarray(result.pressure).reshape(n, n)
-            if i in CHECKED and len(forces) == POINTS:
+            late = time.perf_counter() - start > most
+            if (i in CHECKED or late) and len(forces) == POINTS:
                 kept[i] = pressure
+            if late:
+                break
         return kept
 
     def points(pressures: dict[int, Any]) -> list[Point]:
         judge = Judge((n, n), problem.spacing, False, problem.modulus)
-        certificates = [judge.certify(problem.heights, pressures[i], forces[i]) for i in CHECKED]
-        return [(found.error, found.depth, found.cells) for found in certificates]
+        certificates = {i: judge.certify(problem.heights, p, forces[i]) for i, p in pressures.items()}
+        return [(i, found.error, found.depth, found.cells) for i, found in certificates.items()]
 
     return run, points
 
 
-def work(name: str, n: int, seed: int, tolerance: float) -> dict[str, Any]:
+def work(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[str, Any]:
     """Solve one curve in this process."""
     import numpy as np
     from cases import RMS, fractal
 
     make = ours if name == "roughcontact" else lambda *a: aspher(*a, warm=name == "aspher-warm")
     forces = RMS * np.geomspace(LOWEST, HIGHEST, POINTS)
-    make(fractal(64, 0, hurst=0.8, load=HIGHEST), forces[-2:], tolerance)[0]()  # imports and first calls
-    run, points = make(fractal(n, seed, hurst=0.8, load=HIGHEST), forces, tolerance)
+    warm_up, _ = make(fractal(64, 0, hurst=0.8, load=HIGHEST), forces[-2:], tolerance, most)
+    warm_up()  # imports and first calls
+    run, points = make(fractal(n, seed, hurst=0.8, load=HIGHEST), forces, tolerance, most)
     before = peak()
     waiting, taken, start = waited(), others(), time.perf_counter()
     result = run()
@@ -132,20 +140,20 @@ def peak() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6
 
 
-def measure(name: str, n: int, seed: int, tolerance: float) -> dict[str, Any]:
+def measure(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[str, Any]:
     """Run `work` in a process of its own."""
-    command = [sys.executable, __file__, "--worker", name, str(n), str(seed), repr(tolerance)]
+    command = [sys.executable, __file__, "--worker", name, str(n), str(seed), repr(tolerance), repr(most)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"{name}: {(done.stderr.strip().splitlines() or ['stopped'])[-1]}")
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def certified(name: str, n: int, seed: int, tolerance: float) -> dict[str, Any]:
+def certified(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[str, Any]:
     """Run a curve, tighter and tighter, until its checked loads are certified; ours has to be at once."""
     for _ in range(6):
-        found = measure(name, n, seed, tolerance)
-        error = max(residual for residual, _, _ in found["points"])
+        found = measure(name, n, seed, tolerance, most)
+        error = max(residual for _, residual, _, _ in found["points"])
         if error <= CERTIFICATE:
             return found
         if name == "roughcontact":
@@ -156,9 +164,11 @@ def certified(name: str, n: int, seed: int, tolerance: float) -> dict[str, Any]:
 
 def differ(reference: dict[str, Any], other: dict[str, Any]) -> str:
     """Return what does not agree between two curves."""
-    for i, (_, depth, cells), (_, depth2, cells2) in zip(
-        CHECKED, reference["points"], other["points"], strict=True
-    ):
+    found = {i: (depth, cells) for i, _, depth, cells in reference["points"]}
+    for i, _, depth2, cells2 in other["points"]:
+        if i not in found:  # where it was cut
+            continue
+        depth, cells = found[i]
         if abs(depth2 / depth - 1) > AGREEMENT or abs(cells2 - cells) > 1:
             return f"load {i + 1}: depth {depth:.9g} and {depth2:.9g} m, cells {cells} and {cells2}"
     return ""
@@ -169,36 +179,42 @@ def quiet(runs: list[dict[str, Any]]) -> list[float]:
     return [run["seconds"] for run in runs if not run["disturbed"]]
 
 
-def compare(names: list[str], n: int, seed: int, repeats: int, tolerance: float) -> list[dict[str, Any]]:
+def compare(
+    names: list[str], n: int, seed: int, repeats: int, tolerance: float, most: float
+) -> list[dict[str, Any]]:
     """Print the lines of one surface and return the measurements; the first name is the reference."""
     rounds = {}
     for name in names:
         try:
-            rounds[name] = [certified(name, n, seed, tolerance)]
+            rounds[name] = [certified(name, n, seed, tolerance, most)]
         except RuntimeError as error:
             print(f"{name}: not shown ({error})")
     for _ in range(PATIENCE * repeats - 1):
         for name, runs in rounds.items():
             if len(quiet(runs)) < repeats:
-                runs.append(measure(name, n, seed, runs[0]["tolerance"]))
+                runs.append(measure(name, n, seed, runs[0]["tolerance"], most))
     records, reference = [], rounds.get(names[0])
     for name, runs in rounds.items():
         times = quiet(runs)
         memory, before = max(run["peak"] for run in runs), runs[0]["before"]
-        error = max(residual for residual, _, _ in runs[0]["points"])
+        error = max(residual for _, residual, _, _ in runs[0]["points"])
+        loads = min(run["points"][-1][0] for run in runs) + 1
+        more, cut = (">", f"  after {loads} of {POINTS} loads") if loads < POINTS else ("", "")
         trouble = differ(reference[0], runs[0]) if reference else "nothing to compare with"
         left_out = f"{len(runs) - len(times)} disturbed rounds left out" if len(times) < len(runs) else ""
         ratio = None
-        if reference and quiet(reference) and times and not trouble:
+        whole = reference and reference[0]["points"][-1][0] + 1 == POINTS  # beside a cut one nothing is known
+        if whole and quiet(reference) and times and not trouble:
             ratio = statistics.median(times) / statistics.median(quiet(reference))
         shown = [statistics.median(times), min(times), max(times)] if times and not trouble else [None] * 3
-        columns = "".join(f"{'-' if value is None else f'{value:.2f}':>9}" for value in (*shown, ratio))
+        columns = "".join(f"{'-' if value is None else f'{more}{value:.2f}':>9}" for value in (*shown, ratio))
         print(
             f"{name:16}{n:>6}{seed:>6}{columns}{memory:>9.0f}{memory - before:>9.0f}{error:>10.1e}"
-            f"{'-' if name == 'roughcontact' else format(runs[0]['tolerance'], '.1e'):>11}  {trouble}{left_out}"
+            f"{'-' if name == 'roughcontact' else format(runs[0]['tolerance'], '.1e'):>11}  {trouble}{left_out}{cut}"
         )
         records.append(
-            {"program": name, "n": n, "seed": seed, "ratio": ratio, "trouble": trouble, "rounds": runs}
+            {"program": name, "n": n, "seed": seed, "loads": loads, "ratio": ratio, "trouble": trouble}
+            | {"rounds": runs}
         )
     return records
 
@@ -215,12 +231,18 @@ def main() -> int:
     parser.add_argument(
         "--tolerance", type=float, default=ASPHER_START, help="of ASPHER, at which its search begins"
     )
+    parser.add_argument(
+        "--most",
+        type=float,
+        default=float("inf"),
+        help="seconds after which ASPHER's curve is cut: it takes more",
+    )
     parser.add_argument("--json", type=Path)
-    parser.add_argument("--worker", nargs=4, help=argparse.SUPPRESS)
+    parser.add_argument("--worker", nargs=5, help=argparse.SUPPRESS)
     args = parser.parse_args()
     if args.worker:
-        name, n, seed, tolerance = args.worker
-        print(json.dumps(work(name, int(n), int(seed), float(tolerance))))
+        name, n, seed, tolerance, most = args.worker
+        print(json.dumps(work(name, int(n), int(seed), float(tolerance), float(most))))
         return 0
     if unknown := set(args.programs) - set(PROGRAMS):
         parser.error(f"unknown programs {', '.join(sorted(unknown))}; there are {', '.join(PROGRAMS)}")
@@ -242,7 +264,7 @@ def main() -> int:
         record
         for n in args.sizes
         for seed in args.seeds
-        for record in compare(names, n, seed, args.repeats, args.tolerance)
+        for record in compare(names, n, seed, args.repeats, args.tolerance, args.most)
     ]
     if args.json:
         args.json.write_text(json.dumps(records, indent=1) + "\n")

@@ -4,12 +4,14 @@ import os
 import subprocess
 import sys
 import threading
+import weakref
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact import arrays
+from roughcontact import threads as threads_module
 from roughcontact.threads import join_in, limit_threads, spread, threads
 
 
@@ -42,6 +44,37 @@ def test_all_is_done_once(count):
     with limit_threads(count):
         spread(done.append, range(17))
     assert sorted(done) == list(range(17))
+
+
+@pytest.mark.parametrize("items", [0, 1, 5, 6])
+def test_few_items_wake_nobody(items):
+    done = []
+    with limit_threads(3):
+        spread(lambda item: done.append((item, threading.current_thread())), range(items), 6)
+    assert sorted(item for item, _ in done) == list(range(items))
+    assert (len({thread for _, thread in done}) > 1) == (items == 6)
+
+
+def test_where_nobody_can_come_all_is_done_and_nothing_is_held(monkeypatch):
+    """What nobody has begun is forgotten as soon as the first has done all."""
+
+    class Refused(threading.Thread):
+        def start(self):
+            raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threads_module, "Thread", Refused)
+    crew = threads_module._Crew()
+    monkeypatch.setattr(threads_module, "_crew", lambda: crew)
+    field = np.zeros(3)
+    held = weakref.ref(field)
+
+    def work(k, given=field):
+        given[:] = k + 1
+
+    join_in(work, 4)
+    np.testing.assert_array_equal(field, 1)
+    del work, field
+    assert held() is None
 
 
 @pytest.mark.parametrize("count", [1, 4])

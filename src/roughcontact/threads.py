@@ -43,13 +43,14 @@ def limit_threads(count: int) -> Iterator[None]:
         _limit.reset(token)
 
 
-def spread(work: Callable[[T], None], items: Sequence[T]) -> None:
-    """Do some work on all items, on several threads if there are any.
+def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> None:
+    """Do some work on all items, on several threads if there are any, and at least so many items.
 
     What is done to one item must not hang on what is done to another: so it does not hang on the number of threads.
+    If this is interrupted, others may still be at work: `work` must hold what they look at.
     """
     count = min(threads(), len(items))
-    if count < 2:
+    if count < 2 or len(items) < least:
         for item in items:
             work(item)
         return
@@ -72,13 +73,13 @@ def join_in(work: Callable[[int], None], count: int) -> None:
     The first is this one: it could do all alone, and when it returns all is done. It waits for no other to come, or to
     find that nothing is left: `work` must hold what they look at. If it is interrupted, others may still be at work.
     """
-    wanted = [True]
+    wanted = [work]
     try:
         if count > 1:
-            _crew().call(work, range(1, count), wanted)
+            _crew().call(wanted, range(1, count))
         work(0)
     finally:
-        wanted.clear()
+        wanted.clear()  # who has not come holds nothing any more
 
 
 @contextmanager
@@ -103,27 +104,28 @@ class _Crew:
     """Threads that wait for calls, of which nobody asks what became of them: a pool takes ten times as long to ask."""
 
     def __init__(self) -> None:
-        self._calls: SimpleQueue[tuple[Callable[[int], None], int, list[bool]]] = SimpleQueue()
+        self._calls: SimpleQueue[tuple[list[Callable[[int], None]], int]] = SimpleQueue()
         self._size = 0
         self._lock = Lock()
 
-    def call(self, work: Callable[[int], None], numbers: Sequence[int], wanted: list[bool]) -> None:
-        """Have others do some work for each number, as long as it is wanted when they come to it."""
+    def call(self, wanted: list[Callable[[int], None]], numbers: Sequence[int]) -> None:
+        """Have others do the work that is wanted when they come to it, for each number."""
         if self._size < len(numbers):
-            with self._lock:
+            with self._lock, suppress(RuntimeError):  # there may be no more threads
                 while self._size < len(numbers):
                     Thread(target=self._answer, name=f"roughcontact-{self._size}", daemon=True).start()
                     self._size += 1
         for k in numbers:
-            self._calls.put((work, k, wanted))
+            self._calls.put((wanted, k))
 
     def _answer(self) -> None:
         while True:
-            work, k, wanted = self._calls.get()
-            if wanted:
+            wanted, k = self._calls.get()
+            for work in wanted[:1]:
                 with suppress(BaseException):  # whoever called could do all alone
                     work(k)
-            del work, wanted  # what they hold is not held while waiting
+                del work  # what it holds is not held while waiting
+            del wanted
 
 
 @cache

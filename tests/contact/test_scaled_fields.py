@@ -14,6 +14,7 @@ from roughcontact.contact.drivers import Plane, SinglePlane
 from roughcontact.contact.fields import scaled_fields
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Depth, Force, Terms
+from roughcontact.contact.trial import Trial
 from roughcontact.machine import loader
 from roughcontact.machine.layout import NEVER
 
@@ -61,8 +62,8 @@ class Asked:
 
     def fields(self):
         measure = Measure(self.driver.weights)
-        given = self.driver, measure, self.terms, self.kept, self.start, self.separation, self.displacement
-        return scaled_fields(*given, self.otherwise)
+        trial = Trial(self.start, self.displacement, self.separation)
+        return scaled_fields(self.driver, measure, self.terms, self.kept, trial, otherwise=self.otherwise)
 
     def both(self):
         with pytest.MonkeyPatch.context() as patch:

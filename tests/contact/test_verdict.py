@@ -14,6 +14,7 @@ from roughcontact.contact import verdict
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.problem import Depth, Force, Terms
+from roughcontact.contact.trial import Trial
 from roughcontact.contact.verdict import guess_region, judge_pressure
 from roughcontact.machine import loader, planes
 
@@ -31,14 +32,14 @@ PLANES = {periodic: plane(periodic=periodic) for periodic in (False, True)}
 
 
 def judged(operator, terms, p, u, s):
-    return judge_pressure(Judge.of(operator, terms), Measure(operator.weights), terms, p, u, s)
+    return judge_pressure(Judge.of(operator, terms), Measure(operator.weights), terms, Trial(p, u, s))
 
 
-def generic(function, *given):
+def generic(function, *given, **named):
     """Return what there is without machine code."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(loader, "is_available", lambda: False)
-        return function(*given)
+        return function(*given, **named)
 
 
 def unheard_of(*_):
@@ -112,8 +113,8 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
 def test_both_guess_the_same_region(given_fields, allowed, own):
     operator, p, u, s = given_fields
     own = Judge.of(operator, FORCE).self_influence if own is None else own
-    one = guess_region(FORCE, p, u, s, 0.4, allowed, own)
-    two = generic(guess_region, FORCE, p, u, s, 0.4, allowed, own)
+    one = guess_region(FORCE, Trial(p, u, s), depth=0.4, allowed=allowed, own=own)
+    two = generic(guess_region, FORCE, Trial(p, u, s), depth=0.4, allowed=allowed, own=own)
     gap = u + s - 0.4
     wrong = (p * own < gap) if own < math.inf else np.zeros(p.shape, bool)
     asked = (p > 0) | (gap < -allowed)
@@ -184,8 +185,8 @@ def test_no_cell_in_contact_at_a_given_depth(depth):
     ):
         assert found == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
     for guess in (
-        guess_region(terms, nothing, nothing, s, depth, 0.0),
-        generic(guess_region, terms, nothing, nothing, s, depth, 0.0),
+        guess_region(terms, Trial(nothing, nothing, s), depth=depth, allowed=0.0),
+        generic(guess_region, terms, Trial(nothing, nothing, s), depth=depth, allowed=0.0),
     ):
         np.testing.assert_array_equal(guess.region, s < depth)
         assert guess.count == (s < depth).sum()
@@ -224,7 +225,7 @@ def test_a_hardness(control):
     agrees(found, Judge.of(operator, terms), Measure(operator.weights), terms, p, u, s)
     held, gap = p >= 0.5, u + s - found.depth
     assert held.any()
-    guess = guess_region(terms, p, u, s, found.depth, 0.01)
+    guess = guess_region(terms, Trial(p, u, s), depth=found.depth, allowed=0.01)
     wanted = np.where(held, gap > 0.01, (p > 0) | (gap < -0.01))
     np.testing.assert_array_equal(guess.region, wanted)
     assert (guess.count, guess.wrong) == (wanted.sum(), 0)
@@ -249,7 +250,7 @@ def test_what_lies_otherwise(kind):
     # Levels, gaps and their ratio are rounded: numbers below three, of which the worst is above a third.
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
-    guess = guess_region(DEPTH, *there, 0.4, 0.1, 0.3)
+    guess = guess_region(DEPTH, Trial(*there), depth=0.4, allowed=0.1, own=0.3)
     assert (guess.count, guess.wrong) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
 
@@ -260,9 +261,9 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     asked = []
     seen = SimpleNamespace(
         look=lambda *given: asked.append("look") or planes.look(*given),
-        mark=lambda *given: asked.append("mark") or planes.mark(*given),
+        mark=lambda *given, **named: asked.append("mark") or planes.mark(*given, **named),
     )
     monkeypatch.setattr(verdict, "planes", seen)
     judged(plane((5, 7)), FORCE, p, u, s)
-    guess_region(FORCE, p, u, s, 0.4, 0.1)
+    guess_region(FORCE, Trial(p, u, s), depth=0.4, allowed=0.1)
     assert asked == ["look", "mark"]

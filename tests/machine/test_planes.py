@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from roughcontact.machine import loader, planes
 from roughcontact.machine.layout import NEVER, WIDTH
-from roughcontact.machine.planes import Look, in_parts, leave, levels, look, mark, narrow, widen
+from roughcontact.machine.planes import Look, leave, levels, look, mark, narrow, widen
 from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
@@ -36,13 +36,13 @@ def shapes(draw):
     return shape, np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
 
 
-@pytest.fixture(autouse=True, params=[planes.PART, MANY], ids=["one part", "many parts"])
+@pytest.fixture(autouse=True, params=[planes.CELLS, MANY], ids=["one part", "many parts"])
 def part(request):
     """So many cells at a time, on two threads where they are in many parts."""
-    before, planes.PART = planes.PART, request.param
+    before, planes.CELLS = planes.CELLS, request.param
     with limit_threads(2):
         yield
-    planes.PART = before
+    planes.CELLS = before
 
 
 def amid(field):
@@ -111,7 +111,7 @@ def test_mark(sized, share, own):
     p, u, s = given_to(rng, shape, share)
     read_only(p, u, s)
     depth, least = 0.5, -0.25
-    region, count, wrong = mark(p, u, s, depth, least, own)
+    region, count, wrong = mark(p, u, s, depth=depth, least=least, own=own)
     gap = u + s - depth
     asked = (p > 0) | (gap < least)
     pulls = asked & (p * own < gap) if own < math.inf else np.zeros(shape, bool)
@@ -126,7 +126,7 @@ def test_mark(sized, share, own):
 def test_bounds_of_a_mark_are_not_in_it():
     """What stands at the least gap stays out; what moves as far as its gap stays in."""
     p, u, s = np.array([0.0, 0.0, 2.0, 2.0]), np.zeros(4), np.array([1.0, 0.875, 2.5, 2.75])
-    region, count, wrong = mark(p, u, s, 1.5, -0.5, 0.5)
+    region, count, wrong = mark(p, u, s, depth=1.5, least=-0.5, own=0.5)
     assert region.tolist() == [False, True, True, False]
     assert (count, wrong) == (2, 1)
 
@@ -155,7 +155,7 @@ def test_narrow(sized, precision, share):
     (inside, lacking, base), kept = zip(
         *(amid(np.full(shape, np.nan, precision)) for _ in range(3)), strict=True
     )
-    narrow(s, u, p, region, depth, unit, inside, lacking, base)
+    narrow(s, u, p, region, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
     np.testing.assert_array_equal(inside, region)
     there = np.isfinite(s)
     assert (lacking[~there] == np.array(NEVER, precision)).all()
@@ -233,11 +233,16 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
     for count in (1, 2, 3):
         written = [np.zeros(shape, precision) for _ in range(5)]
         with limit_threads(count):
-            totals = [look(p, u, s), mark(p, u, s, 0.5, -0.25, 0.75)[1:], levels(s, u, region)]
+            totals = [
+                look(p, u, s),
+                mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
+                levels(s, u, region),
+            ]
             totals.append(leave(inside, base, *written[:2]))
-            narrow(s, u, p, region, 0.5, 0.3, *written[2:])
+            named = dict(zip(("inside", "lacking", "base"), written[2:], strict=True))
+            narrow(s, u, p, region, depth=0.5, unit=0.3, **named)
             written.append(widen(p, change, inside, 0.3))
-            written.append(mark(p, u, s, 0.5, -0.25, 0.75)[0])
+            written.append(mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])
         answers.append((totals, written))
     for totals, written in answers[1:]:
         assert totals == answers[0][0]
@@ -251,26 +256,3 @@ def test_sums_of_many_cells_are_sums_of_parts():
     seen = look(tenths, tenths, zeros)
     assert seen.count == 10**6
     assert seen.level == pytest.approx(math.fsum(tenths), rel=1e-12)
-
-
-@pytest.mark.parametrize("count", [0, 1, planes.SEVERAL - 1, planes.SEVERAL, 25])
-@pytest.mark.parametrize("limit", [1, 2, 3])
-def test_each_part_is_done_once(count, limit):
-    done = np.zeros(count, int)
-
-    def part(start):
-        done[start // 7] += 1
-
-    with limit_threads(limit):
-        in_parts(part, range(0, 7 * count, 7))
-    np.testing.assert_array_equal(done, 1)
-
-
-@pytest.mark.parametrize("count", [2, 25])
-def test_who_calls_hears_of_what_went_wrong(count):
-    def part(start):
-        if start == count - 1:
-            raise ValueError("the last")
-
-    with limit_threads(2), pytest.raises(ValueError, match="the last"):
-        in_parts(part, range(count))

@@ -21,6 +21,7 @@ from roughcontact.contact.problem import Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State, Tangent
 from roughcontact.contact.status import Status
+from roughcontact.contact.trial import Trial
 from roughcontact.contact.verdict import Guess, guess_region, judge_pressure
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
@@ -95,7 +96,7 @@ class ActiveSet:
         driver: Driver | None = None
         guessed = True
         while True:
-            d, r, scale = judge_pressure(judge, measure, terms, p, u, separation)
+            d, r, scale = judge_pressure(judge, measure, terms, Trial(p, u, separation))
             if r <= tolerance and exact:
                 return State(p, d, r, steps, Status.CONVERGED, tangent)
             if r <= tolerance:  # the certificate stands on an exact product
@@ -107,9 +108,8 @@ class ActiveSet:
                 return State(p, d, r, steps, Status.STAGNATED)
             allowed = 0.5 * tolerance * scale
             # From other cells or another load: keep what a projected step of one cell leaves of it.
-            guess = guess_region(
-                terms, p, u, separation, d, allowed, judge.self_influence if guessed else math.inf
-            )
+            own = judge.self_influence if guessed else math.inf
+            guess = guess_region(terms, Trial(p, u, separation), depth=d, allowed=allowed, own=own)
             region, count = guess.region, guess.count
             if guessed and _worth_sifting(guess, measure, dense_limit):
                 limit = LOOSE * r * scale

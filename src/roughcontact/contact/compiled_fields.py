@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.drivers import Driver
+from roughcontact.contact.trial import Trial
 from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.machine import planes, room
 from roughcontact.machine.region import Located, Region, lower, take_in, with_margins, zeros_with_margins
@@ -41,20 +42,22 @@ class CompiledFields:
         driver: Driver,
         weight: float,
         region: Mask,
-        given: tuple[Array, Array, Array],
+        trial: Trial,
+        *,
         depth: float | None,
         otherwise: float,
     ) -> tuple[Self, float]:
-        """Return the fields for a separation, a displacement and a pressure [Pa] to start from, and their unit."""
-        separation, displacement, start = (np.ascontiguousarray(f, dtype=np.float64) for f in given)
-        region, precision = np.ascontiguousarray(region), driver.narrow(np.empty(0)).dtype
+        """Return the fields of a solve that begins with a trial, and their unit; see `scaled_fields`."""
+        start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in trial)
+        region, precision = np.ascontiguousarray(region, dtype=bool), driver.narrow(np.empty(0)).dtype
         levels = planes.levels(separation, displacement, region)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(region.shape, precision)
         lacking, base = (room.empty(region.shape, precision) for _ in range(2))
-        planes.narrow(separation, displacement, start, region, depth, unit, inside, lacking, base)
+        given = separation, displacement, start, region
+        planes.narrow(*given, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
         return cls(driver, weight, inside, lacking, base), unit
 
     @property
@@ -177,6 +180,8 @@ class CompiledFields:
         self._region.run("share_out", 0, self._base, self._change, self._inside, moved, share, alike)
 
     def _located(self, field: Field) -> Located:
+        if field.shape != self.inside.shape:  # machine code looks at nothing twice
+            raise ValueError(f"a field of shape {field.shape} where {self.inside.shape} is expected")
         return Located.of(np.ascontiguousarray(field, dtype=self.inside.dtype))
 
     def _zeros(self) -> Located:

@@ -8,11 +8,12 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, largest, namespace
+from roughcontact.arrays import largest, namespace
 from roughcontact.contact.compiled_fields import CompiledFields
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Terms
+from roughcontact.contact.trial import Trial
 from roughcontact.machine import loader
 from roughcontact.machine.layout import NEVER
 from roughcontact.machine.region import with_margins
@@ -143,21 +144,14 @@ def fields_on(
     ceiling : float
         The hardness.
     """
-    if has_machine_code(lacking, measure, ceiling):
+    if _has_machine_code(lacking, measure, ceiling):
         inside = with_margins(kept, lacking.dtype)
         return CompiledFields(driver, float(measure.weights), inside, lacking, base)
     return _Generic(driver, measure, kept, lacking, base, held, ceiling)
 
 
 def scaled_fields(
-    driver: Driver,
-    measure: Measure,
-    terms: Terms,
-    region: Mask,
-    start: Array,
-    separation: Array,
-    displacement: Array,
-    otherwise: float,
+    driver: Driver, measure: Measure, terms: Terms, region: Mask, trial: Trial, *, otherwise: float
 ) -> tuple[Fields, float]:
     """Return the fields of a solve for what is lacking of a depth, and their unit.
 
@@ -168,11 +162,9 @@ def scaled_fields(
     terms : Terms
         Where no depth is prescribed it is the mean level of the region.
     region : bool array
-        Cells that are free at first, on those of the driver.
-    start, displacement : array
-        Pressure [Pa] and its image [m], there too.
-    separation : array
-        There too [m]; infinite where a cell never touches.
+        Cells that are free at first, one at least, on those of the driver.
+    trial : Trial
+        Where the solve begins, there too.
     otherwise : float
         Unit where nothing is lacking, if it is not zero [m].
 
@@ -183,10 +175,11 @@ def scaled_fields(
         What is lacking in the region at most [m]: then single precision holds all numbers. Pressures are in the unit
         too [Pa].
     """
+    start, displacement, separation = trial
     ceiling = terms.hardness
-    if has_machine_code(separation, measure, ceiling):
-        fields = separation, displacement, start
-        return CompiledFields.scaled(driver, float(measure.weights), region, fields, terms.depth, otherwise)
+    if _has_machine_code(separation, measure, ceiling):
+        area = float(measure.weights)
+        return CompiledFields.scaled(driver, area, region, trial, depth=terms.depth, otherwise=otherwise)
     xp = namespace(separation)
     level = separation + displacement
     depth = measure.mean(level, region) if terms.depth is None else terms.depth
@@ -199,9 +192,9 @@ def scaled_fields(
     return _Generic(driver, measure, region, lacking, base, held, ceiling / unit), unit
 
 
-def has_machine_code(field: Array, measure: Measure, ceiling: float) -> bool:
+def _has_machine_code(field: Array, measure: Measure, ceiling: float) -> bool:
     """Whether there is machine code for such fields."""
-    return is_numpy(field) and not measure.varies and ceiling == math.inf and loader.takes(field)
+    return not measure.varies and ceiling == math.inf and loader.takes(field)
 
 
 def shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:

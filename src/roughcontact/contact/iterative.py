@@ -14,6 +14,7 @@ from roughcontact.contact.drivers import Driver
 from roughcontact.contact.fields import scaled_fields
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Force, Terms
+from roughcontact.contact.trial import Trial
 
 __all__ = ["RegionPressed", "press_region"]
 
@@ -67,10 +68,10 @@ def press_region(
     """
     measure, xp = Measure(driver.weights), namespace(pressure)
     conserve, hardness = terms.depth is None, terms.hardness
-    start, kept = driver.gather(pressure), driver.gather(region)
+    start = driver.gather(pressure)
     # What was not measured is never touched; nor is what a driver has beyond the edge.
-    level = driver.gather(separation, math.inf), driver.gather(displacement)
-    fields, unit = scaled_fields(driver, measure, terms, kept, start, *level, limit)
+    trial = Trial(start, driver.gather(displacement), driver.gather(separation, math.inf))
+    fields, unit = scaled_fields(driver, measure, terms, driver.gather(region), trial, otherwise=limit)
     goal = limit / unit
     moved = fields.leave(conserve)
     target, steps, rounds = max(goal, DEPTH_OF_SOLVE), 0, 0

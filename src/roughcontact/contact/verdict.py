@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import namespace
 from roughcontact.contact.bounds import depth_of
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.problem import Terms
-from roughcontact.machine import loader, planes
+from roughcontact.contact.trial import Trial
+from roughcontact.machine import planes
 
 __all__ = ["Guess", "Verdict", "guess_region", "judge_pressure"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 
@@ -50,12 +50,11 @@ class Guess:
     taken: Mask
 
 
-def judge_pressure(
-    judge: Judge, measure: Measure, terms: Terms, pressure: Array, displacement: Array, separation: Array
-) -> Verdict:
-    """Return the verdict on a pressure [Pa] that causes a displacement [m]."""
-    if _in_machine_code(pressure, displacement, separation, measure, terms):
-        return _judged_at_once(judge, terms, pressure, displacement, separation)
+def judge_pressure(judge: Judge, measure: Measure, terms: Terms, trial: Trial) -> Verdict:
+    """Return the verdict on a pressure."""
+    if not measure.varies and trial.fits_machine_code(terms.hardness):
+        return _judged_at_once(judge, terms, trial)
+    pressure, displacement, separation = trial
     gap = displacement + separation
     between = (pressure > 0) & (pressure < terms.hardness)
     depth = depth_of(measure, gap, pressure, between) if terms.depth is None else terms.depth
@@ -63,22 +62,15 @@ def judge_pressure(
     return Verdict(depth, judge.residual(pressure, displacement, gap), judge.scale(displacement))
 
 
-def guess_region(
-    terms: Terms,
-    pressure: Array,
-    displacement: Array,
-    separation: Array,
-    depth: float,
-    allowed: float,
-    own: float = math.inf,
-) -> Guess:
+def guess_region(terms: Terms, trial: Trial, *, depth: float, allowed: float, own: float = math.inf) -> Guess:
     """Return the cells that carry something or would penetrate by more than is allowed [m].
 
     With a self influence `own` [m/Pa] those are wrong, and are none of them, on which a projected step of one cell
     leaves nothing. Cells at the hardness are free where their gap is more than is allowed.
     """
-    if _in_machine_code(pressure, displacement, separation, None, terms):
-        region, count, wrong = planes.mark(pressure, displacement, separation, depth, -allowed, own)
+    pressure, displacement, separation = trial
+    if trial.fits_machine_code(terms.hardness):
+        region, count, wrong = planes.mark(*trial, depth=depth, least=-allowed, own=own)
         return Guess(region, count, wrong, region | (pressure > 0) if wrong else region)
     xp, carrying = namespace(pressure), pressure > 0
     gap = displacement + separation - depth
@@ -92,10 +84,8 @@ def guess_region(
     return Guess(region, int(xp.count_nonzero(region)), wrong, region | carrying)
 
 
-def _judged_at_once(
-    judge: Judge, terms: Terms, pressure: Array, displacement: Array, separation: Array
-) -> Verdict:
-    seen = planes.look(pressure, displacement, separation)
+def _judged_at_once(judge: Judge, terms: Terms, trial: Trial) -> Verdict:
+    seen = planes.look(*trial)
     if seen is None or (not seen.count and terms.depth is None):
         return Verdict(math.nan if terms.depth is None else terms.depth, math.inf, math.nan)
     depth = seen.level / seen.count if terms.depth is None else terms.depth
@@ -104,15 +94,3 @@ def _judged_at_once(
         violation = max(depth - seen.lowest, seen.highest - depth)
         residual = judge.relative(violation, seen.displacement, seen.strongest)
     return Verdict(depth, residual, seen.displacement)
-
-
-def _in_machine_code(
-    pressure: Any, displacement: Any, separation: Any, measure: Measure | None, terms: Terms
-) -> bool:
-    """Whether machine code can: fields of NumPy as they lie in memory, cells of one size, and no hardness."""
-    if terms.hardness < math.inf or (measure is not None and measure.varies):
-        return False
-    fields = pressure, displacement, separation
-    return all(
-        is_numpy(f) and f.dtype == np.float64 and f.flags.c_contiguous for f in fields
-    ) and loader.takes(pressure)

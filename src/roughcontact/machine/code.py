@@ -236,7 +236,8 @@ class Code:
     def call(self, other: Code, *arguments: Any) -> None:
         """Call another function."""
         self.builder.call(
-            other.function, [a.pointer if isinstance(a, Reals | Indices) else a.value for a in arguments]
+            other.function,
+            [a.pointer if isinstance(a, Reals | Indices | Flags) else a.value for a in arguments],
         )
 
     def across(self, number: Number, both: Callable[[Number, Number], Number]) -> Number:

@@ -14,6 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 __all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
 COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code hangs on
@@ -66,7 +68,9 @@ def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
 
 
 def takes(field: Any) -> bool:
-    """Whether machine code can work on a NumPy array: double or single precision, in the order of this machine."""
+    """Whether machine code can work on a field: of NumPy, double or single precision, and the order of this machine."""
+    if not isinstance(field, np.ndarray):
+        return False
     return field.dtype.char in _NAMES and bool(field.dtype.isnative) and is_available()
 
 
@@ -74,7 +78,7 @@ def address(array: Any) -> int:
     """Return where a NumPy array begins."""
     try:
         return ctypes.addressof(ctypes.c_char.from_buffer(array))
-    except (TypeError, ValueError):  # read only, or empty: a slower way
+    except (TypeError, ValueError):  # read only, empty, or not contiguous: a slower way
         found: int = array.__array_interface__["data"][0]
         return found
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -14,13 +14,13 @@ from roughcontact.machine.loader import address, code_for
 from roughcontact.machine.room import empty
 from roughcontact.threads import spread
 
-__all__ = ["Levels", "Look", "in_parts", "leave", "levels", "look", "mark", "narrow", "widen"]
+__all__ = ["Levels", "Look", "leave", "levels", "look", "mark", "narrow", "widen"]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-PART = 2**17  # cells that are taken at once; totals are made part by part, whatever the threads
+CELLS = 2**17  # cells that are taken at once; totals are made part by part, whatever the threads
 SEVERAL = 4  # parts from which on threads are worth waking
 
 
@@ -70,7 +70,7 @@ def look(pressure: Array, displacement: Array, separation: Array) -> Look | None
 
 
 def mark(
-    pressure: Array, displacement: Array, separation: Array, depth: float, least: float, own: float
+    pressure: Array, displacement: Array, separation: Array, *, depth: float, least: float, own: float
 ) -> tuple[Mask, int, int]:
     """Return the cells that carry something or whose gap is below the least, but for wrong ones; and how many both are.
 
@@ -94,6 +94,7 @@ def narrow(
     displacement: Array,
     pressure: Array,
     region: Mask,
+    *,
     depth: float,
     unit: float,
     inside: Field,
@@ -121,28 +122,19 @@ def widen(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
     return answer
 
 
-def in_parts(part: Callable[[int], None], starts: Sequence[int]) -> None:
-    """Do all parts, on several threads if they are many; whoever calls waits for all of them."""
-    if len(starts) < SEVERAL:
-        for start in starts:
-            part(start)
-    else:
-        spread(part, starts)
-
-
 def _totals(run: Callable[..., None], most: int, count: int, *arguments: Field | Mask | float) -> list[float]:
     """Run a function over all cells; return the largest over all parts of its first totals, sums of the others."""
     size = next(a.size for a in arguments if isinstance(a, np.ndarray))
-    assert PART % WIDTH == 0
-    starts = range(0, max(size, 1), PART)
+    assert CELLS % WIDTH == 0
+    starts = range(0, max(size, 1), CELLS)
     totals = np.zeros((len(starts), count))
-    # Addresses: the caller holds the arrays until all is done.
     given = [(address(a), a.itemsize) if isinstance(a, np.ndarray) else (a, 0) for a in arguments]
 
-    def part(start: int) -> None:
+    # With the arrays themselves: they live as long as anyone works on them.
+    def part(start: int, _: object = arguments) -> None:
         at = [first + start * step if step else first for first, step in given]
-        ends = (address(totals[start // PART]),) if count else ()
-        run(min(PART, size - start), *at, *ends)
+        ends = (address(totals[start // CELLS]),) if count else ()
+        run(min(CELLS, size - start), *at, *ends)
 
-    in_parts(part, starts)
+    spread(part, starts, SEVERAL)
     return [*totals[:, :most].max(axis=0).tolist(), *totals[:, most:].sum(axis=0).tolist()]

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from roughcontact.machine.layout import REACH, WIDTH
 from roughcontact.machine.loader import address, code_for
-from roughcontact.machine.planes import in_parts
 from roughcontact.machine.room import empty, zeros
+from roughcontact.threads import spread
 
 __all__ = [
     "Located",
@@ -29,6 +29,7 @@ Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
+SEVERAL = 4  # parts from which on threads are worth waking
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (tried by hand)
 
 
@@ -74,19 +75,19 @@ class Region:
         run, (groups, size, whole, end) = self._code[name], self._ends
         parts = max(1, -(-size // PART))
         totals = np.zeros((parts, count))
-        # Addresses: the caller holds the fields until all is done.
         given = [
             a.at if isinstance(a, Located) else address(a) if isinstance(a, np.ndarray) else a
             for a in arguments
         ]
         first, step = address(totals) if count else 0, count * totals.itemsize
 
-        def part(k: int) -> None:
+        # With the fields themselves: they live as long as anyone works on them.
+        def part(k: int, _: object = (self, totals, arguments)) -> None:
             last = (k + 1) * PART, whole, whole
             ends = last if k < parts - 1 else (size, whole, end)
             run(groups, k * PART, *ends, *given, *((first + k * step,) if count else ()))
 
-        in_parts(part, range(parts))
+        spread(part, range(parts), SEVERAL)
         found: list[float] = (
             totals[0] if parts == 1 else totals.max(axis=0) if largest else totals.sum(axis=0)
         ).tolist()
@@ -112,7 +113,7 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
         offset = start * r.itemsize
         run(min(size, r.size - start), address(r) + offset, address(v) + offset, alpha, mean)
 
-    in_parts(part, range(0, r.size, size))
+    spread(part, range(0, r.size, size), SEVERAL)
 
 
 def take_in(inside: Field, lacking: Field, least: float) -> float:

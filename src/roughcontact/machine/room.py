@@ -1,13 +1,14 @@
 """Memory to work in, that is kept for the next time.
 
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
-cores: on planes of some megabytes that costs a solve up to a sixth of its time (tried by hand). So what an array leaves
-is kept for the next one like it. Very large planes are not: their pages are better touched where they are needed.
+cores (`benchmarks/pairs.py` shows what that costs a solve). So what an array leaves is kept for the next one like it.
+Very large planes are not: their pages are better touched where they are needed.
 """
 
 from __future__ import annotations
 
 import math
+import os
 from threading import RLock
 from typing import Any
 
@@ -29,6 +30,8 @@ MOST = 2**26  # bytes that are kept in all
 _kept: dict[Kind, list[Block]] = {}
 _total = [0]  # bytes that are kept now
 _lock = RLock()  # an array may go whenever Python clears up: even here
+if hasattr(os, "register_at_fork"):  # a forked process has no other thread that could give it back
+    os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release, after_in_child=_lock.release)
 
 
 def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
@@ -91,12 +94,12 @@ def _new(kind: Kind, size: int) -> Block:
 def _keep(block: Block) -> None:
     kind, size = (block[0]["shape"], block[0]["typestr"]), block[1].nbytes - LINE
     with _lock:
-        blocks = _kept.pop(kind, [])
-        for other in list(_kept):  # those that nobody has left for longest make room
-            if _total[0] + size <= MOST:
+        _kept[kind] = _kept.pop(kind, [])  # the last of all
+        for other in list(_kept):  # those to which nothing came for longest make room
+            if _total[0] + size <= MOST or other == kind:
                 break
-            _total[0] -= sum(memory.nbytes - LINE for _, memory in _kept.pop(other))
+            lost = sum(memory.nbytes - LINE for _, memory in _kept.pop(other, []))
+            _total[0] -= lost
         if _total[0] + size <= MOST:
-            blocks.append(block)
+            _kept[kind].append(block)
             _total[0] += size
-        _kept[kind] = blocks
