@@ -18,13 +18,13 @@ from typing import Any
 from cases import CASES, Problem
 
 import roughcontact as rc
-from roughcontact.contact import verdict
+from roughcontact.contact.trial import Trial
 from roughcontact.machine import room
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {
     "memory that is kept": (room, "SMALL", room.LARGE),
-    "judging in one pass": (verdict, "_in_machine_code", lambda *_: False),
+    "judging in one pass": (Trial, "fits_machine_code", lambda *_: False),
 }
 SHOWN = ("fractal-0.8-0.046", "flat-free", "flat-periodic", "flat-half", "sphere")
 
