@@ -101,7 +101,10 @@ def _available() -> int:
 
 
 class _Crew:
-    """Threads that wait for calls, of which nobody asks what became of them: a pool takes ten times as long to ask."""
+    """Threads that wait for calls, of which nobody asks what became of them.
+
+    A pool, which could tell, takes more than ten times as long to call one (tried by hand).
+    """
 
     def __init__(self) -> None:
         self._calls: SimpleQueue[tuple[list[Callable[[int], None]], int]] = SimpleQueue()

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import roughcontact as rc
 from libraries import Strict
+from regions import close, plane, region
 from roughcontact.contact import fields as fields_module
 from roughcontact.contact.compiled_fields import CompiledFields
 from roughcontact.contact.conjugate_gradient import relax
@@ -74,19 +75,6 @@ def both_of(*given):
     assert one.held is None
     assert two.held is None
     return one, two
-
-
-def plane(shape=(21, 34), periodic=False):
-    return rc.half_space(rc.Grid(shape, (0.3, 0.2), periodic), 2.0)
-
-
-def region(shape, seed=0, share=0.4):
-    return np.random.default_rng(seed).random(shape) < share
-
-
-def close(found, wanted, size, precision, rounding=20):
-    """Equal up to some roundings of numbers of a size."""
-    np.testing.assert_allclose(found, wanted, rtol=0, atol=rounding * np.finfo(precision).eps * size)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

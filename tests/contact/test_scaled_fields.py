@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import roughcontact as rc
+from regions import close, plane, region
 from roughcontact.contact import fields as fields_module
 from roughcontact.contact.compiled_fields import CompiledFields
 from roughcontact.contact.drivers import Plane, SinglePlane
@@ -21,19 +21,6 @@ from roughcontact.machine.layout import NEVER
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 many = settings(max_examples=60, deadline=None, derandomize=True)
-
-
-def plane(shape=(21, 34), periodic=False):
-    return rc.half_space(rc.Grid(shape, (0.3, 0.2), periodic), 2.0)
-
-
-def region(shape, seed=0, share=0.4):
-    return np.random.default_rng(seed).random(shape) < share
-
-
-def close(found, wanted, size, precision, rounding=20):
-    """Equal up to some roundings of numbers of a size."""
-    np.testing.assert_allclose(found, wanted, rtol=0, atol=rounding * np.finfo(precision).eps * size)
 
 
 @dataclass(frozen=True)

@@ -361,7 +361,7 @@ def test_conditions_in_lanes_and_one_by_one(precision, size):
             both, either = code.both(more, flag), code.either(more, flag)
             results = [
                 x.where(flag, -7.0),
-                x.where(code.neither(flag)),
+                x.where(code.opposite(flag)),
                 x.replaced(2.5),
                 x.larger(take.alike(least)),
             ]

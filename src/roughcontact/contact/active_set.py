@@ -96,7 +96,8 @@ class ActiveSet:
         driver: Driver | None = None
         guessed = True
         while True:
-            d, r, scale = judge_pressure(judge, measure, terms, Trial(p, u, separation))
+            trial = Trial(p, u, separation)
+            d, r, scale = judge_pressure(judge, measure, terms, trial)
             if r <= tolerance and exact:
                 return State(p, d, r, steps, Status.CONVERGED, tangent)
             if r <= tolerance:  # the certificate stands on an exact product
@@ -109,7 +110,7 @@ class ActiveSet:
             allowed = 0.5 * tolerance * scale
             # From other cells or another load: keep what a projected step of one cell leaves of it.
             own = judge.self_influence if guessed else math.inf
-            guess = guess_region(terms, Trial(p, u, separation), depth=d, allowed=allowed, own=own)
+            guess = guess_region(terms, trial, depth=d, allowed=allowed, own=own)
             region, count = guess.region, guess.count
             if guessed and _worth_sifting(guess, measure, dense_limit):
                 limit = LOOSE * r * scale

@@ -12,7 +12,7 @@ from roughcontact.contact.drivers import Driver
 from roughcontact.contact.trial import Trial
 from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.machine import planes, room
-from roughcontact.machine.region import Located, Region, lower, take_in, with_margins, zeros_with_margins
+from roughcontact.machine.region import Located, Region, lower, take_in, zeros_with_margins
 
 __all__ = ["CompiledFields"]
 
@@ -30,7 +30,7 @@ class CompiledFields:
         self._inside = Located.of(inside)  # with margins
         self._r, self._base = (self._located(field) for field in (lacking, base))
         self._change, self._t, self._v = self._zeros(), self._zeros(), self._r
-        self._error, self._z = Located.of(with_margins(self.change)), self._r
+        self._error, self._z = Located.of(zeros_with_margins(inside.shape, inside.dtype)), self._r
         self._moved: Located | None = None  # zero everywhere, as long as it is kept
         self._driver, self._weight = driver, weight
         self._relief = driver.relief

@@ -103,7 +103,7 @@ class Fields(Protocol):
     def leave(self, conserve: bool) -> Array | None:
         """Take the pressure of cells that are not free to zero; return what does, None if they have none.
 
-        As there. It is for the beginning; cells at the hardness stay there.
+        It is for the beginning; cells at the hardness keep it. The change has what is returned already, see `let_go`.
         """
         ...
 

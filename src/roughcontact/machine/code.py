@@ -151,7 +151,7 @@ class Code:
         """Return the condition that both of two hold."""
         return self.builder.and_(one, other)
 
-    def neither(self, one: Any) -> Any:
+    def opposite(self, one: Any) -> Any:
         """Return the condition that another does not hold."""
         return self.builder.not_(one)
 

@@ -47,7 +47,7 @@ def write(module: Any, precision: str) -> None:
             # Whether one cell by itself would press no more. Nothing times infinity is no number, and not below.
             wrong = (p.larger(p.replaced(0.0)) * take.alike(own)).is_below(gap)
             asked = code.either(p.is_more_than(0.0), gap.is_below(take.alike(least)))
-            stays = code.both(asked, code.neither(wrong))
+            stays = code.both(asked, code.opposite(wrong))
             region.put(at, stays)
             one = p.replaced(1.0)
             return one.where(stays), one.where(code.both(asked, wrong))

@@ -26,7 +26,6 @@ __all__ = [
 ]
 
 Field = npt.NDArray[Any]  # of single or double precision
-Array = npt.NDArray[np.float64]
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
 SEVERAL = 4  # parts from which on threads are worth waking

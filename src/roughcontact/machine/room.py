@@ -95,8 +95,9 @@ def _keep(block: Block) -> None:
     kind, size = (block[0]["shape"], block[0]["typestr"]), block[1].nbytes - LINE
     with _lock:
         _kept[kind] = _kept.pop(kind, [])  # the last of all
-        for other in list(_kept):  # those to which nothing came for longest make room
-            if _total[0] + size <= MOST or other == kind:
+        while _total[0] + size > MOST:  # those to which nothing came for longest make room
+            other = next(iter(_kept))
+            if other == kind:
                 break
             lost = sum(memory.nbytes - LINE for _, memory in _kept.pop(other, []))
             _total[0] -= lost
