@@ -42,7 +42,7 @@ def step(driver: Driver, region: np.ndarray, heights: np.ndarray) -> float:
 
     def solve(count: int) -> None:
         fields = fields_on(driver, measure, kept, lacking.copy(), none)
-        relax(driver, fields, conserve=True, limit=0.0, max_steps=count)
+        relax(driver, fields, limit=0.0, max_steps=count)
 
     def steps(count: int) -> float:
         return least(lambda: solve(count))

@@ -1,8 +1,20 @@
-"""Planes and regions of them, for the tests of what is done to fields."""
+"""Planes and regions of them, and the fields of solves on them, for the tests of what is done to fields."""
+
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
+import pytest
 
 import roughcontact as rc
+from roughcontact.contact import fields as fields_module
+from roughcontact.contact.compiled_fields import CompiledFields
+from roughcontact.contact.fields import fields_on
+from roughcontact.contact.measure import Measure
+from roughcontact.halfspace.operator import Operator
+from roughcontact.machine import loader
+
+PRECISIONS = ("float32", "float64")
 
 
 def plane(shape=(21, 34), periodic=False):
@@ -16,3 +28,64 @@ def region(shape, seed=0, share=0.4):
 def close(found, wanted, size, precision, rounding=20):
     """Equal up to some roundings of numbers of a size."""
     np.testing.assert_allclose(found, wanted, rtol=0, atol=rounding * np.finfo(precision).eps * size)
+
+
+@dataclass(frozen=True)
+class Bare:
+    """A driver whose preconditioner is the same for both kinds of fields."""
+
+    operator: Operator
+    relief: ClassVar[float] = 0.0
+
+    @property
+    def weights(self):
+        return self.operator.weights
+
+    def apply(self, pressure):
+        return self.operator.apply(pressure)
+
+    def approximate_inverse(self, displacement):
+        return self.operator.approximate_inverse(displacement)
+
+
+class Seeing:
+    """A driver whose preconditioner sees all cells from each: so it would what is left of an error outside.
+
+    Of eighths it makes numbers that need no rounding.
+    """
+
+    weights = 0.25
+    relief = 0.0
+    part = 1 / 256
+
+    @classmethod
+    def approximate_inverse(cls, displacement):
+        return np.full_like(displacement, cls.part * displacement.sum(dtype=np.float64))
+
+
+def on(driver, kept, lacking, base=None, *hardness):
+    """Return the fields of a solve that begins with no change; what is lacking is not overwritten."""
+    base = np.zeros_like(lacking) if base is None else base
+    return fields_on(driver, Measure(driver.weights), kept, lacking.copy(order="K"), base, *hardness)
+
+
+def generic(*given):
+    """Return what there is without machine code."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(loader, "is_available", lambda: False)
+        return on(*given)
+
+
+def both_of(*given):
+    one, two = on(*given), generic(*given)
+    assert isinstance(one, CompiledFields)
+    assert isinstance(two, fields_module._Generic)
+    assert one.held is None
+    assert two.held is None
+    return one, two
+
+
+def eighths(rng, shape, precision, most=4.0):
+    """Return numbers of which sums and products with other such numbers need no rounding."""
+    most = int(8 * most)
+    return (rng.integers(-most, most + 1, shape) / 8).astype(precision)

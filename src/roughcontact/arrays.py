@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.machine import room
 from roughcontact.threads import limit_threads, spread, threads
 
 __all__ = [
@@ -22,11 +23,14 @@ __all__ = [
     "is_array",
     "is_numpy",
     "largest",
+    "less",
     "namespace",
     "numbers",
     "on_host",
+    "over",
     "require_floating",
     "require_numpy",
+    "times",
     "wants_gradient",
 ]
 
@@ -122,6 +126,30 @@ def largest(array: Any) -> float:
         return max(float(array.max()), -float(array.min()))
     xp = namespace(array)
     return max(float(xp.max(array)), -float(xp.min(array)))
+
+
+def over(values: Any, unit: float, precision: str) -> Any:
+    """Return floating numbers over a unit, in "float32" or "float64"."""
+    if isinstance(values, np.ndarray):
+        answer = room.empty(values.shape, precision)
+        return np.divide(values, unit, out=answer, dtype=np.float64, casting="same_kind")
+    xp = namespace(values)
+    return xp.astype(values / unit, getattr(xp, precision))
+
+
+def less(values: Any, number: Any) -> Any:
+    """Return numbers less another, in their precision if they have one."""
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f":
+        return np.subtract(values, number, out=room.empty(values.shape, values.dtype), casting="same_kind")
+    return values - number
+
+
+def times(values: Any, unit: float) -> Any:
+    """Return floating numbers times a unit, in double precision."""
+    if isinstance(values, np.ndarray):
+        return np.multiply(values, unit, out=room.empty(values.shape, np.float64), dtype=np.float64)
+    xp = namespace(values)
+    return unit * xp.astype(values, xp.float64)
 
 
 class Placed:

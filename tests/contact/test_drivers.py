@@ -176,7 +176,7 @@ def test_one_driver_takes_off_what_it_says(rough):
         part = driver.narrow(driver.gather(lacking / unit))
         measure, kept = Measure(driver.weights), driver.gather(region)
         fields = fields_on(driver, measure, kept, part, np.zeros_like(part))
-        relax(driver, fields, conserve=False, limit=driver.gain, max_steps=200)
+        relax(driver, fields, limit=driver.gain, max_steps=200)
         change = unit * driver.scatter(fields.change).astype(float)
         left = np.where(region, lacking - operator.apply(change), 0.0)
         # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from regions import PRECISIONS
 from roughcontact.machine import loader, planes
 from roughcontact.machine.layout import NEVER, WIDTH
-from roughcontact.machine.planes import Look, leave, levels, look, mark, narrow, widen
+from roughcontact.machine.planes import Look, levels, look, mark, narrow, widen
 from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
-PRECISIONS = ("float32", "float64")
 EPS = np.finfo(np.float64).eps
 MANY = 2 * WIDTH  # cells of a part, so that small fields have many
 BEYOND = 37  # cells before and behind a field, an odd number
@@ -170,33 +170,6 @@ def test_narrow(sized, precision, share):
 
 
 @many
-@given(shapes(), st.sampled_from(PRECISIONS), st.sampled_from([0.0, 0.03, 0.5, 1.0]), st.booleans())
-def test_leave(sized, precision, share, apart):
-    """Lanes that have nothing to leave keep whatever is in the change; the rest of a group gets nothing."""
-    shape, rng = sized
-    kept = rng.random(shape) < 0.6
-    p = np.abs(rng.standard_normal(shape)) * (kept | (rng.random(shape) < share))
-    if apart:
-        p *= np.arange(p.size).reshape(shape) % 50 < 3  # long stretches have nothing to leave
-    base, inside = p.astype(precision), kept.astype(precision)
-    read_only(base, inside)
-    (change, moved), others = zip(*(amid(np.full(shape, np.nan, precision)) for _ in range(2)), strict=True)
-    count, lost, carried, left = leave(inside, base, change, moved)
-    wanted, leaves = np.where(kept, 0.0, -base), ~kept & (base > 0)
-    lanes, size = WIDTH // base.itemsize, base.size // (WIDTH // base.itemsize) * (WIDTH // base.itemsize)
-    written = leaves.ravel().copy()
-    written[:size] = written[:size].reshape(-1, lanes).any(axis=1).repeat(lanes)
-    written = written.reshape(shape)
-    for field in (change, moved):
-        np.testing.assert_array_equal(field[written], wanted[written])
-        assert np.isnan(field[~written]).all()
-    assert (count, left) == (leaves.sum(), kept.sum())
-    close(lost, wanted)
-    close(carried, base[kept])
-    assert all(one() for one in others)
-
-
-@many
 @given(shapes(), st.sampled_from(PRECISIONS), st.sampled_from([0.0, 0.5, 1.0]))
 def test_widen(sized, precision, share):
     shape, rng = sized
@@ -228,18 +201,16 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
     rng, shape, answers = np.random.default_rng(5), (61, 103), []
     p, u, s = given_to(rng, shape)
     region = np.isfinite(s) & (rng.random(shape) < 0.5)
-    base, change = p.astype(precision), rng.standard_normal(shape).astype(precision)
-    inside = region.astype(precision)
+    change, inside = rng.standard_normal(shape).astype(precision), region.astype(precision)
     for count in (1, 2, 3):
-        written = [np.zeros(shape, precision) for _ in range(5)]
+        written = [np.zeros(shape, precision) for _ in range(3)]
         with limit_threads(count):
             totals = [
                 look(p, u, s),
                 mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
                 levels(s, u, region),
             ]
-            totals.append(leave(inside, base, *written[:2]))
-            named = dict(zip(("inside", "lacking", "base"), written[2:], strict=True))
+            named = dict(zip(("inside", "lacking", "base"), written, strict=True))
             narrow(s, u, p, region, depth=0.5, unit=0.3, **named)
             written.append(widen(p, change, inside, 0.3))
             written.append(mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from regions import PRECISIONS, eighths
 from roughcontact.machine import loader, region
-from roughcontact.machine.layout import REACH, WIDTH
+from roughcontact.machine.layout import REACH, ROUNDINGS, WIDTH
 from roughcontact.machine.region import (
     Region,
     add_blocks,
@@ -22,7 +23,6 @@ from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
-PRECISIONS = ("float32", "float64")
 MASKS = {
     "empty": lambda rng, shape: np.zeros(shape, bool),
     "full": lambda rng, shape: np.ones(shape, bool),
@@ -56,13 +56,32 @@ def part(request):
 many = settings(max_examples=60, deadline=None, derandomize=True)
 
 
+def carry_anything(rng, inside):
+    return (eighths(rng, inside.shape, inside.dtype) for _ in range(2))
+
+
+def carry_little(rng, inside):
+    """Those inside press, and few others; of some nothing is left."""
+    base, change = carry_anything(rng, inside)
+    few = rng.random(inside.shape) < 0.03
+    base = np.abs(base) * np.maximum(inside, few)
+    return base, np.where(rng.random(inside.shape) < 0.3, -base, change * (base > 0))
+
+
+def carry_inside(rng, inside):
+    return (field * inside for field in carry_anything(rng, inside))
+
+
+pressures = st.sampled_from([carry_anything, carry_little, carry_inside])
+
+
 def fields(rng, inside, count):
     return list(rng.standard_normal((count, *inside.shape)).astype(inside.dtype))
 
 
-def reached(inside):
-    """Return the cells that are worked on: groups with a cell inside, and the single ones at the end."""
-    lanes, flat = WIDTH // inside.itemsize, inside.ravel() != 0
+def reached(inside, base=0.0, change=0.0):
+    """Return the cells that are worked on: groups with one inside or under pressure, and the single ones at the end."""
+    lanes, flat = WIDTH // inside.itemsize, ((inside != 0) | (base + change != 0)).ravel()
     whole = flat.size // lanes * lanes
     cells = np.ones(flat.size, bool)
     cells[:whole] = flat[:whole].reshape(-1, lanes).any(axis=1).repeat(lanes)
@@ -98,56 +117,35 @@ def test_weigh(given_region):
     taken = error * constant * inside.dtype.type(ALPHA)
     wanted, size = (z - taken) * inside, np.abs(z) + np.abs(taken)
     hidden(inside, z, error, v, constant)
-    sums = Region(inside).run("weigh", 3, z, inside, error, v, constant, ALPHA)
+    sums = Region(inside).run("weigh", 4, z, inside, error, v, constant, ALPHA)
     same(z, wanted, inside, size)
     there = inside > 0
-    z, error, v = (f[there].astype(np.float64) for f in (z, error, v))
-    for found, terms in zip(sums, (error * z, z * v, z), strict=True):
+    z, error, v, constant = (f[there].astype(np.float64) for f in (z, error, v, constant))
+    for found, terms in zip(sums, (error * z, z * v, z, constant * v), strict=True):
         close(found, terms.sum(), terms, inside.dtype)
-
-
-@many
-@given(regions())
-def test_a_region_is_empty(given_region):
-    inside, _ = given_region
-    assert Region(inside).is_empty() == (not inside.any())
-
-
-@pytest.mark.parametrize("precision", PRECISIONS)
-@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (1, 8), (3, 3), (5, 13), (4, 16), (17,)])
-def test_a_region_of_one_cell_is_not_empty(precision, shape):
-    """Wherever it is: in a whole group, or in what is left after the last."""
-    inside = np.zeros(shape, precision)
-    assert Region(inside).is_empty()
-    for at in np.ndindex(shape):
-        inside[at] = 1
-        assert not Region(inside).is_empty()
-        inside[at] = 0
 
 
 @many
 @given(regions())
 def test_turn(given_region):
     inside, rng = given_region
-    t, z, uniform = fields(rng, inside, 3)
-    wanted = t.astype(np.float64) * BETA + z - uniform * SHIFT
-    size = np.abs(t) + np.abs(z) + 2 * np.abs(uniform)
-    hidden(inside, t, z, uniform)
-    assert Region(inside).run("turn", 0, t, z, uniform, BETA, SHIFT) == []
+    t, z = fields(rng, inside, 2)
+    wanted, size = t.astype(np.float64) * BETA + z, np.abs(t) + np.abs(z)
+    hidden(inside, t, z)
+    assert Region(inside).run("turn", 0, t, z, BETA) == []
     same(t, wanted, inside, size)
 
 
 @many
 @given(regions())
 def test_measure(given_region):
+    """A direction may have something outside: of its products that counts, of its sum it does not."""
     inside, rng = given_region
-    t, v, error = fields(rng, inside, 3)
-    t *= inside
-    error *= inside
-    a, b, c = (f.astype(np.float64) for f in (t, v, error))
-    terms = [a * b, inside * b, c * a, a]
-    hidden(inside, t, v, error)
-    sums = Region(inside).run("measure", 4, t, v, inside, error)
+    t, v, r = fields(rng, inside, 3)
+    a, b, c = (f.astype(np.float64) * reached(inside) for f in (t, v, r))
+    terms = [a * b, inside * b, c * a, inside * c * a, inside * a, inside * c]
+    hidden(inside, t, v, r)
+    sums = Region(inside).run("measure", 6, t, v, inside, r)
     for found, one in zip(sums, terms, strict=True):
         close(found, one.sum(), one, inside.dtype)
 
@@ -168,48 +166,93 @@ def test_advance(given_region):
 
 
 @many
-@given(regions())
-def test_let_go(given_region):
+@given(regions(), pressures)
+def test_what_carries_something_is_listed(given_region, carrying):
+    """As whatever is inside; where others are listed with them, they can be forgotten."""
     inside, rng = given_region
-    base, change, moved, t, error = fields(rng, inside, 5)
-    before, p, was = inside > 0, base + change, change.copy()
-    pulls = before & (p < 0)
-    others = [(field, field * (before & ~pulls)) for field in (t, error)]
-    hidden(inside, base, change, moved, t, error)
-    cells, given_base = Region(inside), base.copy()
-    given_fields = base, change, inside, moved, t, error
-    count, lost, carried, left = cells.run("let_go", 4, *given_fields)
-    np.testing.assert_array_equal(inside, before & ~pulls)
-    assert count == pulls.sum()
-    assert left == inside.sum()
-    worked_on = reached(before.astype(inside.dtype))
-    same(change, was - p * pulls, before.astype(inside.dtype), np.abs(was) + np.abs(p))
-    np.testing.assert_array_equal(change[worked_on & ~pulls], was[worked_on & ~pulls])
-    for field, wanted in others:
-        same(field, wanted, before.astype(inside.dtype), 0)
-    p = p.astype(np.float64)
-    close(lost, -p[pulls].sum(), p[pulls], inside.dtype)
-    close(carried, p[inside > 0].sum(), p[inside > 0], inside.dtype)
-    np.testing.assert_array_equal(moved[pulls], -p[pulls])
-    assert (moved[worked_on & ~pulls] == 0).all()
-    assert np.isnan(moved[~worked_on]).all()
+    base, change = carrying(rng, inside)
+    t, cells = np.full_like(inside, 7.0), Region(inside, (base, change))
+    cells.run("turn", 0, t, np.ones_like(t), 0.0)
+    there = reached(inside, base, change)
+    np.testing.assert_array_equal(t, np.where(there, 1.0, 7.0))
+    assert cells.run("forget", 0, t, inside) == []
+    np.testing.assert_array_equal(t, np.where(there, inside, 7.0))
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("cells", [1, WIDTH], ids=["one cell", "lanes"])
+@pytest.mark.parametrize("units", [-16, -9, -8, 0, 1, 8, 9, 16])
+@pytest.mark.parametrize("start", [2.0, -2.0])
+def test_what_is_left_of_a_pressure_may_be_rounding(precision, cells, units, start):
+    """Up to eight units in the last place of what it was, of either sign: it is not looked at, nor taken away."""
+    unit = 2 * np.finfo(precision).eps
+    base = np.full(cells, start, precision)
+    change, zeros, t = units * unit - base, np.zeros_like(base), np.ones_like(base)
+    left = 0.0 if abs(units) <= ROUNDINGS else units * unit
+    others = Region(zeros, (base, change))
+    assert others.run("excess", 1, base, change, zeros, largest=True) == [abs(left)]
+    sums = others.run("bound", 4, base, change, zeros.copy(), t, zeros, zeros, 0.0, 0.0, 1.0)
+    assert sums == [0, cells * abs(left), cells * -left, 0]
+    # Lanes of which nothing is left are not listed; a single cell always is.
+    np.testing.assert_array_equal(t, 1.0 if cells > 1 and not left else -left)
+    inside = np.ones_like(base)
+    pulling = -64 * unit * inside
+    sums = Region(inside).run("bound", 4, base, change, inside, t, pulling, zeros, 0.0, 0.0, 1.0)
+    assert sums == [cells, cells * abs(left), cells * (64 * unit - left), 0]
+    np.testing.assert_array_equal(t, -left)
+
+
+@many
+@given(regions(), pressures)
+def test_bound(given_region, carrying):
+    """Of eighths, so that nothing is rounded: all is as it should be, or not."""
+    inside, rng = given_region
+    was, (base, change) = inside > 0, carrying(rng, inside)
+    t, z, uniform = (eighths(rng, inside.shape, inside.dtype) for _ in range(3))
+    p, there = base + change, reached(inside, base, change)
+    step = (t * BETA + z - uniform * SHIFT) * inside * ALPHA
+    stays = was & (p + step >= 0)
+    lifted = np.where(stays, 0.0, -p)
+    wanted, gone = np.where(stays, step, lifted), was & ~stays
+    cells = Region(inside, (base, change))
+    for field in (t, z, uniform, base, change):
+        field[~there] = np.nan
+    given_base, given_change = base.copy(), change.copy()
+    sums = cells.run("bound", 4, base, change, inside, t, z, uniform, BETA, SHIFT, ALPHA)
+    np.testing.assert_array_equal(inside, stays)
+    np.testing.assert_array_equal(t[there], wanted[there])
+    assert np.isnan(t[~there]).all()
+    assert sums == [gone.sum(), np.abs(lifted).sum(), (wanted - step).sum(), uniform[gone].sum()]
     np.testing.assert_array_equal(base, given_base)
+    np.testing.assert_array_equal(change, given_change)
 
 
 @many
 @given(regions())
 def test_share_out(given_region):
     inside, rng = given_region
-    base, change, moved = fields(rng, inside, 3)
-    p = (base + change).astype(np.float64)
-    less = inside * (p * ALPHA + BETA)
-    wanted, left = moved - less, change - less
-    size = np.abs(p) + 1
-    sizes = np.abs(moved) + size, np.abs(change) + size
-    hidden(inside, base, change, moved)
-    Region(inside).run("share_out", 0, base, change, inside, moved, ALPHA, BETA)
-    same(moved, wanted, inside, sizes[0], 3)
-    same(change, left, inside, sizes[1], 3)
+    base, change, t = (eighths(rng, inside.shape, inside.dtype) for _ in range(3))
+    wanted = t - inside * ((base + change + t) * 0.375 + 0.75)
+    hidden(inside, base, change, t)
+    assert Region(inside).run("share_out", 0, base, change, inside, t, 0.375, 0.75) == []
+    same(t, wanted, inside, 0)
+
+
+@many
+@given(regions(), pressures)
+def test_what_all_cells_carry_and_how_far_that_is_out_of_bounds(given_region, carrying):
+    """Of the cells inside what pulls is too much, of others all, whatever the sign; nothing of eighths is rounded."""
+    inside, rng = given_region
+    base, change = carrying(rng, inside)
+    lacking = (rng.integers(-40, 40, inside.shape) / 8).astype(inside.dtype)
+    p, there, cells = base + change, reached(inside, base, change), Region(inside, (base, change))
+    out = np.where(inside > 0, np.maximum(-p, 0.0), np.abs(p)).max()
+    lack = (lacking * inside).sum(dtype=np.float64)
+    for field in (base, change, lacking):
+        field[~there] = np.nan
+    assert cells.run("excess", 1, base, change, inside, largest=True) == [out]
+    wanted = [p.sum(dtype=np.float64), inside.sum(dtype=np.float64), lack]
+    assert cells.run("carried", 3, base, change, inside, lacking) == wanted
 
 
 @many
@@ -328,12 +371,19 @@ def test_sums_do_not_hang_on_the_number_of_threads(precision):
     answers = []
     for count in (1, 2, 3):
         cells, t, change, wrong, rest = Region(inside), z.copy(), v.copy(), np.zeros_like(z), r.copy()
+        kept, pressed = inside.copy(), Region(inside, (z, v))
         with limit_threads(count):
-            one = cells.run("weigh", 3, t, inside, error, v, r, ALPHA)
-            two = cells.run("measure", 4, t, v, inside, error)
+            many_sums = [
+                pressed.run("bound", 4, z, v, kept, rest, error, r, BETA, SHIFT, ALPHA),
+                pressed.run("carried", 3, z, v, kept, rest),
+                pressed.run("excess", 1, z, v, kept, largest=True),
+            ]
+            pressed.run("share_out", 0, z, v, kept, rest, ALPHA, BETA)
+            one = cells.run("weigh", 4, t, inside, error, v, r, ALPHA)
+            two = cells.run("measure", 6, t, v, inside, error)
             lower(rest, v, ALPHA, BETA)
             largest = cells.run("advance", 1, change, rest, wrong, t, inside, ALPHA, largest=True)
-        answers.append([one, two, largest, t, change, rest, wrong])
+        answers.append([*many_sums, kept, one, two, largest, t, change, rest, wrong])
     for other in answers[1:]:
         for a, b in zip(answers[0], other, strict=True):
             np.testing.assert_array_equal(a, b)
@@ -344,6 +394,6 @@ def test_sums_of_single_precision_are_those_of_double(precision):
     """A million tenths: single precision would lose some percent of them one by one."""
     inside = np.ones((1000, 1000), precision)
     tenth = np.full_like(inside, 0.1)
-    sums = Region(inside).run("measure", 4, tenth, inside, inside, inside)
-    assert sums[3] == pytest.approx(1e6 * float(tenth[0, 0]), rel=1e-10)
+    sums = Region(inside).run("measure", 6, tenth, inside, inside, inside)
+    assert sums[4] == pytest.approx(1e6 * float(tenth[0, 0]), rel=1e-10)
     assert sums[1] == 1e6

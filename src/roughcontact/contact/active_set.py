@@ -114,7 +114,8 @@ class ActiveSet:
             region, count = guess.region, guess.count
             if guessed and _worth_sifting(guess, measure, dense_limit):
                 limit = LOOSE * r * scale
-                region = _sifted(operator, separation, terms, np.flatnonzero(region), p, limit)
+                cells, itself = np.flatnonzero(region), judge.self_influence
+                region = _sifted(operator, separation, terms, cells, p, own=itself, limit=limit)
                 count = int(np.count_nonzero(region))
             guessed, size = False, math.prod(region.shape)
             # Where all give way no region tells the depth.
@@ -146,6 +147,7 @@ class ActiveSet:
                     region,
                     p,
                     u,
+                    own=judge.self_influence,
                     limit=scale * max(0.3 * tolerance, driver.gain * r),
                     max_steps=self.max_steps - steps,
                 )
@@ -162,7 +164,14 @@ def _worth_sifting(guess: Guess, measure: Measure, limit: int) -> bool:
 
 
 def _sifted(
-    operator: Operator, separation: Array, terms: Terms, cells: Cells, pressure: Array, limit: float
+    operator: Operator,
+    separation: Array,
+    terms: Terms,
+    cells: Cells,
+    pressure: Array,
+    *,
+    own: float,
+    limit: float,
 ) -> Mask:
     """Return the region of those guessed cells that press when their problem is solved loosely.
 
@@ -178,6 +187,7 @@ def _sifted(
         np.ones(len(cells), dtype=bool),
         start,
         part.apply(start),
+        own=own,
         limit=limit,
         max_steps=50,
     )

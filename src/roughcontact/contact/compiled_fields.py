@@ -8,10 +8,12 @@ from typing import Any, Self
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.contact.bounded import Bounded, Measured, Preconditioned
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.trial import Trial
 from roughcontact.halfspace.local_inverse import LocalInverse
 from roughcontact.machine import planes, room
+from roughcontact.machine.layout import ROUNDINGS
 from roughcontact.machine.region import Located, Region, lower, take_in, zeros_with_margins
 
 __all__ = ["CompiledFields"]
@@ -19,6 +21,8 @@ __all__ = ["CompiledFields"]
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+
+FEW = 0.03  # of a region: cells it may lose before it answers otherwise to a constant
 
 
 class CompiledFields:
@@ -31,10 +35,11 @@ class CompiledFields:
         self._r, self._base = (self._located(field) for field in (lacking, base))
         self._change, self._t, self._v = self._zeros(), self._zeros(), self._r
         self._error, self._z = Located.of(zeros_with_margins(inside.shape, inside.dtype)), self._r
-        self._moved: Located | None = None  # zero everywhere, as long as it is kept
         self._driver, self._weight = driver, weight
         self._relief = driver.relief
-        self._shares = False
+        self._shares, self._lost = False, 0.0
+        self._carried, self._count, self._lack = 0.0, 0.0, 0.0  # as it began, but for the count
+        self._resultant: float | None = None
 
     @classmethod
     def scaled(
@@ -85,83 +90,85 @@ class CompiledFields:
         """What it causes."""
         return self._v.field
 
-    def is_empty(self) -> bool:
-        """Return whether no cell is free."""
-        return self._region.is_empty()
-
-    def begin(self, conserve: bool) -> float:
-        """Return the area of the region; take the mean lack off where the force is kept."""
+    def begin(self) -> float:
+        """Return the area of the region."""
         self._shares = False
-        lack, _, _, area = self._sums("measure", 4, self._inside, self._r, self._inside, self._inside)
-        if conserve:
-            self.r[...] -= lack / area
-        return area
+        fields = self._base, self._change, self._inside, self._r
+        self._carried, self._count, self._lack = self._region.run("carried", 3, *fields)
+        return self._weight * self._count
+
+    def level(self, most: float) -> None:
+        """Take off what the region lacks on the mean, as it began, if that is more than so much."""
+        if abs(self._lack) > most * self._count:
+            self.r[...] -= self._lack / self._count
 
     def size(self) -> float:
         """Return the largest lack inside."""
         return self._advanced(0.0)
 
+    def excess(self) -> float:
+        """Return how far pressures are out of bounds."""
+        fields = self._base, self._change, self._inside
+        return self._region.run("excess", 1, *fields, largest=True)[0]
+
     def share(self) -> float:
         """Have changes shared; return the sum of the shares."""
-        # The inverse with its relief answers to a constant with a part of this: only ratios count.
         self._shares = True
-        constant = self._of_constant, self._inside, self._inside, self._v, self._inside, 0.0
-        return self._sums("weigh", 3, *constant)[2]
+        if self._resultant is None:
+            # The inverse with its relief answers to a constant with a part of this: only ratios count.
+            constant = self._of_constant, self._inside, self._inside, self._v, self._inside, 0.0
+            self._resultant = self._sums("weigh", 4, *constant)[2]
+        return self._resultant
 
-    def precondition(self) -> tuple[float, float, float]:
-        """Find z; return its products with r and v, and its sum."""
+    def precondition(self) -> Preconditioned:
+        """Find z; return what there is to know of it."""
         self._z = self._inverse(self._error)
-        constant = self._of_constant if self._relief else self._z
-        a, b, c = self._sums("weigh", 3, self._z, self._inside, self._error, self._v, constant, self._relief)
-        return a, b, c
+        constant = self._of_constant if self._relief or self._shares else self._z
+        fields = self._z, self._inside, self._error, self._v, constant
+        return Preconditioned(*self._sums("weigh", 4, *fields, self._relief))
 
-    def turn(self, beta: float, shift: float) -> Field:
+    def turn(self, beta: float) -> Field:
         """Turn t; return it."""
-        shared, by = (self._of_constant, shift) if self._shares else (self._z, 0.0)
-        self._region.run("turn", 0, self._t, self._z, shared, beta, by)
+        self._region.run("turn", 0, self._t, self._z, beta)
         return self.t
 
-    def measure(self, v: Field) -> tuple[float, float, float, float]:
-        """Take v; return t v, the sum of v, t r, and the sum of t."""
+    def bound(self, beta: float, shift: float, step: float) -> Bounded:
+        """Turn t, take a step of it as far as cells may go; return what comes of it."""
+        shared, by = (self._of_constant, shift) if self._shares else (self._z, 0.0)
+        fields = self._base, self._change, self._inside, self._t, self._z, shared
+        gone, lifted, force, uniform = self._region.run("bound", 4, *fields, beta, by, step)
+        self._lost, self._count = self._lost + gone, self._count - gone
+        if self._lost > FEW * self._count:
+            self._forget_constant()
+        elif gone:  # what is not shared says nothing of it
+            known = self._resultant if self._shares else None
+            self._resultant = None if known is None else known - self._weight * uniform
+        return Bounded(lifted, self._weight * self._count, self._weight * force)
+
+    def share_out(self, force: float) -> None:
+        """Have the cells that are free share what t changes of the force."""
+        fields = self._base, self._change, self._inside, self._t
+        added = force / self._weight
+        # What cells carry tells their shares; new cells carry nothing yet. The rest is as it was at the beginning.
+        carried, rounding = self._carried + added, ROUNDINGS * float(np.finfo(self.t.dtype).eps)
+        some = carried > rounding * abs(self._carried)
+        share, alike = (added / carried, 0.0) if some else (0.0, added / self._count)
+        self._region.run("share_out", 0, *fields, share, alike)
+
+    def measure(self, v: Field) -> Measured:
+        """Take v; return what there is to know of it and of t."""
         self._v = self._located(v)
-        a, b, c, d = self._sums("measure", 4, self._t, self._v, self._inside, self._error)
-        return a, b, c, d
+        return Measured(*self._sums("measure", 6, self._t, self._v, self._inside, self._r))
 
     def advance(self, alpha: float, mean: float) -> float:
         """Go along t; return the largest lack inside."""
         lower(self.r, self.v, alpha, mean)
         return self._advanced(alpha)
 
-    def let_go(self, conserve: bool) -> Field | None:
-        """Let go of cells that pull; return what that moves."""
-        region, moved = self._region, self._zeros() if self._moved is None else self._moved
-        fields = self._base, self._change, self._inside, moved, self._t, self._error
-        count, *sums = region.run("let_go", 4, *fields)
-        if not count:
-            self._moved = moved
-            return None
-        if conserve:
-            self._share_out(moved, *sums)
-        self._moved = None
-        self._changed()
-        return moved.field
-
-    def leave(self, conserve: bool) -> Field | None:
-        """Take the pressure of other cells to zero; return what does."""
-        moved = self._zeros()
-        count, *sums = planes.leave(self.inside, self._base.field, self.change, moved.field)
-        if not count:
-            return None
-        if conserve:
-            self._share_out(moved, *sums)
-        return moved.field
-
-    def follow(self, displacement: Field) -> None:
-        """Take what a change has caused off what is lacking."""
-        lower(self.r, self._located(displacement).field, 1.0, 0.0)
-
     def take_in(self, least: float) -> float:
         """Free the cells that lack more; return the largest lack."""
+        # What is listed no more is never looked at again.
+        self._region.run("forget", 0, self._t, self._inside)
         worst = take_in(self.inside, self.r, least)
         if worst:
             self._changed()
@@ -170,14 +177,6 @@ class CompiledFields:
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure that there is now."""
         return planes.widen(np.ascontiguousarray(start, dtype=np.float64), self.change, self.inside, unit)
-
-    def _share_out(self, moved: Located, lost: float, carried: float, left: float) -> None:
-        """Have the region keep the force that has been lost, and move as well."""
-        if not left:
-            return
-        # What cells carry tells their shares; new cells carry nothing yet.
-        share, alike = (lost / carried, 0.0) if carried > 0 else (0.0, lost / left)
-        self._region.run("share_out", 0, self._base, self._change, self._inside, moved, share, alike)
 
     def _located(self, field: Field) -> Located:
         if field.shape != self.inside.shape:  # machine code looks at nothing twice
@@ -189,7 +188,7 @@ class CompiledFields:
 
     @cached_property
     def _region(self) -> Region:
-        return Region(self.inside)
+        return Region(self.inside, (self._base.field, self.change))
 
     @cached_property
     def _of_constant(self) -> Located:
@@ -198,8 +197,12 @@ class CompiledFields:
 
     def _changed(self) -> None:
         """Forget what hangs on the region."""
-        for name in ("_region", "_of_constant"):
-            self.__dict__.pop(name, None)
+        self.__dict__.pop("_region", None)
+        self._forget_constant()
+
+    def _forget_constant(self) -> None:
+        self.__dict__.pop("_of_constant", None)
+        self._resultant, self._lost = None, 0.0
 
     def _advanced(self, alpha: float) -> float:
         fields = self._change, self._r, self._error, self._t, self._inside

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, largest, namespace
+from roughcontact.arrays import is_numpy, largest, namespace, over, times
 from roughcontact.convolution import Convolution
 from roughcontact.halfspace.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision, self_influence
@@ -51,8 +51,8 @@ class Driver(Linear, Invertible, Protocol):
         """Return the field of the plane that has `values` on these cells and is zero elsewhere."""
         ...
 
-    def narrow(self, values: Any) -> Any:
-        """Return numbers in the precision of the driver."""
+    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+        """Return numbers over a unit, in the precision of the driver."""
         ...
 
 
@@ -86,9 +86,9 @@ class Plane:
         """Return the field."""
         return values
 
-    def narrow(self, values: Any) -> Any:
-        """Return the field."""
-        return values
+    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+        """Return the field over a unit."""
+        return values if unit == 1 else over(values, unit, "float64")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -108,10 +108,9 @@ class SinglePlane(Plane):
 
     gain: float = 1e-4  # seven digits, of which a product loses one or two
 
-    def narrow(self, values: Any) -> Any:
-        """Return the field in single precision."""
-        xp = namespace(values)
-        return xp.astype(values, xp.float32)
+    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+        """Return the field over a unit, in single precision."""
+        return over(values, unit, "float32")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -158,9 +157,8 @@ def first_product(operator: Operator, pressure: Array, driver: Driver | None = N
             driver = Plane(operator)
     if not (driver.gain and size > 0):
         return operator.apply(pressure), True
-    xp = namespace(pressure)
-    rough = driver.scatter(driver.apply(driver.narrow(driver.gather(pressure / size))))
-    return size * xp.astype(rough, xp.float64), False
+    part = driver.narrow(driver.gather(pressure), size)
+    return times(driver.scatter(driver.apply(part)), size), False
 
 
 def _tame(operator: Operator) -> bool:

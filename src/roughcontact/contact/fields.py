@@ -9,13 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import largest, namespace
+from roughcontact.contact.bounded import Bounded, Measured, Preconditioned
 from roughcontact.contact.compiled_fields import CompiledFields
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Terms
 from roughcontact.contact.trial import Trial
 from roughcontact.machine import loader
-from roughcontact.machine.layout import NEVER
+from roughcontact.machine.layout import NEVER, ROUNDINGS
 from roughcontact.machine.region import with_margins
 
 __all__ = ["Fields", "fields_on", "scaled_fields", "shared"]
@@ -61,54 +62,51 @@ class Fields(Protocol):
         """Cells at the hardness; None without one."""
         ...
 
-    def is_empty(self) -> bool:
-        """Whether no cell is free."""
+    def begin(self) -> float:
+        """Have nothing shared as yet; return the area of the region."""
         ...
 
-    def begin(self, conserve: bool) -> float:
-        """Return the area of the region; where the force is kept, take the mean lack inside off all lacks."""
+    def level(self, most: float) -> None:
+        """Take what the region lacks on the mean as it has begun off all lacks, if that is more than `most`."""
         ...
 
     def size(self) -> float:
         """Return the largest lack inside."""
         ...
 
+    def excess(self) -> float:
+        """Return how far pressures are out of bounds at most, and those of other cells from the one that they keep."""
+        ...
+
     def share(self) -> float:
         """Have changes of pressure shared by the region, as its inverse of a constant is; return the sum of that."""
         ...
 
-    def precondition(self) -> tuple[float, float, float]:
-        """Find z, and return its products with r and with v, and its sum."""
+    def precondition(self) -> Preconditioned:
+        """Find z, and return what there is to know of it."""
         ...
 
-    def turn(self, beta: float, shift: float) -> Array:
-        """Make t the direction ``beta t + z``, less `shift` times what is shared, and return it."""
+    def turn(self, beta: float) -> Array:
+        """Make t the direction ``beta t + z``, and return it."""
         ...
 
-    def measure(self, v: Array) -> tuple[float, float, float, float]:
-        """Take v, and return the product of t and v, the sum of v, the product of t and r, and the sum of t."""
+    def bound(self, beta: float, shift: float, step: float) -> Bounded:
+        """Make t the change that a step along ``beta t + z``, less `shift` times what is shared, brings within bounds.
+
+        Cells that it takes out of bounds go there and are free no longer, cells that are not free return to theirs.
+        """
+        ...
+
+    def share_out(self, force: float) -> None:
+        """Have the cells that are free share, as they carry it, what t changes of the force."""
+        ...
+
+    def measure(self, v: Array) -> Measured:
+        """Take v, and return what there is to know of it and of t."""
         ...
 
     def advance(self, alpha: float, mean: float) -> float:
         """Add ``alpha t`` to the change, take ``alpha (v - mean)`` off r, and return the largest lack inside."""
-        ...
-
-    def let_go(self, conserve: bool) -> Array | None:
-        """Free no longer the cells whose pressure is out of bounds; return what takes it there, None if none is.
-
-        Where the force is kept, the rest of the cells shares what they leave. The change has it already, r has not.
-        """
-        ...
-
-    def leave(self, conserve: bool) -> Array | None:
-        """Take the pressure of cells that are not free to zero; return what does, None if they have none.
-
-        It is for the beginning; cells at the hardness keep it. The change has what is returned already, see `let_go`.
-        """
-        ...
-
-    def follow(self, displacement: Array) -> None:
-        """Take what a change has caused off what is lacking."""
         ...
 
     def take_in(self, least: float) -> float:
@@ -232,75 +230,74 @@ class _Generic:
     def held(self) -> Mask | None:
         return self._held if self._ceiling < math.inf else None
 
-    def is_empty(self) -> bool:
-        return not bool(namespace(self._kept).any(self._kept))
+    def begin(self) -> float:
+        self._shared = None
+        return self._measure.total(self.inside)
 
-    def begin(self, conserve: bool) -> float:
-        self._shared, area = None, self._measure.total(self.inside)
-        if conserve:
-            self.r -= self._measure.dot(self.inside, self.r) / area
-        return area
+    def level(self, most: float) -> None:
+        lack, area = self._measure.dot(self.inside, self.r), self._measure.total(self.inside)
+        if abs(lack) > most * area:
+            self.r -= lack / area
 
     def size(self) -> float:
         self._error = self.r * self.inside
         return largest(self._error)
 
+    def excess(self) -> float:
+        return largest(self._out_of_bounds())
+
     def share(self) -> float:
         self._shared = self._driver.approximate_inverse(self.inside) * self.inside
         return self._measure.total(self._shared)
 
-    def precondition(self) -> tuple[float, float, float]:
+    def precondition(self) -> Preconditioned:
         self._z = self._driver.approximate_inverse(self._error)
         self._z *= self.inside
-        dot = self._measure.dot
-        return dot(self._error, self._z), dot(self._z, self.v), self._measure.total(self._z)
+        dot, shared = self._measure.dot, self._shared
+        alike = 0.0 if shared is None else dot(shared, self.v)
+        return Preconditioned(
+            dot(self._error, self._z), dot(self._z, self.v), self._measure.total(self._z), alike
+        )
 
-    def turn(self, beta: float, shift: float) -> Array:
+    def turn(self, beta: float) -> Array:
         self.t *= beta
         self.t += self._z
-        if self._shared is not None:
-            self.t -= shift * self._shared
         return self.t  # type: ignore[no-any-return]
 
-    def measure(self, v: Array) -> tuple[float, float, float, float]:
-        self.v, dot = v, self._measure.dot
-        return dot(self.t, v), dot(self.inside, v), dot(self._error, self.t), self._measure.total(self.t)
+    def bound(self, beta: float, shift: float, step: float) -> Bounded:
+        xp, p, kept = namespace(self.r), self._base + self.change, self._kept
+        self.turn(beta)
+        if self._shared is not None:
+            self.t -= shift * self._shared
+        self.t *= step * self.inside
+        low, high = kept & (p + self.t < 0), kept & (p + self.t > self._ceiling)
+        if bool(xp.any(low | high)):
+            self._now(kept & ~(low | high), self._held | high)
+        lifted = xp.where(self._kept, 0.0, -self._out_of_bounds())
+        new, total = self.t * self.inside + lifted, self._measure.total
+        force, self.t = total(new - self.t), new
+        return Bounded(float(xp.sum(xp.abs(lifted), dtype=xp.float64)), total(self.inside), force)
+
+    def share_out(self, force: float) -> None:
+        self.t = shared(self.t, self._base + self.change + self.t, self.inside, self._measure)
+
+    def measure(self, v: Array) -> Measured:
+        self.v, dot, inside = v, self._measure.dot, self.inside
+        alone = inside * self.t
+        descents = dot(self.r, self.t), dot(self.r, alone)
+        return Measured(
+            dot(self.t, v), dot(inside, v), *descents, self._measure.total(alone), dot(inside, self.r)
+        )
 
     def advance(self, alpha: float, mean: float) -> float:
         self.change += alpha * self.t
         self.r -= alpha * (self.v - mean if mean else self.v)
-        return self.size()
-
-    def let_go(self, conserve: bool) -> Array | None:
-        xp, p = namespace(self.r), self._base + self.change
-        low, high = self._kept & (p < 0), self._kept & (p > self._ceiling)
-        if not bool(xp.any(low | high)):
-            return None
-        moved = xp.where(low, -p, 0.0)
-        if self._ceiling < math.inf:
-            moved = xp.where(high, self._ceiling - p, moved)
-        self._now(self._kept & ~(low | high), self._held | high)
         self.t *= self.inside
-        if conserve:
-            moved = shared(moved, p, self.inside, self._measure)
-        self.change += moved
-        return moved  # type: ignore[no-any-return]
-
-    def leave(self, conserve: bool) -> Array | None:
-        left = (self._base > 0) & ~self._kept & ~self._held
-        if not bool(namespace(left).any(left)):
-            return None
-        moved = namespace(left).where(left, -self._base, 0.0)
-        if conserve:
-            moved = shared(moved, self._base, self.inside, self._measure)
-        self.change += moved
-        return moved  # type: ignore[no-any-return]
-
-    def follow(self, displacement: Array) -> None:
-        self.r -= displacement
+        return self.size()
 
     def take_in(self, least: float) -> float:
         xp, lacking = namespace(self.r), self.r
+        self.t *= self.inside
         added = ((lacking > least) & ~self._kept & ~self._held) | ((lacking < -least) & self._held)
         if not bool(xp.any(added)):
             return 0.0
@@ -315,6 +312,18 @@ class _Generic:
         p = xp.where(p > 0, p, 0.0)
         p *= self.inside
         return p  # type: ignore[no-any-return]
+
+    def _out_of_bounds(self) -> Array:
+        """Return how far pressures are beyond their bounds, and those of other cells from the one that they keep."""
+        xp, p = namespace(self.r), self._base + self.change
+        rounding = ROUNDINGS * float(xp.finfo(p.dtype).eps)
+        p = xp.where(xp.abs(p) > rounding * xp.abs(self._base), p, 0.0)
+        if self._ceiling == math.inf:
+            return xp.where(self._kept, xp.minimum(p, 0.0), p)  # type: ignore[no-any-return]
+        over = p - self._ceiling
+        over = xp.where(xp.abs(over) > rounding * self._ceiling, over, 0.0)
+        inside = xp.minimum(p, 0.0) + xp.maximum(over, 0.0)
+        return xp.where(self._kept, inside, xp.where(self._held, over, p))  # type: ignore[no-any-return]
 
     def _now(self, kept: Mask, held: Mask) -> None:
         self._kept, self._held = kept, held

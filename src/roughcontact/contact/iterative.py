@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
-from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.fields import scaled_fields
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import Force, Terms
+from roughcontact.contact.projected import Stride, descend
 from roughcontact.contact.trial import Trial
 
 __all__ = ["RegionPressed", "press_region"]
@@ -21,7 +21,7 @@ __all__ = ["RegionPressed", "press_region"]
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-DEPTH_OF_SOLVE = 0.1  # of the present violation: how far a region is solved that is but a guess
+DEPTH_OF_SOLVE = 0.2  # of the present violation: how far a region is solved that is but a guess
 ROUNDS = 20  # of adding cells, before an exact product has its say
 
 
@@ -41,6 +41,7 @@ def press_region(
     pressure: Array,
     displacement: Array,
     *,
+    own: float,
     limit: float,
     max_steps: int,
 ) -> RegionPressed:
@@ -61,6 +62,8 @@ def press_region(
         it, the rest carries nothing.
     pressure, displacement : array
         Where to start [Pa], and its image [m].
+    own : float
+        Displacement of a cell per unit pressure on itself [m/Pa].
     limit : float
         Largest error of the displacement on the cells that are kept [m].
     max_steps : int
@@ -73,21 +76,12 @@ def press_region(
     trial = Trial(start, driver.gather(displacement), driver.gather(separation, math.inf))
     fields, unit = scaled_fields(driver, measure, terms, driver.gather(region), trial, otherwise=limit)
     goal = limit / unit
-    moved = fields.leave(conserve)
-    target, steps, rounds = max(goal, DEPTH_OF_SOLVE), 0, 0
+    target, steps, rounds, stride = max(goal, DEPTH_OF_SOLVE), 0, 0, Stride()
     while steps < max_steps and rounds < ROUNDS:
-        some, error = not fields.is_empty(), 0.0
-        if conserve and not some:  # none is left to take the force
-            break
-        if moved is not None:
-            fields.follow(driver.apply(moved))
-            steps += 1
-        if some:
-            error, done = relax(driver, fields, conserve=conserve, limit=target, max_steps=max_steps - steps)
-            steps += done
-        moved = fields.let_go(conserve)
-        if moved is not None:
-            continue
+        error, done, stride = descend(
+            driver, fields, stride, conserve=conserve, own=own, limit=target, max_steps=max_steps - steps
+        )
+        steps += done
         worst = fields.take_in(0.5 * goal)
         if worst:
             target = max(goal, DEPTH_OF_SOLVE * max(error, worst))

@@ -214,7 +214,6 @@ def _solve(
         _, done = relax(
             driver,
             fields,
-            conserve=False,
             limit=max(0.5 * limit / error, driver.gain),
             max_steps=max_steps - steps,
         )

@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import over
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.direct_sum import DirectSum
@@ -133,9 +134,9 @@ class PatchOperator:
         """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
         return self.tiles.scatter(values)
 
-    def narrow(self, values: Any) -> Any:
-        """Return numbers in single precision."""
-        return values.astype(np.float32)
+    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+        """Return numbers over a unit, in single precision."""
+        return over(values, unit, "float32")
 
     def apply(self, pressure: Single) -> Single:
         """Return the displacement [m] under `pressure` [Pa]."""

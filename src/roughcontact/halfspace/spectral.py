@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import even_multiplier, fast_even_length, namespace, require_floating
+from roughcontact.arrays import even_multiplier, fast_even_length, less, namespace, require_floating
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
@@ -146,7 +146,7 @@ class PeriodicOperator:
         require_floating(pressure)
         # The mean moves nothing; taken out first, its rounding moves nothing either.
         xp = namespace(pressure)
-        displacement = self._product.apply(pressure - xp.mean(pressure))
+        displacement = self._product.apply(less(pressure, xp.mean(pressure)))
         displacement -= xp.mean(displacement)
         return displacement
 

@@ -1,6 +1,6 @@
 """What machine code and those who call it agree on."""
 
-__all__ = ["APART", "HALF", "NEVER", "REACH", "SIDE", "WIDTH"]
+__all__ = ["APART", "HALF", "NEVER", "REACH", "ROUNDINGS", "SIDE", "WIDTH"]
 
 WIDTH = 32  # bytes of numbers that are taken at a time, one a lane: a register of most processors
 REACH = 2  # cells to either side that a sum over near ones looks at
@@ -8,3 +8,4 @@ SIDE = 8  # cells of a tile
 HALF = 0  # in place of a radix: four, of which the last two are nothing
 NEVER = -1e30  # a lack of displacement that brings no cell into contact
 APART = 8  # counters in a line of the cache
+ROUNDINGS = 8  # of a pressure: less is left of it after it was taken to nothing in some steps

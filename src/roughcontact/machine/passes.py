@@ -7,9 +7,12 @@ have some inside the region; what lies elsewhere is neither read nor written. Su
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
-from roughcontact.machine.code import Code, Take
+import numpy as np
+
+from roughcontact.machine.code import Code, Take, Variable
+from roughcontact.machine.layout import ROUNDINGS
 from roughcontact.machine.stencil import sum_near
 from roughcontact.machine.values import Index, Number, Reals
 
@@ -18,14 +21,17 @@ __all__ = ["KINDS", "write"]
 # The list of groups, from where to where in it, the single cells after the last whole group, and up to where.
 LIST = "indices index index index index "
 KINDS = {
-    "list_groups": "index reals indices indices",
+    "list_groups": "index reals reals reals indices indices",
     "near": LIST + "index reals reals reals",
     "weigh": LIST + "reals reals reals reals reals real doubles",
-    "turn": LIST + "reals reals reals real real",
+    "turn": LIST + "reals reals real",
     "measure": LIST + "reals reals reals reals doubles",
-    "advance": LIST + "reals reals reals reals reals real doubles",
-    "let_go": LIST + "reals reals reals reals reals reals doubles",
+    "bound": LIST + "reals reals reals reals reals reals real real real doubles",
+    "carried": LIST + "reals reals reals reals doubles",
     "share_out": LIST + "reals reals reals reals real real",
+    "excess": LIST + "reals reals reals doubles",
+    "forget": LIST + "reals reals",
+    "advance": LIST + "reals reals reals reals reals real doubles",
     "take_in": "index reals reals real doubles",
     "lower": "index reals reals real real",
     "sum_blocks": "index index index reals reals reals",
@@ -47,14 +53,22 @@ def write(module: Any, precision: str) -> None:
     _blocks_on(module, precision)
 
 
+def left_of(base: Number, change: Number, precision: str) -> Number:
+    """Return a pressure after its change; nothing where that is but rounding."""
+    p = base + change
+    limit = base * (ROUNDINGS * float(np.finfo(precision).eps))
+    return p.where_not(p.larger(-p).is_at_most(limit.larger(-limit)))
+
+
 def _list_groups(module: Any, precision: str) -> None:
-    """List the groups of cells of which some are not zero: where they begin, and how many they are."""
+    """List the groups of cells of which some are inside or carry something: where they begin, and how many."""
     with Code(module, "list_groups", precision, KINDS["list_groups"]) as code:
-        n, inside, groups, found = code.arguments
+        n, inside, base, change, groups, found = code.arguments
         count = code.variable(code.index(0))
         for at in code.range(0, n // code.count * code.count, code.count):
             groups.put(count.get(), at)
-            some = code.any_not_zero(inside.take(at))
+            p = left_of(base.take(at), change.take(at), precision)
+            some = code.any_not_zero(inside.take(at).larger(p.larger(-p)))
             count.set(count.get() + code.choose(some, 1, 0))
         found.put(code.index(0), count.get())
 
@@ -85,29 +99,30 @@ def _conjugate(module: Any, precision: str) -> None:
         *cells, z, inside, error, v, constant, relief, sums = code.arguments
 
         def weigh(at: Index, take: Take) -> Sequence[Number]:
-            taken = take(error, at) * take(constant, at) * take.alike(relief)
-            new = (take(z, at) - taken) * take(inside, at)
+            alike, free, answer = take(constant, at), take(inside, at), take(v, at)
+            new = (take(z, at) - take(error, at) * alike * take.alike(relief)) * free
             z.put(at, new)
-            return take(error, at) * new, new * take(v, at), new
+            return take(error, at) * new, new * answer, new, alike * answer * free
 
-        _through(code, cells, 3, weigh, sums)
+        _through(code, cells, 4, weigh, sums)
     with Code(module, "turn", precision, KINDS["turn"]) as code:
-        *cells, t, z, uniform, beta, shift = code.arguments
+        *cells, t, z, beta = code.arguments
 
         def turn(at: Index, take: Take) -> Sequence[Number]:
-            going_on = take(t, at) * take.alike(beta) + take(z, at)
-            t.put(at, going_on - take(uniform, at) * take.alike(shift))
+            t.put(at, take(t, at) * take.alike(beta) + take(z, at))
             return ()
 
         _through(code, cells, 0, turn, None)
     with Code(module, "measure", precision, KINDS["measure"]) as code:
-        *cells, t, v, inside, error, sums = code.arguments
+        *cells, t, v, inside, r, sums = code.arguments
 
         def measure(at: Index, take: Take) -> Sequence[Number]:
-            direction, answer = take(t, at), take(v, at)
-            return direction * answer, take(inside, at) * answer, take(error, at) * direction, direction
+            direction, answer, free = take(t, at), take(v, at), take(inside, at)
+            lack, inside_alone = take(r, at), free * direction
+            found = direction * answer, free * answer, lack * direction, lack * inside_alone
+            return *found, inside_alone, free * lack
 
-        _through(code, cells, 4, measure, sums)
+        _through(code, cells, 6, measure, sums)
     with Code(module, "advance", precision, KINDS["advance"]) as code:
         *cells, change, r, error, t, inside, alpha, sums = code.arguments
 
@@ -121,34 +136,66 @@ def _conjugate(module: Any, precision: str) -> None:
 
 
 def _bound(module: Any, precision: str) -> None:
-    """Write what lets go of cells and takes them in, see `roughcontact.contact.fields`."""
-    with Code(module, "let_go", precision, KINDS["let_go"]) as code:
-        *cells, base, change, inside, moved, t, error, sums = code.arguments
+    """Write what keeps pressures above nothing and takes cells in, see `roughcontact.contact.fields`."""
+    with Code(module, "bound", precision, KINDS["bound"]) as code:
+        *cells, base, change, inside, t, z, uniform, beta, shift, step, sums = code.arguments
 
-        def let_go(at: Index, take: Take) -> Sequence[Number]:
-            p, was = take(base, at) + take(change, at), take(inside, at)
-            pulls = p.is_below(0.0)
-            stays = was.where_not(pulls)
-            inside.put(at, stays)
-            lost = p * (was - stays)
-            moved.put(at, -lost)
-            change.put(at, take(change, at) - lost)
-            for field in (t, error):
-                field.put(at, take(field, at) * stays)
-            return was - stays, -lost, p * stays, stays
+        def bound(at: Index, take: Take) -> Rarely:
+            was, p = take(inside, at), take(base, at) + take(change, at)
+            going_on = take(t, at) * take.alike(beta) + take(z, at)
+            new = (going_on - take(uniform, at) * take.alike(shift)) * (was * take.alike(step))
+            t.put(at, new)
+            pulls = (p + new).is_below(0.0)
+            touched = (p - p * was).sign().larger(p.replaced(1.0).where(pulls))
 
-        _through(code, cells, 4, let_go, sums)
+            def lift() -> Sequence[Number]:
+                stays = was.where_not(pulls)
+                inside.put(at, stays)
+                left = left_of(take(base, at), take(change, at), precision)
+                lifted = left * stays - left
+                less = new * stays + lifted
+                t.put(at, less)
+                gone = was - stays
+                return gone, lifted.larger(-lifted), less - new, take(uniform, at) * gone
+
+            return Rarely(code.any_not_zero(touched) if take.lanes else touched.is_not_zero(), lift)
+
+        _through(code, cells, 4, bound, sums)
+    with Code(module, "carried", precision, KINDS["carried"]) as code:
+        *cells, base, change, inside, r, sums = code.arguments
+
+        def carried(at: Index, take: Take) -> Sequence[Number]:
+            free = take(inside, at)
+            return take(base, at) + take(change, at), free, take(r, at) * free
+
+        _through(code, cells, 3, carried, sums)
     with Code(module, "share_out", precision, KINDS["share_out"]) as code:
-        *cells, base, change, inside, moved, share, alike = code.arguments
+        *cells, base, change, inside, t, share, alike = code.arguments
 
         def share_out(at: Index, take: Take) -> Sequence[Number]:
-            carried = take(base, at) + take(change, at)
+            carried = take(base, at) + take(change, at) + take(t, at)
             less = take(inside, at) * (carried * take.alike(share) + take.alike(alike))
-            for field in (moved, change):
-                field.put(at, take(field, at) - less)
+            t.put(at, take(t, at) - less)
             return ()
 
         _through(code, cells, 0, share_out, None)
+    with Code(module, "excess", precision, KINDS["excess"]) as code:
+        *cells, base, change, inside, sums = code.arguments
+
+        def excess(at: Index, take: Take) -> Sequence[Number]:
+            # Inside what is below nothing is too much, outside all that is left.
+            p = left_of(take(base, at), take(change, at), precision)
+            return ((p - p * take(inside, at)).larger(-p),)
+
+        _through(code, cells, 1, excess, sums, largest=True)
+    with Code(module, "forget", precision, KINDS["forget"]) as code:
+        *cells, t, inside = code.arguments
+
+        def forget(at: Index, take: Take) -> Sequence[Number]:
+            t.put(at, take(t, at) * take(inside, at))
+            return ()
+
+        _through(code, cells, 0, forget, None)
     with Code(module, "take_in", precision, KINDS["take_in"]) as code:
         n, inside, lacking, least, sums = code.arguments
         worst = code.variable(code.zero()), code.variable(code.one(0.0))
@@ -235,11 +282,18 @@ def _blocks_of_groups(code: Code, *plan: Any) -> Iterator[tuple[Index, Index, In
             yield block + b, begin, begin + side
 
 
+class Rarely(NamedTuple):
+    """What adds to sums only where a condition holds."""
+
+    condition: Any
+    then: Callable[[], Sequence[Number]]
+
+
 def _through(
     code: Code,
     cells: Sequence[Any],
     count: int,
-    body: Callable[[Index, Take], Sequence[Number]],
+    body: Callable[[Index, Take], Sequence[Number] | Rarely],
     sums: Reals | None,
     largest: bool = False,
 ) -> None:
@@ -249,14 +303,20 @@ def _through(
     def both(one: Number, other: Number) -> Number:
         return one.larger(other) if largest else one + other
 
+    def add(found: Sequence[Number] | Rarely, totals: Sequence[Variable[Number]]) -> None:
+        if isinstance(found, Rarely):
+            with code.when(found.condition):
+                add(found.then(), totals)
+            return
+        for total, number in zip(totals, found, strict=True):
+            total.set(both(total.get(), number.in_double()))
+
     lanes = [code.variable(code.zero().in_double()) for _ in range(count)]
     for k in code.range(begin, end):
-        for total, number in zip(lanes, body(groups[k], Take(code, True)), strict=True):
-            total.set(both(total.get(), number.in_double()))
+        add(body(groups[k], Take(code, True)), lanes)
     totals = [code.variable(code.across(total.get(), both)) for total in lanes]
     for at in code.range(single, last):
-        for total, number in zip(totals, body(at, Take(code, False)), strict=True):
-            total.set(both(total.get(), number.in_double()))
+        add(body(at, Take(code, False)), totals)
     for place, total in enumerate(totals):
         assert sums is not None
         sums.put(code.index(place), total.get())

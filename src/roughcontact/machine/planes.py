@@ -14,7 +14,7 @@ from roughcontact.machine.loader import address, code_for
 from roughcontact.machine.room import empty
 from roughcontact.threads import spread
 
-__all__ = ["Levels", "Look", "leave", "levels", "look", "mark", "narrow", "widen"]
+__all__ = ["Levels", "Look", "levels", "look", "mark", "narrow", "widen"]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
@@ -105,14 +105,6 @@ def narrow(
     fields = separation, displacement, pressure, region
     run = code_for("scaling", inside)["narrow"]
     _totals(run, 0, 0, *fields, depth, 1 / unit, inside, lacking, base)
-
-
-def leave(inside: Field, base: Field, change: Field, moved: Field) -> list[float]:
-    """Write what takes the pressure of cells outside, where they have some, and only there.
-
-    Returns how many they are, the sum of what is written, that of the pressure inside, and how many cells are inside.
-    """
-    return _totals(code_for("scaling", inside)["leave"], 0, 4, inside, base, change, moved)
 
 
 def widen(pressure: Array, change: Field, inside: Field, unit: float) -> Array:

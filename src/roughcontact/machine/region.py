@@ -28,6 +28,7 @@ __all__ = [
 Field = npt.NDArray[Any]  # of single or double precision
 
 PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
+SUMS = 8  # that a function finds at most
 SEVERAL = 4  # parts from which on threads are worth waking
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (tried by hand)
 
@@ -51,33 +52,42 @@ class Region:
     ----------
     inside : array
         One on these cells, zero elsewhere.
+
+    Parameters
+    ----------
+    inside : array
+    pressed : pair of arrays, optional
+        A pressure and its change: cells that carry something are gone through as well.
     """
 
-    def __init__(self, inside: Field) -> None:
+    def __init__(self, inside: Field, pressed: tuple[Field, Field] | None = None) -> None:
         self.inside = inside
         self._code = code_for("passes", inside)
         lanes = WIDTH // inside.itemsize
         self._whole = inside.size // lanes * lanes
         groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
-        self._code["list_groups"](inside.size, address(inside), address(groups), address(found))
+        fields = [address(f) for f in (inside, *(pressed or (inside, inside)))]
+        self._code["list_groups"](inside.size, *fields, address(groups), address(found))
         self._groups = groups[: int(found[0])].copy()
+        self._sums = Located.of(np.empty(SUMS))
         self._ends = address(self._groups), len(self._groups), self._whole, inside.size
-
-    def is_empty(self) -> bool:
-        """Whether there is none."""
-        return not (len(self._groups) or self.inside.ravel()[self._whole :].any())
 
     def run(
         self, name: str, count: int, *arguments: Located | Field | float, largest: bool = False
     ) -> list[float]:
         """Run a function over these cells, and return so many sums, or the largest, of what it finds."""
         run, (groups, size, whole, end) = self._code[name], self._ends
-        parts = max(1, -(-size // PART))
-        totals = np.zeros((parts, count))
         given = [
             a.at if isinstance(a, Located) else address(a) if isinstance(a, np.ndarray) else a
             for a in arguments
         ]
+        if size <= PART:
+            sums, at = self._sums
+            run(groups, 0, size, whole, end, *given, *((at,) if count else ()))
+            few: list[float] = sums[:count].tolist()
+            return few
+        parts = -(-size // PART)
+        totals = np.zeros((parts, count))
         first, step = address(totals) if count else 0, count * totals.itemsize
 
         # With the fields themselves: they live as long as anyone works on them.
@@ -87,9 +97,7 @@ class Region:
             run(groups, k * PART, *ends, *given, *((first + k * step,) if count else ()))
 
         spread(part, range(parts), SEVERAL)
-        found: list[float] = (
-            totals[0] if parts == 1 else totals.max(axis=0) if largest else totals.sum(axis=0)
-        ).tolist()
+        found: list[float] = (totals.max(axis=0) if largest else totals.sum(axis=0)).tolist()
         return found
 
     def finds_blocks(self, side: int) -> bool:
@@ -107,6 +115,9 @@ def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
     run, lanes = code_for("passes", r)["lower"], WIDTH // r.itemsize
     size = PART * lanes
+    if r.size <= size:
+        run(r.size, address(r), address(v), alpha, mean)
+        return
 
     def part(start: int) -> None:
         offset = start * r.itemsize

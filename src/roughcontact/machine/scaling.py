@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from roughcontact.machine.code import PRECISIONS, Code, Take
+from roughcontact.machine.code import PRECISIONS, Code
 from roughcontact.machine.layout import NEVER
-from roughcontact.machine.totals import leave_totals
-from roughcontact.machine.values import Index, Number
 
 __all__ = ["KINDS", "write"]
 
 KINDS = {
     "narrow": "index doubles doubles doubles flags double double reals reals reals",
-    "leave": "index reals reals reals reals doubles",
     "widen": "index doubles reals reals double doubles",
 }
 
@@ -29,19 +26,6 @@ def write(module: Any, precision: str) -> None:
             lacking.put(at, lack.larger(lack.replaced(NEVER)).rounded_to(real))
             base.put(at, (take(pressure, at) * by).rounded_to(real))
             inside.put(at, lack.replaced(1.0).where(take(region, at)).rounded_to(real))
-    with Code(module, "leave", precision, KINDS["leave"]) as code:
-        n, inside, base, change, moved, totals = code.arguments
-
-        def leave(at: Index, take: Take) -> tuple[Number, ...]:
-            stays, p = take(inside, at), take(base, at)
-            lost = p - p * stays
-            lost = lost.where(lost.is_more_than(0.0))
-            with code.when(code.any_not_zero(lost) if take.lanes else lost.is_not_zero()):
-                for field in (change, moved):
-                    field.put(at, -lost)
-            return lost.sign(), -lost, p * stays, stays
-
-        leave_totals(code, n, leave, totals, 0, 4)
     with Code(module, "widen", precision, KINDS["widen"]) as code:
         n, pressure, change, inside, unit, answer = code.arguments
         for at, take in code.each(n):

@@ -1,0 +1,156 @@
+"""Where projected conjugate gradients begin, and what watches them; the pressure that they should come to."""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import pytest
+
+from regions import generic, on, plane
+from roughcontact.contact.drivers import Driver, Plane
+from roughcontact.contact.projected import LEFT, Stride, descend
+
+SHAPE = (20, 24)
+KINDS = {"compiled": on, "generic": generic}
+STRIDES = (Stride(), Stride(0.3), Stride(3.0), Stride(0.3, known=True), Stride(3.0, known=True))
+both_kinds = pytest.mark.parametrize("make", KINDS.values(), ids=KINDS)
+both_controls = pytest.mark.parametrize("conserve", [False, True], ids=["depth", "force"])
+both_planes = pytest.mark.parametrize("periodic", [False, True], ids=["free", "periodic"])
+
+
+@cache
+def matrix_of(periodic):
+    return plane(SHAPE, periodic).as_matrix()
+
+
+def pressed(periodic, gap, depth):
+    """Return the pressure under a gap: solve, flip all that pulls or penetrates, until none does.
+
+    Then the conditions of contact hold, and no other pressure meets them.
+    """
+    wanted, matrix, p = (depth - gap).ravel(), matrix_of(periodic), np.zeros(gap.size)
+    inside, before = wanted > 0, None
+    while before is None or (inside != before).any():
+        p[...], before = 0.0, inside
+        p[inside] = np.linalg.solve(matrix[np.ix_(inside, inside)], wanted[inside])
+        inside = np.where(inside, p > 0, wanted - matrix @ p > 0)
+    return p.reshape(gap.shape)
+
+
+@cache
+def touching(seed, periodic):
+    """Return a gap, a depth, and the pressure under it."""
+    y, x = np.indices(SHAPE)
+    gap = ((y - 9.5) / 10) ** 2 + ((x - 11.5) / 12) ** 2 + 0.3 * np.random.default_rng(seed).random(SHAPE)
+    depth = 0.5 if periodic else 0.8
+    return gap, depth, pressed(periodic, gap, depth)
+
+
+class Counted:
+    """A driver that counts its products."""
+
+    def __init__(self, driver):
+        self._driver, self.count = driver, 0
+
+    def __getattr__(self, name):
+        return getattr(self._driver, name)
+
+    def apply(self, pressure):
+        self.count += 1
+        return self._driver.apply(pressure)
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a descent begins, in units of what is lacking: who is free, what all carry, what is lacking."""
+
+    driver: Driver
+    kept: np.ndarray
+    base: np.ndarray
+    lacking: np.ndarray
+    conserve: bool
+    gap: np.ndarray  # in that unit, too
+
+    @classmethod
+    def near(cls, seed, periodic, conserve, *, noise=0.2, rim=0.1, strays=0.05):
+        """Return a start from the right pressure, with noise: other cells are free too, and others carry some."""
+        gap, depth, p = touching(seed, periodic)
+        rng = np.random.default_rng(seed)
+        astray = (p == 0) & (rng.random(SHAPE) < strays)
+        kept = ((p > 0) | (rng.random(SHAPE) < rim)) & ~astray
+        p = p * np.maximum(1 + noise * rng.standard_normal(SHAPE), 0.0) + 0.2 * p.max() * astray
+        level = gap + (matrix_of(periodic) @ p.ravel()).reshape(SHAPE)
+        lacking = (level[kept].mean() if conserve else depth) - level
+        unit = np.abs(lacking[kept]).max()
+        return cls(Plane(plane(SHAPE, periodic)), kept, p / unit, lacking / unit, conserve, gap / unit)
+
+    @property
+    def own(self):
+        return self.driver.operator.as_matrix(np.zeros(1, np.intp))[0, 0]
+
+    def fields(self, make=on):
+        return make(self.driver, self.kept, self.lacking, self.base)
+
+    def descend(self, fields, stride=STRIDES[0], *, limit, max_steps=200):
+        """Return what became of a descent; where it ends is what it tells, and so are the products that it took."""
+        driver = Counted(self.driver)
+        found = descend(
+            driver, fields, stride, conserve=self.conserve, own=self.own, limit=limit, max_steps=max_steps
+        )
+        if found.steps == max_steps or (found.lack <= limit and self.own * fields.excess() <= LEFT * limit):
+            assert found.steps == driver.count
+            assert found.lack == np.abs(fields.r * fields.inside).max()
+        return found
+
+    def left(self, fields):
+        """Return what is lacking in truth; of what is alike in the region nothing where the force is kept."""
+        left = self.lacking - self.driver.operator.apply(fields.change.astype(np.float64))
+        return left - left[fields.inside > 0].mean() if self.conserve else left
+
+
+def within_bounds(start, fields, limit):
+    """Whether no pressure pulls, and none is left where it should not be, beyond what is allowed to be left over."""
+    p, free = start.base + fields.change, fields.inside > 0
+    least = LEFT * limit / start.own
+    assert (free <= start.kept).all()
+    assert p.min() >= -least
+    assert np.abs(p[~free]).max() <= least
+    return p, free
+
+
+class Watched:
+    """Fields whose books are kept: what bounds add to the force is shared out at once, and how much is moved.
+
+    That is what may be rounded: steps, and what is taken off them for the force, to and fro.
+    """
+
+    def __init__(self, fields, weight):
+        self._fields, self._weight, self._force, self._resultant, self._shared = fields, weight, 0.0, 0.0, 0.0
+        self.shared, self.moved = 0, 0.0
+
+    def __getattr__(self, name):
+        return getattr(self._fields, name)
+
+    def share(self):
+        self._resultant = self._fields.share()
+        return self._resultant
+
+    def bound(self, beta, shift, step):
+        self._shared = abs(step * shift * self._resultant)
+        found = self._fields.bound(beta, shift, step)
+        self._force = found.force
+        return found
+
+    def share_out(self, force):
+        assert force == self._force != 0
+        self._shared += abs(force)
+        self._fields.share_out(force)
+        self._force, self.shared = 0.0, self.shared + 1
+
+    def measure(self, v):
+        assert not self._force
+        return self._fields.measure(v)
+
+    def advance(self, alpha, mean):
+        self.moved += alpha * (np.abs(self._fields.t).sum() + self._shared / self._weight)
+        return self._fields.advance(alpha, mean)
