@@ -113,9 +113,9 @@ class ActiveSet:
             guess = guess_region(terms, trial, depth=d, allowed=allowed, own=own)
             region, count = guess.region, guess.count
             if guessed and _worth_sifting(guess, measure, dense_limit):
-                limit = LOOSE * r * scale
-                cells, itself = np.flatnonzero(region), judge.self_influence
-                region = _sifted(operator, separation, terms, cells, p, own=itself, limit=limit)
+                cells = np.flatnonzero(region)
+                settings = {"own": judge.self_influence, "limit": LOOSE * r * scale}
+                region = _sifted(operator, separation, terms, cells, p, **settings)
                 count = int(np.count_nonzero(region))
             guessed, size = False, math.prod(region.shape)
             # Where all give way no region tells the depth.

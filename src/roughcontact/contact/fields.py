@@ -19,7 +19,7 @@ from roughcontact.machine import loader
 from roughcontact.machine.layout import NEVER, ROUNDINGS
 from roughcontact.machine.region import with_margins
 
-__all__ = ["Fields", "fields_on", "scaled_fields", "shared"]
+__all__ = ["Fields", "fields_on", "scaled_fields"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -195,18 +195,6 @@ def _has_machine_code(field: Array, measure: Measure, ceiling: float) -> bool:
     return not measure.varies and ceiling == math.inf and loader.takes(field)
 
 
-def shared(change: Array, p: Array, inside: Array, measure: Measure) -> Array:
-    """Return a change of pressure together with what keeps the force, shared by the cells inside."""
-    carrying = p * inside
-    total = measure.total(carrying)
-    if not total > 0:  # new cells only
-        carrying, total = inside, measure.total(inside)
-    if not total > 0:
-        return change
-    # A ratio of sums of the same size: in single precision a whole is not known as well as its part.
-    return change - measure.total(change) / total * carrying
-
-
 class _Generic:
     def __init__(
         self,
@@ -279,7 +267,11 @@ class _Generic:
         return Bounded(float(xp.sum(xp.abs(lifted), dtype=xp.float64)), total(self.inside), force)
 
     def share_out(self, force: float) -> None:
-        self.t = shared(self.t, self._base + self.change + self.t, self.inside, self._measure)
+        carried = (self._base + self.change + self.t) * self.inside
+        total = self._measure.total(carried)
+        if not total > 0:  # new cells only
+            carried, total = self.inside, self._measure.total(self.inside)
+        self.t = self.t - force / total * carried
 
     def measure(self, v: Array) -> Measured:
         self.v, dot, inside = v, self._measure.dot, self.inside

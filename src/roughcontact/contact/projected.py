@@ -16,10 +16,8 @@ SLIGHT = 0.1  # of what is lacking: what cells that go to their bounds may displ
 # The rest was found by counting products (`benchmarks/steps.py`).
 CAREFUL = 0.9  # of the step that is expected: a longer one lets go of cells for nothing
 LEAST, MOST = 0.5, 1.1  # times a step that takes cells to their bounds: they are to go there, and no further
-BOUND, FREE = (
-    (0.7, 1.1),
-    (0.5, 1.5),
-)  # times what was expected: what such a step tells of the next at most, and others
+BOUND = 0.7, 1.1  # times what was expected: what such a step tells of the next, at least and at most
+FREE = 0.5, 1.5  # what any other does
 
 
 @dataclass(frozen=True, slots=True)
