@@ -9,30 +9,31 @@ import statistics
 import sys
 import time
 
-import numpy as np
+from cases import CASES, Problem
 
 import roughcontact as rc
 
-FORCES = (1e-3, 0.046, 0.45)  # dimensionless, on the fractal
-WARM = 0.01
+ROUNDS = 5
 
 
-def seconds(surface: rc.Surface, force: float) -> tuple[float, float]:
+def seconds(problem: Problem) -> tuple[float, float]:
+    """Return what a load and what its stiffness take [s]."""
     start = time.perf_counter()
-    solution = rc.press(surface, 1.0, force=force)
+    grid = rc.Grid(problem.heights.shape, problem.spacing, periodic=problem.periodic)
+    solution = rc.press(rc.Surface(problem.heights, grid), problem.modulus, force=problem.force)
     pressed = time.perf_counter()
     _ = solution.stiffness
     return pressed - start, time.perf_counter() - pressed
 
 
 def main(n: int) -> None:
-    print(f"| {n}^2, H = 0.8 | load [s] | its stiffness [s] | share |\n|---|---|---|---|")
-    rough = rc.self_affine(rc.Grid((n, n), 1 / n), 0.8, 0.01, np.random.default_rng(0))
-    seconds(rough, WARM * 0.01)
-    for force in FORCES:
-        runs = [seconds(rough, force * 0.01) for _ in range(5)]
+    print(f"| {n}^2 | load [s] | its stiffness [s] | share |\n|---|---|---|---|")
+    for name, problem_of in CASES.items():
+        problem = problem_of(n, 0)
+        seconds(problem)  # warms up
+        runs = [seconds(problem) for _ in range(ROUNDS)]
         load, stiffness = (statistics.median(times) for times in zip(*runs, strict=True))
-        print(f"| force {force} | {load:.3f} | {stiffness:.3f} | {stiffness / load:.2f} |")
+        print(f"| {name} | {load:.3f} | {stiffness:.3f} | {stiffness / load:.2f} |", flush=True)
 
 
 if __name__ == "__main__":

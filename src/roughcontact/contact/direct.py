@@ -65,14 +65,17 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
         pulls = system.kept & (p <= 0)
         if not pulls.any() or (pulls == system.kept).all():
             kept = system.kept
-            return Pressed(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], system.error(a, 1.0))
+            error = float(np.abs(system.product(a) - 1.0)[kept].max())
+            return Pressed(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], error)
         system.release(pulls)
 
 
-def solve_cells(operator: Operator, cells: Cells, right: Array) -> Array:
-    """Return the pressure [Pa] on `cells` that displaces them by `right` [m], shape (n,)."""
+def solve_cells(operator: Operator, cells: Cells, right: Array) -> tuple[Array, Array]:
+    """Return the pressure [Pa] on `cells` that displaces them by `right` [m], shape (n,), and what it does displace."""
     weights = Measure(operator.weights).on(cells)
-    return _System(operator.as_matrix(cells), weights, right[:, None]).solution[:, 0]
+    system = _System(operator.as_matrix(cells), weights, right[:, None])
+    pressure = system.solution[:, 0]
+    return pressure, system.product(pressure)
 
 
 class _System:
@@ -125,14 +128,16 @@ class _System:
         self._columns = np.concatenate([self._columns, self._solve(unit)], axis=1)
         self._gone = np.concatenate([self._gone, new])
 
-    def error(self, x: Array, value: float) -> float:
-        """Return the largest deviation of the product with `x` from `value` on the kept unknowns."""
+    def product(self, x: Array) -> Array:
+        """Return the product of the matrix with `x`."""
         scaled = x if self._root is None else x * self._root[:, 0]
+        factor = (
+            self._matrix.diagonal().copy()
+        )  # roots: in small units far larger than what they are roots of
+        np.fill_diagonal(self._matrix, self._diagonal)
         product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
-        product += (self._diagonal - self._matrix.diagonal()) * scaled
-        if self._root is not None:
-            product /= self._root[:, 0]
-        return float(np.abs(product - value)[self.kept].max())
+        np.fill_diagonal(self._matrix, factor)
+        return np.asarray(product if self._root is None else product / self._root[:, 0])
 
     def _refactorise(self) -> None:
         base = np.flatnonzero(self.kept)

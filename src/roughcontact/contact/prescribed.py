@@ -11,13 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
-from roughcontact.contact.cascade import coarse_operator
 from roughcontact.contact.conjugate_gradient import relax
 from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.fields import fields_on
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.pooling import lowest
 from roughcontact.contact.window import Place, bounding_box, embed, take
 from roughcontact.halfspace.operator import Listable, Operator, is_semidefinite
 from roughcontact.threads import one_blas_thread
@@ -46,7 +44,7 @@ class Prescribed:
     residual : float
         Largest error of the displacement on the region, relative to its largest value.
     steps : int
-        Products with the operator.
+        Products with the operator; none where it was factorised.
     """
 
     pressure: Array
@@ -183,29 +181,26 @@ def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, Array, int]:
     """Return pressure, the displacement that is lacking by a fresh product [m], and the number of products."""
-    steps, given = 0, start is not None
-    if start is None:
-        start, steps = _first(operator, region, wanted, limit, max_steps)
     xp, before = namespace(wanted), math.inf
     driver: Driver | None = None
-    if given or steps:
-        driver = driver_on(operator, region)
+    if start is None:
+        (pressure, u), exact, steps = _first(operator, region, wanted), True, 0
+    else:
+        pressure, driver, steps = start, driver_on(operator, region), 1
         u, exact = first_product(operator, start, driver)
-    else:  # nothing, or the answer itself
-        u, exact = operator.apply(start), True
     while True:
         lacking = xp.where(region, wanted - u, 0.0)
-        steps, error = steps + 1, largest(lacking)
+        error = largest(lacking)
         if not error > limit or steps >= max_steps:
             if exact:
-                return start, lacking, steps
-            u, exact = operator.apply(start), True
+                return pressure, lacking, steps
+            u, exact, steps = operator.apply(pressure), True, steps + 1
             continue
         if driver is None:
             driver = driver_on(operator, region)
         elif not error < before / 2:
             if not driver.gain:
-                return start, lacking, steps
+                return pressure, lacking, steps
             driver = Plane(operator)  # the other has done what it could
         before = error
         part = driver.narrow(driver.gather(lacking) / error)  # so that single precision holds all numbers
@@ -217,32 +212,19 @@ def _solve(
             limit=max(0.5 * limit / error, driver.gain),
             max_steps=max_steps - steps,
         )
-        start = start + driver.scatter(error * xp.astype(fields.change, xp.float64))
-        steps += done
-        u, exact = operator.apply(start), True
+        pressure = pressure + driver.scatter(error * xp.astype(fields.change, xp.float64))
+        u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 
-def _first(
-    operator: Operator, region: Mask, wanted: Array, limit: float, max_steps: int
-) -> tuple[Array, int]:
-    """Return a first pressure: the answer itself for few cells, else that of larger cells."""
+def _first(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array]:
+    """Return a first pressure and its image on the region: the answer itself for few cells, else nothing.
+
+    What coarser cells would tell of many saves hardly any of their products, and takes longer than those.
+    """
     xp = namespace(wanted)
-    pressure = xp.zeros_like(wanted)
     if is_numpy(region) and np.count_nonzero(region) <= factorised(operator, DENSE_LIMIT):
-        cells = np.flatnonzero(region)
+        pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
         with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
-            pressure.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
-            return pressure, 0
-    coarser = coarse_operator(operator, region.shape)
-    if coarser is None:
-        return pressure, 0
-    part, factors = coarser
-    heights = lowest(xp.where(region, wanted, math.inf), factors)
-    covered = xp.isfinite(heights)
-    if bool(xp.all(covered)) and is_semidefinite(part):
-        return pressure, 0
-    coarse, _, steps = _solve(part, covered, xp.where(covered, heights, 0.0), None, 10 * limit, max_steps)
-    for axis, factor in enumerate(factors):
-        coarse = xp.repeat(coarse, factor, axis=axis)
-    pressure = xp.where(region, coarse[tuple(slice(0, n) for n in region.shape)], 0.0)
-    return pressure, steps
+            pressure.ravel()[cells], u.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
+            return pressure, u
+    return xp.zeros_like(wanted), xp.zeros_like(wanted)
