@@ -13,7 +13,7 @@ __all__ = ["Row", "print_rows", "worst"]
 
 HEAD = (
     f"{'program':18}{'time/s':>9}{'fastest':>9}{'slowest':>9}{'ratio':>8}{'lowest':>8}"
-    f"{'cells':>15}{'residual':>10}{'pressure':>10}{'tolerance':>11}"
+    f"{'cells':>18}{'residual':>10}{'pressure':>10}{'tolerance':>11}"
 )
 
 
@@ -78,7 +78,7 @@ def _line(name: str, rows: list[Row], ours: dict[int, Entry]) -> str:
     cells = sorted({c.cells for c in found})
     span = "-" if not cells else f"{cells[0]}..{cells[-1]}" if len(cells) > 1 else str(cells[0])
     tail = (
-        f"{span:>15}{max((c.residual for c in found), default=math.nan):>10.1e}"
+        f"{span:>18}{max((c.residual for c in found), default=math.nan):>10.1e}"
         f"{max(entry.difference for entry in entries):>10.1e}{min(entry.tolerance for entry in entries):>11.1e}"
     )
     if any(entry.trouble or not entry.seconds for entry in entries):
