@@ -189,6 +189,19 @@ def test_what_is_lacking_alike_is_none(make):
         assert np.abs(fields.change).max() < 1e-9
 
 
+@both_kinds
+@both_controls
+@both_planes
+def test_a_step_that_is_expected_to_be_far_too_short_is_found_out(make, conserve, periodic):
+    """Pressure that is left outside must not pass for what a step does: each product lengthens the next by a tenth."""
+    start, short = Start.near(1, periodic, conserve), 1e-5
+    expected = start.descend(start.fields(make), limit=1e-6)
+    found = start.descend(start.fields(make), Stride(short, known=True), limit=1e-6)
+    assert found.steps <= 2 * expected.steps - math.log(short) / math.log(BOUND[1])
+    assert found.lack <= 1e-6
+    assert 0.1 < found.stride.expected < 10
+
+
 @pytest.mark.parametrize("factor", [-1.0, np.nan])
 def test_products_that_come_to_nothing_count(factor):
     start = Start.near(5, False, False)

@@ -82,3 +82,28 @@ def test_a_periodic_surface_may_be_shifted(reference, periodic):
         rtol=0,
         atol=1e-7 * reference.pressure.max(),
     )
+
+
+def ring(length, modulus, solver):
+    """Press a ball on rings: of this body no inverse is known, so that its directions are what is lacking."""
+    grid = rc.RadialGrid.uniform(60, length)
+    profile = rc.RadialProfile(-(grid.radii**2) / (2 * length), grid)
+    return rc.press(profile, modulus, force=0.05 * modulus * length**2, solver=solver)
+
+
+def plane(length, modulus, solver):
+    heights = length * base(False).heights
+    surface = rc.Surface(heights, rc.Grid((N, N), length / N))
+    return rc.press(surface, modulus, force=0.02 * modulus * length**2, solver=solver)
+
+
+@pytest.mark.parametrize("solver", [rc.ActiveSet(), rc.ActiveSet(dense_limit=0), rc.PolonskyKeer()], ids=repr)
+@pytest.mark.parametrize("press", [ring, plane])
+def test_units_take_no_steps(press, solver):
+    """Powers of four round nothing, nor do their roots: every step is the same, in any unit."""
+    reference = press(1.0, 1.0, solver)
+    for length, modulus in ((4.0**-10, 4.0**18), (4.0**-15, 4.0**20), (4.0**5, 4.0**-5)):
+        solution = press(length, modulus, solver)
+        assert solution.steps == reference.steps
+        np.testing.assert_array_equal(solution.pressure, modulus * reference.pressure)
+        assert solution.stiffness == modulus * length * reference.stiffness

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, largest, namespace, over, times
+from roughcontact.arrays import is_numpy, largest, over, times
 from roughcontact.convolution import Convolution
 from roughcontact.halfspace.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.operator import Invertible, Linear, Operator, keeps_precision, self_influence
@@ -60,7 +60,7 @@ class Driver(Linear, Invertible, Protocol):
 class Plane:
     """All cells of an operator, in double precision."""
 
-    operator: Linear
+    operator: Operator
     gain: float = 0.0
 
     @property
@@ -95,11 +95,14 @@ class Plane:
         return self.operator.apply(pressure)
 
     def approximate_inverse(self, displacement: Array) -> Array:
-        """Return a pressure [Pa] that would cause about this `displacement` [m]; itself, where nothing is known."""
+        """Return a pressure [Pa] that would cause about this `displacement` [m].
+
+        Where nothing is known that is the displacement, over what cells do to each other at most: too little, but no
+        step along it is too long.
+        """
         if isinstance(self.operator, Invertible):
             return self.operator.approximate_inverse(displacement)
-        itself: Array = namespace(displacement).asarray(displacement, copy=True)
-        return itself
+        return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
