@@ -87,6 +87,7 @@ class _System:
     """
 
     def __init__(self, matrix: Array, weights: Array, right: Array) -> None:
+        matrix = np.require(matrix, np.float64, ["C", "W"])  # a copy of what must not be written to
         root = np.sqrt(weights / weights[0])[:, None]
         self._root = None if (root == 1).all() else root
         if self._root is not None:
@@ -131,9 +132,8 @@ class _System:
     def product(self, x: Array) -> Array:
         """Return the product of the matrix with `x`."""
         scaled = x if self._root is None else x * self._root[:, 0]
-        factor = (
-            self._matrix.diagonal().copy()
-        )  # roots: in small units far larger than what they are roots of
+        # Put back for once: what is added for the factor's roots, in small units far larger numbers, would be rounding.
+        factor = self._matrix.diagonal().copy()
         np.fill_diagonal(self._matrix, self._diagonal)
         product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
         np.fill_diagonal(self._matrix, factor)

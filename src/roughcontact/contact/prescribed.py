@@ -16,11 +16,13 @@ from roughcontact.contact.direct import DENSE_LIMIT, solve_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.fields import fields_on
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.problem import checked_tolerance
 from roughcontact.contact.window import Place, bounding_box, embed, take
 from roughcontact.halfspace.operator import Listable, Operator, is_semidefinite
+from roughcontact.material import number
 from roughcontact.threads import one_blas_thread
 
-__all__ = ["Prescribed", "prescribed_displacement"]
+__all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -44,7 +46,7 @@ class Prescribed:
     residual : float
         Largest error of the displacement on the region, relative to its largest value.
     steps : int
-        Products with the operator; none where it was factorised.
+        Products with the operator; none where few cells were factorised, and their matrix says that this will do.
     """
 
     pressure: Array
@@ -75,25 +77,27 @@ def prescribed_displacement(
     displacement : float or array
         Their displacement [m]; values outside the region do not matter.
     tolerance : float
-        Largest error of the displacement, relative to its largest value.
+        Largest error of the displacement, relative to its largest value; between 1e-14 and 1e-2.
     max_steps : int
-        Largest number of products with the operator.
+        Largest number of products with the operator, two at least: one for a step, one to tell how far it came.
     initial : array, optional
         A pressure [Pa] to start from.
 
     Raises
     ------
     ValueError
-        If the region is empty, of a wrong shape, or the whole of a periodic grid, if the displacement is zero
-        or not finite on it, if the initial pressure is not finite, or if one of them does not fit the region.
+        If the region is empty, of a wrong shape, told by other numbers than ones and zeros, or the whole of a
+        periodic grid, if the displacement is zero or not finite on it, if the initial pressure is not finite, if one
+        of them does not fit the region, or if the operator, the tolerance or the number of steps is none.
     RuntimeError
         If the tolerance was missed.
     """
     answer = prescribe(operator, region, displacement, tolerance, max_steps, initial)
     if not answer.residual <= tolerance:
+        remedy = "a larger tolerance" if answer.steps < max_steps else "more steps (max_steps)"
         raise RuntimeError(
-            f"the displacement was met to {answer.residual:.1e} only after {answer.steps} products, tolerance "
-            f"{tolerance:.1e}: allow more steps (max_steps) or a larger tolerance"
+            f"the displacement was met only to {answer.residual:.1e}, by {answer.steps} products, where "
+            f"{tolerance:.1e} was asked for: allow {remedy}"
         )
     return answer
 
@@ -107,22 +111,21 @@ def prescribe(
     initial: Array | None = None,
 ) -> Prescribed:
     """Return what `prescribed_displacement` does, with whatever residual was reached."""
-    region = region if is_array(region) else np.asarray(region)
+    if not (hasattr(operator, "apply") and hasattr(operator, "grid")):
+        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
+    if not (isinstance(max_steps, int | np.integer) and max_steps >= 2):
+        raise ValueError(f"max_steps must be a whole number, two at least, not {max_steps!r}")
+    tolerance = checked_tolerance(tolerance)
+    region = checked_region(region, operator.grid.shape)
     xp = namespace(region)
-    if not xp.isdtype(region.dtype, "bool"):
-        region = xp.astype(region, xp.bool)
-    if tuple(region.shape) != operator.grid.shape:
-        raise ValueError(
-            f"a region of shape {region.shape} does not fit the grid of shape {operator.grid.shape}"
-        )
     if not bool(xp.any(region)):
         raise ValueError("the region holds no cell: nothing can be displaced")
     if is_semidefinite(operator) and bool(xp.all(region)):
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
     _check("displacement", displacement, region)
     _check("initial pressure", initial, region)
-    field = xp.zeros(region.shape, dtype=xp.float64, device=region.device) if initial is None else initial
-    target = xp.where(region, xp.zeros_like(field) + displacement, 0.0)
+    field = xp.zeros(region.shape, dtype=xp.float64, device=region.device)
+    target = xp.where(region, field + displacement, 0.0)
     size = largest(target)
     if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
@@ -141,6 +144,27 @@ def prescribe(
     work = Measure(part.weights).dot(pressure, wanted + lacking)
     whole = pressure if place is None else embed(pressure, place, region.shape)
     return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
+
+
+def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
+    """Return which cells of a grid are meant, as truth values.
+
+    Raises
+    ------
+    ValueError
+        If the shape is another, or if there are numbers other than one and zero: heights or gaps, say, or NaN.
+    """
+    given = region if is_array(region) else np.asarray(region)
+    xp = namespace(given)
+    if tuple(given.shape) != shape:
+        raise ValueError(f"a region of shape {tuple(given.shape)} does not fit the grid of shape {shape}")
+    if xp.isdtype(given.dtype, "bool"):
+        return given
+    if xp.isdtype(given.dtype, "numeric"):
+        inside: Mask = given == 1
+        if bool(xp.all(inside | (given == 0))):
+            return inside
+    raise ValueError("a region is told by truth values, such as pressure > 0, or by ones and zeros alone")
 
 
 def _place(operator: Operator, region: Mask) -> Place | None:
@@ -167,7 +191,10 @@ def _part(operator: Operator, place: Place) -> Operator:
 
 def _check(name: str, given: Any, region: Mask) -> None:
     """Refuse a field that does not fit its region."""
-    if not is_array(given) or given.ndim == 0:
+    if given is None or (is_array(given) and given.ndim == 0):
+        return
+    if not is_array(given):
+        number(name, given)
         return
     if tuple(given.shape) != tuple(region.shape):
         raise ValueError(
@@ -180,14 +207,19 @@ def _check(name: str, given: Any, region: Mask) -> None:
 def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, Array, int]:
-    """Return pressure, the displacement that is lacking by a fresh product [m], and the number of products."""
+    """Return pressure, the displacement that is lacking by a product of its own [m], and the number of products."""
     xp, before = namespace(wanted), math.inf
     driver: Driver | None = None
-    if start is None:
-        (pressure, u), exact, steps = _first(operator, region, wanted), True, 0
-    else:
+    pressure, u, exact, steps = xp.zeros_like(wanted), xp.zeros_like(wanted), True, 0
+    if start is not None:
         pressure, driver, steps = start, driver_on(operator, region), 1
         u, exact = first_product(operator, start, driver)
+    elif (found := _factorised(operator, region, wanted)) is not None:
+        pressure, u = found
+        if (
+            largest(xp.where(region, wanted - u, 0.0)) > limit
+        ):  # the matrix may be another than that of the products
+            u, steps = operator.apply(pressure), 1
     while True:
         lacking = xp.where(region, wanted - u, 0.0)
         error = largest(lacking)
@@ -210,21 +242,21 @@ def _solve(
             driver,
             fields,
             limit=max(0.5 * limit / error, driver.gain),
-            max_steps=max_steps - steps,
+            max_steps=max_steps - steps - 1,
         )
         pressure = pressure + driver.scatter(error * xp.astype(fields.change, xp.float64))
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 
-def _first(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array]:
-    """Return a first pressure and its image on the region: the answer itself for few cells, else nothing.
+def _factorised(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
+    """Return the pressure on few cells and the displacement that their matrix says it causes on them.
 
-    What coarser cells would tell of many saves hardly any of their products, and takes longer than those.
+    More begin from nothing: what coarser cells would tell of them saves hardly any product, and takes longer.
     """
-    xp = namespace(wanted)
-    if is_numpy(region) and np.count_nonzero(region) <= factorised(operator, DENSE_LIMIT):
-        pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
-        with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
-            pressure.ravel()[cells], u.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
-            return pressure, u
-    return xp.zeros_like(wanted), xp.zeros_like(wanted)
+    if not is_numpy(region) or np.count_nonzero(region) > factorised(operator, DENSE_LIMIT):
+        return None
+    pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
+    with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
+        pressure.ravel()[cells], u.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
+        return pressure, u
+    return None

@@ -15,10 +15,11 @@ from roughcontact.contact.measure import Measure
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import Operator, exact_of, geometry_of, is_semidefinite
+from roughcontact.material import number
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms"]
+__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms", "checked_tolerance"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -119,8 +120,7 @@ class ContactProblem:
             raise ValueError(
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
-        if not 1e-14 < self.tolerance < 1e-2:
-            raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {self.tolerance}")
+        checked_tolerance(self.tolerance)
         if not self.hardness > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
@@ -208,6 +208,20 @@ class ContactProblem:
             self._memo[name] = compute()
         value: T = self._memo[name]
         return value
+
+
+def checked_tolerance(tolerance: Any) -> float:
+    """Return a tolerance that double precision can meet and that still says something.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    value = number("tolerance", tolerance)
+    if not 1e-14 < value < 1e-2:
+        raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
+    return value
 
 
 def separation_of(surface: Body) -> Array:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_array, is_numpy, namespace
+from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.prescribed import prescribe
-from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.prescribed import checked_region, prescribe
+from roughcontact.contact.problem import ContactProblem, checked_tolerance
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on
@@ -95,7 +95,7 @@ def contact_stiffness(
     Parameters
     ----------
     mask : bool array, shape ``grid.shape``
-        The cells in contact. On arrays of other libraries the work is done where they live.
+        The cells in contact; ones and zeros will do. On arrays of other libraries the work is done where they live.
     grid : Grid or RadialGrid
         Free or periodic.
     modulus : float, Solid or pair of Solids
@@ -103,7 +103,7 @@ def contact_stiffness(
     operator : Operator, optional
         Another body than the half-space on the grid; of a line the stiffness is per unit length [N/m^2].
     tolerance : float
-        Largest error of the unit displacement on the region.
+        Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
     Returns
     -------
@@ -113,15 +113,11 @@ def contact_stiffness(
     Raises
     ------
     ValueError
-        If the mask does not fit the grid.
+        If the mask does not fit the grid or is told by other numbers, or if the tolerance is none.
     RuntimeError
         If the tolerance was not reached.
     """
-    region = mask if is_array(mask) and not is_numpy(mask) else np.asarray(mask, dtype=bool)
-    if tuple(region.shape) != grid.shape:
-        raise ValueError(f"a mask of shape {tuple(region.shape)} does not fit the grid of shape {grid.shape}")
-    xp = namespace(region)
-    region = xp.astype(region, xp.bool)
+    region, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
     body = body_on(grid, modulus, operator)
     frozen = frozen_contact(body, region, tolerance=tolerance)
     if frozen.residual > tolerance:
