@@ -17,12 +17,13 @@ from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, f
 from roughcontact.contact.fields import fields_on
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.problem import checked_tolerance
+from roughcontact.contact.region import checked_region
 from roughcontact.contact.window import Place, bounding_box, embed, take
 from roughcontact.halfspace.operator import Listable, Operator, is_semidefinite
 from roughcontact.material import number
 from roughcontact.threads import one_blas_thread
 
-__all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
+__all__ = ["Prescribed", "prescribe", "prescribed_displacement"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -144,27 +145,6 @@ def prescribe(
     work = Measure(part.weights).dot(pressure, wanted + lacking)
     whole = pressure if place is None else embed(pressure, place, region.shape)
     return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
-
-
-def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
-    """Return which cells of a grid are meant, as truth values.
-
-    Raises
-    ------
-    ValueError
-        If the shape is another, or if there are numbers other than one and zero: heights or gaps, say, or NaN.
-    """
-    given = region if is_array(region) else np.asarray(region)
-    xp = namespace(given)
-    if tuple(given.shape) != shape:
-        raise ValueError(f"a region of shape {tuple(given.shape)} does not fit the grid of shape {shape}")
-    if xp.isdtype(given.dtype, "bool"):
-        return given
-    if xp.isdtype(given.dtype, "numeric"):
-        inside: Mask = given == 1
-        if bool(xp.all(inside | (given == 0))):
-            return inside
-    raise ValueError("a region is told by truth values, such as pressure > 0, or by ones and zeros alone")
 
 
 def _place(operator: Operator, region: Mask) -> Place | None:

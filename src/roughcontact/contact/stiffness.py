@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.prescribed import checked_region, prescribe
+from roughcontact.contact.prescribed import prescribe
 from roughcontact.contact.problem import ContactProblem, checked_tolerance
+from roughcontact.contact.region import checked_region
 from roughcontact.contact.state import Tangent
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on

@@ -136,6 +136,7 @@ def test_another_operator_may_be_named():
     ("region", "bodies", "message"),
     [
         (np.ones((3, 4), bool), rc.Solid(1.0, 0.3), "does not fit the grid"),
+        (np.full((4, 4), np.nan), rc.Solid(1.0, 0.3), "truth values"),
         (np.ones((4, 4), bool), 1e9, "E\\* alone does not say"),
         (np.ones((4, 4), bool), (rc.Solid(1.0, 0.3),), "pair of Solids"),
     ],
@@ -153,6 +154,13 @@ def test_a_grid_of_its_own():
         )
 
 
-def test_what_rounding_forbids_is_said():
+def test_a_tolerance_that_was_missed_is_said_to_be(monkeypatch):
+    monkeypatch.setattr("roughcontact.contact.tangential.stiffness.MAX_STEPS", 2)
     with pytest.raises(RuntimeError, match="larger tolerance"):
-        tangential_stiffness(disc(40), rc.Grid((40, 40), 1.0), rc.Solid(1.0, 0.3), tolerance=1e-18)
+        tangential_stiffness(disc(60), rc.Grid((60, 60), 1.0), rc.Solid(1.0, 0.3))
+
+
+@pytest.mark.parametrize("tolerance", [1e-18, 1.0, math.nan])
+def test_a_tolerance_that_says_nothing_is_refused(tolerance):
+    with pytest.raises(ValueError, match="between 1e-14 and 1e-2"):
+        tangential_stiffness(disc(8), rc.Grid((8, 8), 1.0), rc.Solid(1.0, 0.3), tolerance=tolerance)

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import inner, is_array, is_numpy, namespace
+from roughcontact.arrays import inner, namespace
+from roughcontact.contact.problem import checked_tolerance
+from roughcontact.contact.region import checked_region
 from roughcontact.contact.tangential.free import Freedom, corrected
 from roughcontact.contact.tangential.interface import Interface
 from roughcontact.contact.tangential.problem import Bodies, shear_body
@@ -75,23 +77,18 @@ def tangential_stiffness(
     operator : ShearOperator, optional
         Another body than the half-spaces on the grid.
     tolerance : float
-        Largest error of the unit displacement on the region.
+        Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
     Raises
     ------
     ValueError
-        If the region does not fit the grid, or the grid has not two axes.
+        If the region does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is none.
     RuntimeError
         If the tolerance was not reached.
     """
     body = shear_body(grid, bodies, operator)
-    cells = region if is_array(region) and not is_numpy(region) else np.asarray(region, dtype=bool)
-    if tuple(cells.shape) != grid.shape:
-        raise ValueError(
-            f"a region of shape {tuple(cells.shape)} does not fit the grid of shape {grid.shape}"
-        )
-    xp = namespace(cells)
-    cells = xp.astype(cells, xp.bool)
+    cells, tolerance = checked_region(region, grid.shape), checked_tolerance(tolerance)
     frozen = frozen_shear(body, cells, tolerance=tolerance)
     if not frozen.residual <= tolerance:
         raise RuntimeError(
