@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+import roughcontact as rc
 from descents import SHAPE, STRIDES, Counted, Start, both_controls, both_kinds, both_planes, within_bounds
 from regions import both_of, close, plane, region
 from roughcontact.contact.conjugate_gradient import relax
@@ -228,3 +229,20 @@ def test_what_is_expected_of_the_next_step():
             clipped = min(max(best, least), most)
             assert known.after(2 * best, lifts=lifts) == Stride(2 * clipped, known=True)
     assert FREE[0] < BOUND[0] < 1 < BOUND[1] < FREE[1]
+
+
+@pytest.mark.parametrize("rings", [60, 300])
+@pytest.mark.parametrize("force", [0.01, 0.1])
+def test_steps_do_not_shrink_where_pressure_is_left_outside(rings, force):
+    """Without an inverse many cells go to their bounds for long; thousands of products end in another method."""
+    grid = rc.RadialGrid.uniform(rings, 1e3)
+    ball = rc.RadialProfile(-(grid.radii**2) / 2e3, grid)
+    found = rc.press(ball, 1e-3, force=force * 1e3, solver=rc.ActiveSet(dense_limit=0))
+    assert found.steps < 200
+
+
+def test_short_steps_are_short_though_a_little_is_left_outside():
+    """Taken for such as let go of cells, and so made longer than is best, they would go to and fro."""
+    rough = rc.self_affine(rc.Grid(352, 1 / 352, True), 0.8, 0.01, np.random.default_rng(11))
+    line = rc.line(rough.grid, 1.0)
+    assert rc.press(rough, 1.0, force=3e-4, operator=line, solver=rc.ActiveSet(dense_limit=0)).steps < 200
