@@ -97,8 +97,8 @@ class Plane:
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m].
 
-        Where nothing is known that is the displacement, over what cells do to each other at most: too little, but no
-        step along it is too long.
+        Where nothing is known that is the displacement, over about what all cells together do to one: a pressure in
+        any unit, and no step along it is much too long.
         """
         if isinstance(self.operator, Invertible):
             return self.operator.approximate_inverse(displacement)

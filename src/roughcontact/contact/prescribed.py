@@ -194,11 +194,10 @@ def _solve(
     if start is not None:
         pressure, driver, steps = start, driver_on(operator, region), 1
         u, exact = first_product(operator, start, driver)
-    elif (found := _factorised(operator, region, wanted)) is not None:
+    elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
-        if (
-            largest(xp.where(region, wanted - u, 0.0)) > limit
-        ):  # the matrix may be another than that of the products
+        # The matrix may be another than that of the products.
+        if largest(xp.where(region, wanted - u, 0.0)) > limit:
             u, steps = operator.apply(pressure), 1
     while True:
         lacking = xp.where(region, wanted - u, 0.0)
@@ -228,7 +227,7 @@ def _solve(
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 
-def _factorised(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
+def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
     """Return the pressure on few cells and the displacement that their matrix says it causes on them.
 
     More begin from nothing: what coarser cells would tell of them saves hardly any product, and takes longer.

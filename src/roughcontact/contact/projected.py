@@ -130,9 +130,8 @@ def descend(
             break
         # Few cells that go to their bounds where much is lacking say nothing of how far the rest should go, unless they
         # do more than the rest, and the product is theirs: a shorter step would only make it more so.
-        lifts = lifts or (
-            last.free < LEAST * last.curvature and abs(last.descent - last.free) > abs(last.free)
-        )
+        theirs = abs(last.descent - last.free) > abs(last.free)
+        lifts = lifts or (lifted > 0 and theirs and last.free < LEAST * last.curvature)
         alpha = (last.descent if lifts else last.free) / last.curvature
         if alpha > 0:
             stride = stride.after(alpha * stride.next, lifts=lifts)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
+from roughcontact.contact.problem import checked_tolerance
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.tangential.interface import Interface
 from roughcontact.grid import AnyGrid
@@ -90,8 +91,7 @@ class SlipProblem:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.friction) and self.friction > 0):
             raise ValueError(f"the friction coefficient must be positive and finite, not {self.friction}")
-        if not 1e-14 < self.tolerance < 1e-2:
-            raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {self.tolerance}")
+        checked_tolerance(self.tolerance)
 
     @property
     def limit(self) -> Array:
