@@ -99,7 +99,7 @@ class ActiveSet:
             trial = Trial(p, u, separation)
             d, r, scale = judge_pressure(judge, measure, terms, trial)
             if r <= tolerance and exact:
-                return State(p, d, r, steps, Status.CONVERGED, tangent)
+                return State(p, d, r, steps, Status.CONVERGED, tangent, u)
             if r <= tolerance:  # the certificate stands on an exact product
                 u, exact, steps = operator.apply(p), True, steps + 1
                 continue

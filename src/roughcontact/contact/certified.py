@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.bounds import depth_of
+from roughcontact.contact.complementarity import resolve_contact
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.optimality import Judge
 from roughcontact.contact.problem import Terms
@@ -25,10 +26,20 @@ Array = npt.NDArray[np.float64]
 def run_certified(
     solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
 ) -> State:
+    """Run a solver with the operator or, where its sum is not exact, by defect correction with the exact one."""
+    exact = exact_of(operator)
+
+    def run(terms: Terms, initial: Array) -> State:
+        if exact is operator:
+            return solver.run(operator, separation, terms, initial)
+        return _corrected(solver, operator, separation, terms, initial)
+
+    return resolve_contact(run, exact, separation, terms, initial)
+
+
+def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
     """Run a solver; an inexact operator's separation is corrected by what its sum lacks until the exact one agrees."""
     exact = exact_of(operator)
-    if exact is operator:
-        return solver.run(operator, separation, terms, initial)
     measure, judge = Measure(exact.weights), Judge.of(exact, terms)
     inner = replace(terms, tolerance=terms.tolerance / 2)
     lacking, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
@@ -40,7 +51,9 @@ def run_certified(
         inside = (pressure > 0) & (pressure < terms.hardness)
         depth = depth_of(measure, level, pressure, inside) if terms.depth is None else terms.depth
         residual = judge.residual(pressure, displacement, level - depth)
-        found = replace(state, depth=depth, residual=residual, steps=steps, tangent=None)
+        found = replace(
+            state, depth=depth, residual=residual, steps=steps, tangent=None, displacement=displacement
+        )
         if residual <= terms.tolerance:
             return replace(found, status=Status.CONVERGED)
         if not state.status.converged:

@@ -62,7 +62,7 @@ class PolonskyKeer:
             idle = 0 if r < best else idle + 1
             best = min(best, r)
             if r <= terms.tolerance:
-                return State(p, d, r, steps, Status.CONVERGED)
+                return State(p, d, r, steps, Status.CONVERGED, displacement=u)
             if steps >= self.max_steps:
                 return State(p, d, r, steps, Status.MAX_STEPS)
             if idle > PATIENCE or not bool(xp.all(xp.isfinite(p))):

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace, on_host
+from roughcontact.arrays import is_numpy, largest, namespace, on_host
+from roughcontact.contact.complementarity import SLIGHT, added_stiffness, weakly_active
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.optimality import UNITS
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.status import Status
@@ -128,8 +130,33 @@ class Solution:
 
     @property
     def stiffness(self) -> float:
-        """Normal contact stiffness dF/dd at fixed contact region [N/m] (thesis, eq. 4.1)."""
+        """Normal contact stiffness dF/dd at fixed contact region [N/m] (thesis, eq. 4.1).
+
+        That of the cells that carry pressure: the slope of the force as the load is reduced.
+        """
         return self.frozen.stiffness
+
+    @cached_property
+    def touching(self) -> npt.NDArray[np.bool_]:
+        """Mask of the cells without pressure whose gap is zero, as far as rounding and the residual tell.
+
+        Only at a knife edge is there any; a further load brings them into contact.
+        """
+        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * largest(self.displacement)
+        gap = self.displacement + self.problem.separation - self.depth
+        return weakly_active(self.pressure, gap, allowed)
+
+    @cached_property
+    def loading_stiffness(self) -> float:
+        """Slope dF/dd of the force as the load grows [N/m]: with the cells that are `touching` in contact.
+
+        The force is a convex function of the depth, so that it is never below `stiffness`; the two differ at a knife
+        edge alone.
+        """
+        if not bool(namespace(self.touching).any(self.touching)):
+            return self.stiffness
+        region = yields_not(self.pressure, self.problem.hardness) | self.touching
+        return frozen_contact(self.problem.operator, region).stiffness
 
     @cached_property
     def interfacial_stiffness(self) -> float:
@@ -222,7 +249,19 @@ class Solution:
             line = self.problem.geometry is Geometry.LINE
             small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
             notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
-        return (*notes, *self._doubts())
+        return (*notes, *self._knife_edge(), *self._doubts())
+
+    def _knife_edge(self) -> tuple[str, ...]:
+        """Return what there is to say where the stiffness has two sides."""
+        count, k = int(namespace(self.pressure).count_nonzero(self.touching)), self.stiffness
+        most = added_stiffness(self.problem.operator, self.pressure, self.touching)
+        if not (count and 0 < k < most / SLIGHT and self.loading_stiffness > (1 + SLIGHT) * k):
+            return ()
+        touch = "1 cell touches" if count == 1 else f"{count} cells touch"
+        return (
+            f"{touch} without pressure: as the load grows the stiffness is {self.loading_stiffness:.6g}, and "
+            f"{k:.6g} as it is reduced, which is the one that is given.",
+        )
 
     def _doubts(self) -> tuple[str, ...]:
         """Return what an engineer would doubt in these numbers."""

@@ -29,7 +29,7 @@ class Tangent:
 class State:
     """The end of a solver's run over the cells of its operator.
 
-    `tangent` is there where the solver found it on the way.
+    `tangent` and `displacement`, that of the pressure, are there where the solver found them on the way.
     """
 
     pressure: Array
@@ -38,6 +38,7 @@ class State:
     steps: int
     status: Status
     tangent: Tangent | None = None
+    displacement: Array | None = None
 
 
 class Solver(Protocol):

@@ -46,6 +46,11 @@ class DenseOperator:
         """Area of a cell [m^2], of each where they differ."""
         return self.grid.cell_area
 
+    @property
+    def diagonal(self) -> Array:
+        """Displacement of each cell per unit pressure on itself [m/Pa], shape of the grid."""
+        return np.diagonal(self.matrix).reshape(self.grid.shape)
+
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         xp = namespace(pressure)

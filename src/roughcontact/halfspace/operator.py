@@ -24,6 +24,7 @@ __all__ = [
     "is_semidefinite",
     "keeps_precision",
     "self_influence",
+    "self_influences",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -52,8 +53,9 @@ class Operator(Protocol):
 
     What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`,
     `local_inverse`, `keeps_precision`, `quick`, `patches`, `listed`. Each makes solves faster and none changes an
-    answer. One whose sum is not exact has the `exact` one, by which answers are certified. One that is not a half-space
-    under a surface says so by its `geometry`, on which the units of the answers hang.
+    answer. Where cells differ, `diagonal` is the displacement of each per unit pressure on itself. One whose sum is not
+    exact has the `exact` one, by which answers are certified. One that is not a half-space under a surface says so by
+    its `geometry`, on which the units of the answers depend.
     """
 
     @property
@@ -118,6 +120,12 @@ def self_influence(operator: Operator) -> float:
     with suppress(TypeError, ValueError):
         _known[operator] = own
     return own
+
+
+def self_influences(operator: Operator) -> float | Array:
+    """Return the displacement of each cell per unit pressure on itself [m/Pa]: one number where all are equal."""
+    diagonal: Array | None = getattr(operator, "diagonal", None)
+    return self_influence(operator) if diagonal is None else diagonal
 
 
 @runtime_checkable

@@ -32,12 +32,14 @@ def write(module: Any, precision: str) -> None:
                 u.larger(-u),
                 p,
                 -p,
+                (-p).where(carries, -math.inf),
+                (-level).where(code.opposite(carries), -math.inf),
                 level.where(carries),
                 p.replaced(1.0).where(carries),
                 (p - p) + (u - u),  # nothing, where both are numbers
             )
 
-        leave_totals(code, n, look, totals, 5, 8)
+        leave_totals(code, n, look, totals, 7, 10)
     with Code(module, "mark", precision, KINDS["mark"]) as code:
         n, pressure, displacement, separation, depth, least, own, region, totals = code.arguments
 

@@ -36,6 +36,10 @@ class Look:
         The largest [m].
     strongest, weakest : float
         Pressure [Pa].
+    least : float
+        Pressure of those that carry something [Pa]; infinite without any.
+    nearest : float
+        Lowest level of those that carry nothing [m]; infinite without any.
     level : float
         Sum over those that carry something [m].
     count : int
@@ -47,6 +51,8 @@ class Look:
     displacement: float
     strongest: float
     weakest: float
+    least: float
+    nearest: float
     level: float
     count: int
 
@@ -62,11 +68,11 @@ class Levels(NamedTuple):
 def look(pressure: Array, displacement: Array, separation: Array) -> Look | None:
     """Return what there is to see; None where some pressure or displacement is no finite number."""
     run = code_for("judging", pressure)["look"]
-    found = _totals(run, 5, 8, pressure, displacement, separation)
-    highest, raised, moved, strongest, weakened, level, count, nothing = found
+    found = _totals(run, 7, 10, pressure, displacement, separation)
+    highest, raised, moved, strongest, weakened, least, nearest, level, count, nothing = found
     if nothing != 0:  # or is no number
         return None
-    return Look(highest, -raised, moved, strongest, -weakened, level, int(count))
+    return Look(highest, -raised, moved, strongest, -weakened, -least, -nearest, level, int(count))
 
 
 def mark(

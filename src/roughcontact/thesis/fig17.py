@@ -29,6 +29,7 @@ TITLE = "stiffness of the stepped indenter against load, schematic and computed"
 COUNT = 7
 POINTS = 160
 SEED = 0
+APART = 1e-3  # of a force at which the stiffness jumps
 CHOSEN = (
     f"C = {INDENTER.ratio:g}, H = {INDENTER.hurst:g} as in figure 15, {COUNT + 1} cylinders",
     "both axes logarithmic, with numbers; the thesis has a sketch",
@@ -67,7 +68,8 @@ def case(seed: int = SEED) -> Stiffening:
     body = stepped_body(INDENTER, COUNT + 1)
     operator = ring(body.grid, MODULUS)
     full = full_steps(body, operator, COUNT)
-    forces = np.geomspace(full[0].force / 4, full[-1].force, POINTS)
+    # Just below the last state: there the next rim touches, and the stiffness has two values.
+    forces = np.geomspace(full[0].force / 4, (1 - APART) * full[-1].force, POINTS)
     curve = loading_curve(body, MODULUS, forces=forces, operator=operator)
     smooth = contact(MODULUS, exponent=INDENTER.hurst, coefficient=fig15.case().coefficient, force=forces)
     return Stiffening(INDENTER.corners(COUNT, MODULUS), full, curve, smooth.stiffness)
