@@ -133,6 +133,18 @@ def frozen(solution):
     return mean(1 - matrix @ tangent), mean(matrix @ pressure + separation - solution.depth)
 
 
+@pytest.mark.parametrize("solver", [rc.ActiveSet(dense_limit=0), rc.PolonskyKeer()], ids=repr)
+def test_the_mean_gap_does_not_take_over_what_the_solver_left_in_contact(solver):
+    """A pressure good to 1e-6 of the largest displacement; the mean gap is 2e-5 of that."""
+    grid, mask = rc.Grid((32, 32), 1 / 32), cell("middle", 32)
+    x = 2 * np.pi * np.arange(32) / 32
+    wave = 0.03 * DEPTH * np.cos(x)[:, None] * np.cos(2 * x)
+    heights = pitted(grid, mask, openings(mask)).heights + wave
+    solution = rc.press(rc.Surface(heights, grid), 1.0, depth=DEPTH, tolerance=1e-6, solver=solver)
+    np.testing.assert_array_equal(solution.contact, ~mask)
+    assert solution.mean_gap == pytest.approx(frozen(solution)[1], rel=WITHIN)
+
+
 RADII = np.r_[0, np.cumsum(np.linspace(1.0, 0.2, 80))]  # ring widths that differ
 SQUARE = rc.Grid((24, 24), 1 / 24)
 BODIES = {
