@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.arrays import is_numpy, largest, namespace, on_host
 from roughcontact.contact.complementarity import SLIGHT, added_stiffness, weakly_active
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.optimality import UNITS
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
@@ -27,7 +28,7 @@ from roughcontact.contact.stiffness import (
 )
 from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.operator import exact_of
+from roughcontact.halfspace.operator import exact_of, is_positive
 from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
@@ -107,8 +108,15 @@ class Solution:
 
     @cached_property
     def mean_gap(self) -> float:
-        """Mean of the deformed gap over the measured cells [m]; cells that give way count below zero."""
-        return self._mean_displacement(self.pressure) + self.problem.mean_separation - self.depth
+        """Mean of the deformed gap over the measured cells [m], at this depth; cells that give way count below zero."""
+        undeformed = self.problem.mean_separation
+        mean = self._mean_displacement(self.pressure) + undeformed - self.depth
+        if self._moves_no_mean:
+            return mean
+        error = self.residual * self._largest_displacement + ROUNDING * (undeformed + self.depth)
+        if error <= ACCURACY * abs(mean):
+            return mean  # else, near full contact, its terms cancel
+        return self._mean_opening(self.displacement + self.problem.separation - self.depth)
 
     @cached_property
     def elastic_energy(self) -> float:
@@ -167,9 +175,13 @@ class Solution:
         k = self.stiffness
         if not 0 < k < np.inf:
             return k
-        compliance = (1 - self._mean_displacement(self.frozen.tangent)) / k
-        # In full contact the gap cannot close: what is left of the difference is rounding.
-        return 1 / compliance if compliance * k > 10 * self.frozen.residual + 1e-12 else np.inf
+        if self._moves_no_mean:
+            return k
+        # By how much the mean gap closes per unit depth.
+        closing = 1 - self._mean_displacement(self.frozen.tangent)
+        if not self.frozen.residual + ROUNDING <= ACCURACY * closing:
+            closing = self._mean_opening(1 - exact_of(self.problem.operator).apply(self.frozen.tangent))
+        return k / closing if closing else np.inf  # in full contact the gap cannot close
 
     @cached_property
     def spots(self) -> Spots:
@@ -343,9 +355,30 @@ class Solution:
     def _measure(self) -> Measure:
         return Measure(self.problem.operator.weights)
 
+    @property
+    def _moves_no_mean(self) -> bool:
+        """Whether no pressure moves the mean of the measured cells."""
+        return self.problem.semidefinite and not self.missing
+
+    @property
+    def _largest_displacement(self) -> float:
+        """A bound on the displacement [m], without a product.
+
+        No cell is displaced by more than the depth. Where the body may bulge, measured cells do so by no more than
+        their separation, and missing cells by any amount.
+        """
+        if is_positive(self.problem.operator):
+            return self.depth
+        return max(self.depth, float(namespace(self.pressure).max(self.problem.separation)))
+
+    def _mean_opening(self, opening: Array) -> float:
+        """Mean over the measured cells of a field that is about zero in contact, by the open cells alone."""
+        problem, closed = self.problem, yields_not(self.pressure, self.problem.hardness)
+        return mean_opening(exact_of(problem.operator), opening, closed, problem.measured)
+
     def _mean_displacement(self, pressure: Array) -> float:
         """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
-        if self.problem.semidefinite and not self.missing:
+        if self._moves_no_mean:
             return 0.0
         if not is_numpy(pressure):
             return self._measure.dot(pressure, self.problem.mean_response)
