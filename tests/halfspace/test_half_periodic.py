@@ -1,10 +1,12 @@
 """One periodic axis: the sum over images against its other forms, spheres in a row, cylinders."""
 
+import mpmath
 import numpy as np
 import pytest
 from scipy.special import eval_legendre, k0, zeta
 
 import roughcontact as rc
+import roughcontact.halfspace.half_periodic_kernel as kernel
 from roughcontact.halfspace.half_periodic import half_periodic
 from roughcontact.halfspace.half_periodic_kernel import repeated_love
 
@@ -85,6 +87,99 @@ def test_the_cell_itself():
     own = 2 * cell[0] * np.arcsinh(cell[1] / cell[0]) + 2 * cell[1] * np.arcsinh(cell[0] / cell[1])
     rest = over_cell(lambda x, y: images(x, y) - 1 / np.hypot(x, y), 0.0, 0.0, cell, 1)
     assert repeated_love(0.0, 0.0, cell, PERIOD, PAGE)[0] == pytest.approx(own + rest, rel=1e-13)
+
+
+def row_by_images(x, y, a, b):
+    """Love's integral in 30 digits, image by image; the rest of M is a series in (M + 1/2)^-2, taken to its limit."""
+
+    def primitive(x, y):
+        parts = ((x, y), (y, x))
+        return mpmath.fsum(v * mpmath.asinh(w / abs(v)) for v, w in parts if v != 0)
+
+    def love(y):
+        corners = ((sx * sy, x + sx * a / 2, y + sy * b / 2) for sx in (1, -1) for sy in (1, -1))
+        return mpmath.fsum(sign * primitive(u, v) for sign, u, v in corners)
+
+    value, row = love(y), []
+    for m in range(1, 61):
+        value += love(y + m) + love(y - m) - 2 * a * b / m
+        if m % 6 == 0:
+            row.append((mpmath.mpf(m) + 0.5, value))
+    at = [m**-2 for m, _ in row]
+    limits = [value for _, value in row]
+    for order in range(1, len(row)):
+        limits = [
+            (at[i + order] * limits[i] - at[i] * limits[i + 1]) / (at[i + order] - at[i])
+            for i in range(len(limits) - 1)
+        ]
+    return limits[0]
+
+
+def row_by_lines(x, y, a, b):
+    """A line load, the lines' own period (Clausen's function), and waves from the edges on, none of it near the row."""
+    q = 2 * mpmath.pi
+
+    def waves_beyond(edge):
+        terms = []
+        for n in range(1, 13):
+            integral = mpmath.quad(
+                lambda t, z=n * q * edge: mpmath.exp(-z * mpmath.cosh(t)) / mpmath.cosh(t), [0, 2, 5]
+            )
+            terms.append(4 * b * mpmath.sincpi(n * b) * mpmath.cos(n * q * y) * integral / (n * q))
+        return mpmath.fsum(terms)
+
+    start, stop = x - a / 2, x + a / 2
+    logs = [edge * (mpmath.log(abs(edge)) - 1) for edge in (start, stop)]
+    value = -2 * b * (logs[1] - logs[0] + a * (mpmath.euler - mpmath.log(2)))
+    if start > 0:
+        return value + waves_beyond(start) - waves_beyond(stop)
+    turns = [mpmath.clsin(2, q * (y + half)) for half in (-b / 2, b / 2)]
+    return value + 2 / q * (turns[1] - turns[0]) - waves_beyond(-start) - waves_beyond(stop)
+
+
+@pytest.mark.parametrize("along", [1.0, 0.5, 0.02])
+@pytest.mark.parametrize("ratio", [1e-3, 0.03, 0.26, 0.6, 1.0, 4.0, 100.0, 1e4])
+def test_cells_of_any_length_over_the_period(ratio, along):
+    """Against 30 digits, by images up to one period and by lines from it on: where both serve, they agree."""
+    page = float(2 * mpmath.exp(-mpmath.euler))
+    with mpmath.workdps(30):
+        for place in ((0, 0), (1, 0), (1, 1), (4, 1)):
+            x, y, a, b = (mpmath.mpf(v) for v in (place[0] * ratio, place[1] * along, ratio, along))
+            truths = [
+                form(x, y, a, b)
+                for form, serves in ((row_by_images, ratio <= 1), (row_by_lines, ratio >= 1))
+                if serves
+            ]
+            assert abs(truths[0] - truths[-1]) <= 1e-14 * ratio * along
+            found = repeated_love(float(x), float(y), (ratio, along), 1.0, page)[0]
+            # Fifty terms of which none is larger than the whole, or than the constant of the row.
+            assert abs(found - truths[0]) <= 50 * 2.3e-16 * max(abs(truths[0]), ratio * along)
+
+
+def test_the_work_does_not_grow_with_cells_over_the_period(monkeypatch):
+    """Values by either form in a table of 12 cells: as many for cells of two periods as for those of ten thousand."""
+    counts = dict.fromkeys(("_images", "_waves"), 0)
+
+    def counted(name):
+        form = getattr(kernel, name)
+
+        def count(x, y, *rest):
+            counts[name] += np.broadcast(x, y).size
+            return form(x, y, *rest)
+
+        return count
+
+    for name in counts:
+        monkeypatch.setattr(kernel, name, counted(name))
+    totals = []
+    for ratio in (2.0, 1e3, 1e4):
+        for name in counts:
+            counts[name] = 0
+        half_periodic(rc.Grid((1, 12), (1.0, ratio), (True, False)), MODULUS).influence.table((1, 12))
+        totals.append(dict(counts))
+    assert totals[0] == totals[1] == totals[2]
+    assert totals[0]["_images"] <= 16  # one cell holds the row: its nearest period, in four by four pieces
+    assert totals[0]["_waves"] <= 11 + 2
 
 
 def test_a_table_is_its_single_values():

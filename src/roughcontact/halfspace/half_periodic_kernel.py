@@ -3,27 +3,36 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import factorial, k0, zeta
+from scipy.special import factorial, xlog1py, zeta
 
 from roughcontact.halfspace.kernels import love
 
 __all__ = ["repeated_love"]
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+Form = Callable[[Array, Array, tuple[float, float], float], Array]
 
-# In periods. A row of images is summed one by one up to IMAGES on either side, and beyond by powers of the distance
-# over theirs; further than NEAR from the row by waves along it, of which WAVES are left. Cells larger than CELL are
-# divided. Each is good to 1e-14 where it is used (tests/halfspace/test_half_periodic.py).
+# In periods. What lies nearer than NEAR to the row is divided into pieces of CELL at most, whose images are summed one
+# by one up to IMAGES on either side, and beyond by powers of the distance over theirs. What lies further away is done in
+# one piece, however long, by waves along the row, of which WAVES are left. Each form is good to 1e-14 where it is used
+# (tests/halfspace/test_half_periodic.py).
 IMAGES = 4
 NEAR = 0.5
 CELL = 0.25
 WAVES = 12
 POWERS = 12  # even ones, from zero up
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(POWERS)
+# The trapezoidal rule for integrals of exp(-z cosh t) over t, z >= 2 pi NEAR: its error is exp(-pi^2/STEP), and what it
+# leaves out exp(-pi cosh 3.4), some 1e-21 both.
+STEP = 0.2
+_COSH = np.cosh(STEP * np.arange(18))
+_SHARES = STEP * np.where(np.arange(18) == 0, 0.5, 1.0)
 
 
 def repeated_love(
@@ -56,31 +65,57 @@ def repeated_love(
     """
     x, y = np.abs(np.asarray(across, float)), np.asarray(along, float)
     x, y = (x, y) if x.ndim and y.ndim else np.broadcast_arrays(np.atleast_1d(x), np.atleast_1d(y))
-    parts = tuple(math.ceil(side / (CELL * period) - 1e-9) for side in cell)
-    sides = (cell[0] / parts[0], cell[1] / parts[1])
-    value = np.zeros(np.broadcast_shapes(x.shape, y.shape))
-    for row in range(parts[0]):
-        for place in range(parts[1]):
-            shift = [side * (i - (n - 1) / 2) for side, i, n in zip(sides, (row, place), parts, strict=True)]
-            value += _small(np.abs(x - shift[0]), y - shift[1], sides, period)
+    value = np.empty(np.broadcast_shapes(x.shape, y.shape))
+    for where, form in _forms(x, cell[0], period):
+        if x.shape == value.shape:  # a list of offsets
+            value[where] = form(x[where], np.broadcast_to(y, value.shape)[where], cell, period)
+        else:  # a table: x along its last axis
+            value[..., where] = form(x[where], y, cell, period)
     # The page's constant is replaced by the one that is asked for.
     value += cell[0] * cell[1] * 2 / period * (np.euler_gamma + math.log(reference_length / (2 * period)))
     return value
 
 
-def _small(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
-    """Return the integral over a cell that is small against the period, by the form that serves at its distance."""
-    y = y - period * np.round(y / period)
-    near = x <= NEAR * period
-    value = np.empty(np.broadcast_shapes(x.shape, y.shape))
-    for where, form in ((near, _images), (~near, _waves)):
-        if not where.any():
-            continue
-        if x.shape == value.shape:  # a list of offsets
-            value[where] = form(x[where], np.broadcast_to(y, value.shape)[where], cell, period)
-        else:  # a table: x along its last axis
-            value[..., where] = form(x[where], y, cell, period)
+def _forms(x: Array, side: float, period: float) -> Iterator[tuple[Mask, Form]]:
+    """Yield offsets across the row, and the form that serves a cell of a side there."""
+    near = x - side / 2 < NEAR * period * (1 - 1e-9)
+    if not near.all():
+        yield ~near, _waves
+    if side <= CELL * period:
+        if near.any():
+            yield near, _pieces
+        return
+    for offset in np.unique(x[near]):  # of offsets of whole cells, three at most
+        yield x == offset, _long_cell
+
+
+def _long_cell(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
+    """Return the integral over a cell at one offset x, of which part is near the row: waves for what is not."""
+    start, stop, reach = x[0] - cell[0] / 2, x[0] + cell[0] / 2, NEAR * period
+    value = np.zeros(np.broadcast_shapes(x.shape, y.shape))
+    for inner, outer in ((max(reach, start), stop), (max(reach, -stop), -start)):  # on either side of the row
+        if outer > inner:
+            value += _waves(np.full_like(x, (inner + outer) / 2), y, (outer - inner, cell[1]), period)
+    start, stop = max(start, -reach), min(stop, reach)
+    for shift, side in _equal_parts(stop - start, period):
+        piece = np.full_like(x, abs((start + stop) / 2 + shift))
+        value += _pieces(piece, y, (side, cell[1]), period)
     return value
+
+
+def _pieces(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
+    """Return the integral over a cell that is short across the row, by pieces along it."""
+    value = np.zeros(np.broadcast_shapes(x.shape, y.shape))
+    for shift, side in _equal_parts(cell[1], period):
+        offset = y - shift
+        value += _images(x, offset - period * np.round(offset / period), (cell[0], side), period)
+    return value
+
+
+def _equal_parts(side: float, period: float) -> list[tuple[float, float]]:
+    """Return the centres of short parts of a side, counted from its own, and their lengths."""
+    count = max(1, math.ceil(side / (CELL * period) - 1e-9))
+    return [(side / count * (part - (count - 1) / 2), side / count) for part in range(count)]
 
 
 def _images(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
@@ -128,21 +163,25 @@ def _mean_powers(x: Array, side: float, period: float) -> Array:
 
 
 def _waves(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
-    """Return -2 ln(x) on the mean along the row, and the waves along it, each of which decays as K0."""
+    """Return -2 ln(x) on the mean along the row, and the waves along it, each of which decays as K0.
+
+    K0(z) is the integral of exp(-z cosh t) over t > 0, and so its integral over any side is one of exponentials.
+    """
     q = 2 * math.pi / period
-    value = cell[1] / period * (_log_strip(x / period, cell[0] / period) * period)
+    value = cell[0] * cell[1] / period * _mean_log(x / period, cell[0] / period)
     value = value - 2 * cell[0] * cell[1] / period * (np.euler_gamma - math.log(2.0))
     for n in range(1, WAVES + 1):
         decay = np.zeros(x.shape)
-        for node, weight in zip(_NODES, _WEIGHTS, strict=True):
-            decay += weight / 2 * k0(n * q * (x + node * cell[0] / 2))
+        for cosh, share in zip(_COSH, _SHARES, strict=True):
+            rate = n * q * cosh
+            side = -math.expm1(-rate * cell[0]) / rate
+            decay += share * side * np.exp(-rate * (x - cell[0] / 2))
         width = cell[1] * np.sinc(n * cell[1] / period)
-        value = value + 4 / period * cell[0] * width * decay * np.cos(n * q * y)
+        value = value + 4 / period * width * decay * np.cos(n * q * y)
     return np.asarray(value)
 
 
-def _log_strip(x: Array, side: float) -> Array:
-    """Return the integral of ``-2 ln|x|`` over a side that does not reach zero, by Taylor's series in side/(2 x)."""
-    ratio = (side / (2 * x)) ** 2
-    series = sum(ratio**m / (2 * m * (2 * m + 1)) for m in range(1, 16))
-    return np.asarray(-2 * side * (np.log(x) - series))
+def _mean_log(x: Array, side: float) -> Array:
+    """Return the mean of ``-2 ln(x)`` over a side that does not reach beyond zero."""
+    part = side / (2 * x)
+    return np.asarray(2 - 2 * np.log(x) - (xlog1py(1 + part, part) - xlog1py(1 - part, -part)) / part)

@@ -52,14 +52,16 @@ def test_every_state_of_a_path_is_what_it_claims(periodic, nu, load):
     solution = rc.press(surface, bodies, pressure=0.02 * rc.reduced_modulus(*bodies))
     assert 0.1 < solution.contact_fraction < 0.9
     top = MU * (solution.force if load == "forces" else solution.depth)
-    path = top * np.array([[0.6, 0], [0.6, 0.5], [-0.7, 0.2], [-0.3, -0.1], [0, 0], [0.1, 0.9]])
+    path = top * np.array(
+        [[0.6, 0], [0.6, 0.5], [-0.7, 0.2], [-0.3, -0.1], [0, 0], [0.1, 0.9], [0.6, -0.8], [0.2, 0]]
+    )
     before = None
     for answer in slide_path(solution, bodies, friction=MU, **{load: path}):
         assert answer.status is Status.CONVERGED
         assert answer.residual <= 1e-8
         found = certificate(answer, before)
         # The rounding of either product, in units of the largest displacement.
-        assert found == pytest.approx(answer.residual, rel=1e-3, abs=1e-14)
+        assert found == pytest.approx(answer.step_residual, rel=1e-3, abs=1e-14)
         if load == "forces":
             np.testing.assert_allclose(
                 answer.force, (answer.load.x, answer.load.y), rtol=0, atol=1e-12 * answer.problem.capacity

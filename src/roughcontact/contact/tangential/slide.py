@@ -64,8 +64,9 @@ def slide(
     friction : float
         Coefficient of friction mu.
     force, displacement : float or pair of floats
-        Exactly one: tangential force [N], at most mu times the normal one, or displacement of body 2 against body 1
-        since the start [m]; as (x, y), or one number along x (along `along`, if given).
+        Exactly one: tangential force [N], at most mu times the normal one, under which the bodies slide steadily
+        (docs/conventions.md), or displacement of body 2 against body 1 since the start [m]; as (x, y), or one number
+        along x (along `along`, if given).
     initial : TangentialSolution, optional
         The state to go on from, of the same contact with the same friction; `along` and `operator` are then as they
         were. Without one the contact is at rest and free of traction.
@@ -137,20 +138,24 @@ def advance(
         found.status,
         found.residual,
         found.steps,
+        step.residual(found.traction, found.displacement, now - slipped),
     )
 
 
 def _slid(step: Step, force: Array) -> Slipped:
-    """Return the state of sliding: all the traction that friction holds, along the force.
+    """Return the steady slide: all the traction that friction holds, along the force.
 
-    The bodies move on along it, which turns the slip of every cell into that direction: what counts is that none slips
-    backwards.
+    No other traction adds up to the force. It stays as it is while the bodies move on along the force, and so do the
+    elastic displacements: the slip rate of every cell is that of the bodies, opposed to the traction. Of the slip until
+    then, what lies along the force counts: none may be backward.
     """
     direction, xp = force / np.sqrt(force @ force), namespace(step.limit)
     q = step.limit * beside(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
-    along = beside(direction, level) @ level
     shift = numbers(xp.mean(level, axis=1))
-    shift += (float(xp.max(along)) - direction @ shift) * direction
-    return Slipped(q, u, shift, 0.0, 1, Status.CONVERGED)
+    shift += (float(xp.max(beside(direction, level) @ level)) - direction @ shift) * direction
+    along = beside(direction, level) @ step.slipped(u, shift)
+    residual = step.residual(q, u, along * beside(direction[:, None], along))
+    status = Status.CONVERGED if residual <= step.tolerance else Status.STAGNATED
+    return Slipped(q, u, shift, residual, 1, status)

@@ -55,10 +55,13 @@ class TangentialSolution:
         How the solve ended; it claims nothing that was not earned.
     residual : float
         Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, on a product of
-        the exact operator with this traction. Where the bodies slide under a given force only slip along it counts:
-        as they go on, all of it turns that way.
+        the exact operator with this traction. Where the bodies slide under a given force the law is that of the slip
+        rate of the steady slide, and of the slip of the step only what lies along the force counts: none is backward.
     steps : int
         Products with the operator that the solve took.
+    step_residual : float
+        The same by all of the slip of this step. Only where the bodies slide under a given force is it another number:
+        what slipped across the force before the slide was steady, which no finite displacement opposes to the traction.
     """
 
     problem: SlipProblem
@@ -70,6 +73,7 @@ class TangentialSolution:
     status: Status
     residual: float
     steps: int
+    step_residual: float
 
     @property
     def force(self) -> Array:
@@ -147,6 +151,11 @@ class TangentialSolution:
             )
         if self.sliding:
             notes.append("Every cell slips: the bodies slide.")
+            if self.status.converged and self.step_residual > self.problem.tolerance:
+                notes[-1] += (
+                    " This is the steady slide, whose slip rate is opposed to the traction; of the slip until then, up "
+                    f"to {self.step_residual:.1e} of the largest displacement is not."
+                )
         return tuple(notes)
 
     def __repr__(self) -> str:
