@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 # `theory` stands beside the house; the two top files open doors and do nothing else.
 BESIDE = {"theory", "__init__", "__main__"}
 AT_THE_RIM = RANK["files"]
-KEEPS_CODE = SOURCE / "machine" / "loader.py"  # what is translated once is kept on disk
+KEEPS_CODE = SOURCE / "machine" / "disk.py"  # what is translated once is kept on disk
 DISK_AND_SCREEN = {
     *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),
     *("sqlite3", "tempfile", "typer"),
@@ -120,9 +121,26 @@ class TestFile:
             assert called(tree) & WRITES == set()
 
 
+@cache
+def trees():
+    return {module_of(path): ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
+
+
 def test_no_module_waits_for_itself():
-    trees = {module_of(path): ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
-    assert cycle({module: imported_at_once(tree) for module, tree in trees.items()}) == set()
+    assert cycle({module: imported_at_once(tree) for module, tree in trees().items()}) == set()
+
+
+def test_bundlers_of_programs_find_what_is_opened_late():
+    """They follow imports that are written out from where a program enters, those for the type checker too."""
+    names = {module: imported(tree) for module, tree in trees().items()}
+    found, left = set(), {"roughcontact", "roughcontact.cli.main"}
+    while left:
+        found |= left
+        wanted = {name for module in left for name in names[module]}
+        packages = {name.rpartition(".")[0] for name in wanted}
+        left = (wanted | packages) & names.keys() - found
+    # A program itself names the pictures that it wants; figures of the thesis are looked for in their folder.
+    assert {name.split(".")[1] for name in names.keys() - found} == {"__main__", "plot", "thesis"}
 
 
 def test_the_checks_see_what_they_look_for():

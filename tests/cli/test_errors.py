@@ -18,10 +18,9 @@ from roughcontact.files.errors import SurfaceWarning
 
 
 def planted(source, name="f"):
-    """Return the function of `source` as if it stood in a file of the package."""
-    room = Path(rc.__file__).parent / "contact" / "planted.py"
-    space = {}
-    exec(compile(source, str(room), "exec"), space)
+    """Return the function of `source` as if it stood in a module of the package, in a bundle of a program."""
+    space = {"__name__": "roughcontact.contact.planted"}
+    exec(compile(source, "roughcontact/contact/planted.py", "exec"), space)
     return space[name]
 
 

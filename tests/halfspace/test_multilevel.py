@@ -11,6 +11,7 @@ from roughcontact.halfspace import compiled
 from roughcontact.halfspace.levels import Hierarchy, Kernel, descend
 from roughcontact.halfspace.multilevel import MultilevelOperator
 from roughcontact.halfspace.transfer import Nodes, coarse_count, interpolation, offset_weights
+from roughcontact.machine.processor import VARIABLE, is_off
 
 # What is said of order 8 with near 10: of the largest displacement, and of every displacement by itself under a
 # pressure that is nowhere negative.
@@ -246,6 +247,8 @@ class TestNearField:
             down = weights[y % taps[0], x % taps[1]]
             expected[y, x] += (down * box[reach:]).sum() + sign * (down[1:] * box[:reach][::-1]).sum()
         if way == "compiled":
+            if is_off():
+                pytest.skip("no machine code is wanted")
             compiled.compiled_loops()(field, weights, sign, total)
         else:
             compiled.add_near_by_products(field, weights, sign, total)
@@ -265,6 +268,11 @@ def test_without_numba_there_are_no_loops(monkeypatch):
     assert compiled.compiled_loops.__wrapped__() is None
 
 
+def test_no_loops_are_compiled_where_no_machine_code_is_wanted(monkeypatch):
+    monkeypatch.setenv(VARIABLE, "off")
+    assert compiled.compiled_loops.__wrapped__() is None
+
+
 def test_code_that_cannot_be_kept_is_compiled_anew(monkeypatch):
     """Numba says so where it may write neither beside the module nor into a folder of the user's."""
 
@@ -273,6 +281,7 @@ def test_code_that_cannot_be_kept_is_compiled_anew(monkeypatch):
             raise RuntimeError("no locator available")
         return lambda function: function
 
+    monkeypatch.delenv(VARIABLE, raising=False)
     monkeypatch.setattr("numba.njit", njit)
     loops, total = compiled.compiled_loops.__wrapped__(), np.zeros((2, 3))
     loops(np.ones((2, 3)), np.ones((1, 1, 2, 3)), 1, total)

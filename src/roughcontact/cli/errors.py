@@ -25,7 +25,7 @@ _OPTIONS = (
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
 )
 _RAISE = opmap["RAISE_VARARGS"]
-_PACKAGE = Path(__file__).resolve().parent.parent
+_PACKAGE = "roughcontact"
 
 
 class UsageError(ValueError):
@@ -98,12 +98,9 @@ def _is_ours(error: ValueError | OSError) -> bool:
         last = last.tb_next
     if last is None:
         return False
-    code = last.tb_frame.f_code
-    return _in_package(code.co_filename) and code.co_code[last.tb_lasti] == _RAISE
-
-
-def _in_package(filename: str) -> bool:
-    return Path(filename).resolve().is_relative_to(_PACKAGE)
+    # By its name and not its file, which bundles of programs do not have.
+    ours = str(last.tb_frame.f_globals.get("__name__")).partition(".")[0] == _PACKAGE
+    return ours and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE
 
 
 def _message(error: ValueError | OSError) -> str:

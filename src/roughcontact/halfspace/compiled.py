@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.machine.processor import is_off
+
 __all__ = ["add_near", "add_near_by_products", "compiled_loops"]
 
 Array = npt.NDArray[np.float64]
@@ -42,8 +44,11 @@ def add_near(field: Array, taps: Array, sign: int, total: Array) -> None:
 def compiled_loops() -> Loops | None:
     """Return the loops as machine code; None without Numba (``pip install 'roughcontact[compiled]'``).
 
-    Compiling takes about a second, once: Numba keeps the code on disk where it finds a place.
+    None too where the environment wants no machine code. Compiling takes about a second, once: Numba keeps the code on
+    disk where it finds a place.
     """
+    if is_off():
+        return None
     try:
         import numba
     except ImportError:

@@ -5,21 +5,19 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import hashlib
-import importlib
-import importlib.metadata
-import os
-import tempfile
 from collections.abc import Callable, Mapping
 from functools import cache
-from pathlib import Path
+from importlib import resources
 from typing import Any
 
 import numpy as np
 
+from roughcontact.machine import disk
+from roughcontact.machine.processor import is_off, processor
+
 __all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
-COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code hangs on
-DIGEST = 32  # bytes of the check sum before the code
+COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code depends on
 _POINTER = ctypes.c_void_p
 _ENGINES: list[Any] = []  # they own the code that runs
 _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
@@ -28,10 +26,18 @@ _REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 @cache
 def is_available() -> bool:
-    """Whether LLVM is there and knows this machine; without it NumPy and SciPy do everything."""
+    """Whether LLVM makes code that runs here, and is wanted; without it NumPy and SciPy do everything.
+
+    Raises
+    ------
+    ValueError
+        If the environment names a processor that is not known, or whose instructions this machine lacks.
+    """
+    if is_off():
+        return False
     try:
-        _target()
-    except (AttributeError, ImportError, OSError, RuntimeError):
+        functions("scaling", "float64")  # the smallest
+    except (AttributeError, ImportError, OSError, RuntimeError, TypeError):
         return False
     return True
 
@@ -55,16 +61,20 @@ def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
     Notes
     -----
     Other threads run meanwhile. The first call on a machine takes about a second; later processes find the code in
-    the user's folder for caches, if there is one.
+    the user's folder for caches, if there is one and nobody else can write to it.
     """
-    writer = importlib.import_module(f"roughcontact.machine.{family}")
-    place = _place(family, precision)
-    code = None if place is None else _read(place)
-    if code is None:
-        code = _translated(writer, precision)
-        if place is not None:
-            _keep(place, code)
-    return _loaded(code, writer.KINDS, precision)
+    writer, key = _families()[family], _key(family, precision)
+    if key is None:
+        return _loaded(_translated(writer, precision), writer.KINDS, precision)
+    file = f"{family}-{precision}-{key.hex()[:32]}.o"
+    found = disk.read(file, key)
+    if found is not None:
+        with contextlib.suppress(RuntimeError):
+            return _loaded(found, writer.KINDS, precision)
+    code = _translated(writer, precision)
+    loaded = _loaded(code, writer.KINDS, precision)
+    disk.keep(file, key, code)
+    return loaded
 
 
 def takes(field: Any) -> bool:
@@ -83,13 +93,20 @@ def address(array: Any) -> int:
         return found
 
 
+def _families() -> Mapping[str, Any]:
+    """Return the modules that write code, imported late and by names that bundlers of programs see."""
+    from roughcontact.machine import fourier, judging, passes, scaling, tiles
+
+    return {"fourier": fourier, "judging": judging, "passes": passes, "scaling": scaling, "tiles": tiles}
+
+
 @cache
 def _target() -> Any:
     return _new_target()
 
 
 def _new_target() -> Any:
-    """Return a description of this machine; every engine owns one."""
+    """Return a description of the processor; every engine owns one."""
     from llvmlite import binding
 
     _ = binding.ModulePassManager.add_sroa_pass  # from 0.45 on
@@ -98,8 +115,8 @@ def _new_target() -> Any:
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     return binding.Target.from_default_triple().create_target_machine(
-        cpu=binding.get_host_cpu_name(),
-        features=binding.get_host_cpu_features().flatten(),
+        cpu=processor().name,
+        features=processor().features,
         opt=3,
         codemodel="jitdefault",
         jit=True,
@@ -124,12 +141,22 @@ def _translated(writer: Any, precision: str) -> bytes:
 
 
 def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, Callable[..., None]]:
+    """Return the functions in some object code.
+
+    Raises
+    ------
+    RuntimeError
+        If one of them is not in it.
+    """
     from llvmlite import binding
 
     empty = binding.parse_assembly("")
     engine = binding.create_mcjit_compiler(empty, _new_target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
+    places = {name: engine.get_function_address(f"{name}_{precision}") for name in kinds}
+    if 0 in places.values():
+        raise RuntimeError(f"not all of {', '.join(places)} are in the code")
     _ENGINES.append(engine)
     types = {
         "index": ctypes.c_int64,
@@ -141,56 +168,26 @@ def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, 
         "real": _REALS[precision],
     }
     return {
-        name: ctypes.CFUNCTYPE(None, *(types[kind] for kind in parameters.split()))(
-            engine.get_function_address(f"{name}_{precision}")
-        )
+        name: ctypes.CFUNCTYPE(None, *(types[kind] for kind in parameters.split()))(places[name])
         for name, parameters in kinds.items()
     }
 
 
-def _place(family: str, precision: str) -> Path | None:
-    """Return where the code would be kept, None if nowhere; its name says all that it hangs on."""
-    import platformdirs
-    from llvmlite import binding
+def _key(family: str, precision: str) -> bytes | None:
+    """Return a digest of all that the code depends on; None where the texts are missing, as in bundles of programs."""
+    from llvmlite import __version__, binding
 
-    here, digest = Path(__file__).parent, hashlib.sha256()
     try:
-        texts = [(here / f"{name}.py").read_bytes() for name in (*COMMON, family)]
-    except OSError:  # packed in an archive
-        return None
-    for part in (
-        *texts,
-        importlib.metadata.version("llvmlite").encode(),
-        _target().triple.encode(),
-        binding.get_host_cpu_name().encode(),
-        binding.get_host_cpu_features().flatten().encode(),
-    ):
-        digest.update(hashlib.sha256(part).digest())
-    folder = platformdirs.user_cache_path("roughcontact")
-    if not folder.is_absolute():  # a user without a home
-        return None
-    return folder / f"{family}-{precision}-{digest.hexdigest()[:32]}.o"
-
-
-def _read(place: Path) -> bytes | None:
-    """Return the code that is kept; None if there is none, or not all of it."""
-    try:
-        kept = place.read_bytes()
+        texts = [_text(name) for name in (*COMMON, family)]
     except OSError:
         return None
-    check, code = kept[:DIGEST], kept[DIGEST:]
-    return code if hashlib.sha256(code).digest() == check else None
+    llvm = ".".join(map(str, binding.llvm_version_info))
+    parts = (family, precision, __version__, llvm, _target().triple, *processor())
+    digest = hashlib.sha256()
+    for part in (*(part.encode() for part in parts), *texts):
+        digest.update(hashlib.sha256(part).digest())
+    return digest.digest()
 
 
-def _keep(place: Path, code: bytes) -> None:
-    """Keep the code if there is a place; whoever reads meanwhile finds all of it or none."""
-    with contextlib.suppress(OSError):
-        place.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=place.parent)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(hashlib.sha256(code).digest() + code)
-            os.replace(name, place)
-        except OSError:
-            Path(name).unlink(missing_ok=True)
-            raise
+def _text(module: str) -> bytes:
+    return resources.files("roughcontact.machine").joinpath(f"{module}.py").read_bytes()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 __all__ = [
     "adhesion",
@@ -25,6 +26,28 @@ __all__ = [
     "viscoelastic",
     "viscoelastic_history",
 ]
+
+if TYPE_CHECKING:  # type checkers and bundlers of programs read this
+    from roughcontact.mdr import (
+        adhesion,
+        adhesive_path,
+        calibration,
+        equivalent_line,
+        foundation,
+        indentation,
+        indenter,
+        lattice_sums,
+        lee_radok,
+        line_curves,
+        line_scan,
+        random_lines,
+        rough_line,
+        sliding_friction,
+        slip_history,
+        tangential,
+        viscoelastic,
+        viscoelastic_history,
+    )
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -6,10 +6,14 @@ import re
 from collections.abc import Mapping
 from importlib import import_module
 from types import MappingProxyType, ModuleType
+from typing import TYPE_CHECKING
 
 from roughcontact.study.case import Case
 from roughcontact.study.errors import StudyError
 from roughcontact.study.explain import meant
+
+if TYPE_CHECKING:  # bundlers of programs read this
+    from roughcontact.study.cases import asperities, cells, curve, lines, refined, slip, yielding  # noqa: F401
 
 __all__ = ["CASES", "find_case"]
 
