@@ -3,6 +3,7 @@
 #   make demo               press two rough surfaces: tables, files and pictures in out/demo/
 #   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
+#   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
 #   make bench              compare with other programs, where they can be installed
 #   make clean              remove what the above have made
@@ -23,11 +24,11 @@ TORCH ?= torch==2.13.0+cpu
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test lint bench clean
+.PHONY: help demo test nox lint bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,10s/^# *//p' Makefile
+	@sed -n '3,11s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -38,6 +39,10 @@ test: $(ENV)/.ready-to-test
 	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
 	  && echo "test: OK" || { echo "test: FAILED"; exit 1; }
 
+nox: $(ENV)/.ready-to-test
+	@$(BIN)/python -m nox $(ARGS) \
+	  && echo "nox: OK" || { echo "nox: FAILED"; exit 1; }
+
 lint: $(ENV)/.ready-to-test
 	@$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python -m mypy \
 	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
@@ -47,7 +52,7 @@ bench: $(BENCH_ENV)/.ready
 	  && echo "bench: OK" || { echo "bench: FAILED"; exit 1; }
 
 clean:
-	rm -rf $(ENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(ENV) build dist out .nox .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean: OK"
 

@@ -1,6 +1,7 @@
 """NetCDF: the layout of contact.engineering, our own, and other maps with coordinates."""
 
 import contextlib
+import sys
 
 import numpy as np
 import pytest
@@ -167,3 +168,11 @@ def test_any_flipped_byte_of_a_small_file_is_survived(tmp_path, put, modern):
             assert min(surface.grid.shape) >= 2
             read += 1
     assert 0 < read < 150
+
+
+@pytest.mark.parametrize(("beginning", "module"), [(b"CDF\x01", "scipy.io"), (b"\x89HDF\r\n\x1a\n", "h5py")])
+def test_a_broken_library_is_no_damage_of_the_file(tmp_path, monkeypatch, beginning, module):
+    (tmp_path / "a.nc").write_bytes(beginning)
+    monkeypatch.setitem(sys.modules, module, None)  # as if it were not installed
+    with pytest.raises(ImportError):
+        rc.read(tmp_path / "a.nc")

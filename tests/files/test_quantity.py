@@ -1,5 +1,9 @@
+import sys
+from types import ModuleType
+
 import pytest
 
+from roughcontact.files import quantity
 from roughcontact.files.quantity import FORCE, LENGTH, parse, parse_number
 
 
@@ -26,3 +30,15 @@ def test_what_is_none_is_refused_with_a_value_error(text, message):
 def test_what_is_no_number_is_refused():
     with pytest.raises(ValueError, match=r"^'0.3 m' is not a number; expected a number such as 0.5$"):
         parse_number("0.3 m", "0.5")
+
+
+def test_a_broken_library_of_units_is_not_the_fault_of_the_unit(monkeypatch):
+    monkeypatch.setattr(quantity, "_registry", quantity._registry.__wrapped__)
+    monkeypatch.setitem(sys.modules, "pint", None)  # as if it were not installed
+    with pytest.raises(ImportError):
+        parse("5 mN", FORCE)
+    empty = ModuleType("pint")
+    empty.UnitRegistry = object
+    monkeypatch.setitem(sys.modules, "pint", empty)
+    with pytest.raises(AttributeError, match="parse_units"):
+        parse("5 mN", FORCE)

@@ -98,16 +98,16 @@ def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
 @contextmanager
 def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mapping[str, Any]]]:
     """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
+    # Late, for they take long; here, since a library that cannot be imported is no damage of the file.
+    import h5py
+    from scipy.io import netcdf_file
+
     try:
         if data.startswith(b"CDF"):
-            from scipy.io import netcdf_file
-
             reader: Any = netcdf_file
             with reader(BytesIO(data), "r", mmap=False) as classic:
                 yield _classic(classic), dict(classic._attributes)
         elif data.startswith(_HDF5):
-            import h5py
-
             with h5py.File(BytesIO(data), "r") as modern:
                 yield _modern(modern), dict(modern.attrs)
         else:

@@ -90,12 +90,14 @@ def parse_number(text: str, example: str) -> float:
 def _factor(unit: str, kind: Kind, text: str) -> float:
     """Return how many SI units of `kind` one `unit` is."""
     expected = f"expected {kind.name} such as {kind.example}"
+    # Asked for a unit that is right first: a broken pint is not the fault of the given one.
+    registry = _registry()
+    wanted = registry.parse_units(kind.unit).dimensionality
     try:
         if _UNIT.fullmatch(unit) is None:
             raise ValueError(unit)
-        registry = _registry()
         given = registry.Quantity(1.0, registry.parse_units(unit))
-        right = given.check(registry.parse_units(kind.unit).dimensionality)
+        right = given.check(wanted)
     except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
         raise ValueError(f"unknown unit {unit!r} in {text!r}; {expected}") from error
     if not right:
