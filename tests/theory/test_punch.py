@@ -135,8 +135,18 @@ class TestAnnulus:
 
 class TestTwoDiscs:
     def test_reference(self):
-        assert punch.two_discs(1.0, 1.0, 3.0) / 4 == pytest.approx(0.8216172090, rel=2e-4)
-        assert punch.two_discs(1.0, 1.0, 10.0) / 4 == pytest.approx(0.9399828791, rel=2e-8)
+        # To the digits of the references; the second is by Bessel functions in place of quadrature, in 30 digits.
+        assert punch.two_discs(1.0, 1.0, 3.0) / 4 == pytest.approx(0.8216172090, rel=1e-10)
+        assert punch.two_discs(1.0, 0.8, 3.2) == pytest.approx(2.75495819026, rel=1e-11)
+        assert punch.two_discs(1.0, 1.0, 10.0) / 4 == pytest.approx(0.9399828791, rel=1e-10)
+
+    def test_far_apart_the_series_in_radius_over_spacing_holds(self):
+        e = 1 / np.array([30.0, 100.0, 300.0])
+        # What two discs with the pressure of one do to each other, and the first part of what moves away.
+        v = e + e**3 / 3 - 4 / (3 * np.pi) * e**4
+        # The next term of v/e is 2/5 e^4.
+        k = punch.two_discs(1.0, 1.0, 1 / e)
+        np.testing.assert_allclose((4 / k - 1) * np.pi / 2 / v, 1, rtol=0.5 * e.max() ** 4)
 
     def test_between_one_disc_and_two(self):
         k = punch.two_discs(2.0, 1.0, np.geomspace(3, 1e6, 20))

@@ -19,7 +19,7 @@ def test_rings_are_averages_over_the_whole_plane(shape):
     surface = noise(shape)
     qy, qx, density = power_map(surface).centred()
     rings = power_spectrum(surface)
-    step = max(2 * math.pi / length for length in surface.grid.lengths)
+    step = min(2 * math.pi / length for length in surface.grid.lengths)
     limit = math.pi / 0.5
     found = {}
     for i, b in enumerate(qy):

@@ -47,7 +47,7 @@ def power_spectrum(
         What is taken out first; "auto" is the mean and, along free axes, the slope. Profiles of a surface
         also lose their own means.
     per_decade : float, optional
-        Bins to a factor of ten in wavenumber. By default a bin is one wave of the longer wavelength wide.
+        Bins to a factor of ten in wavenumber. By default a bin is one wave of the longer side wide.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def power_spectrum(
 
 def _rings(waves: PowerMap, surface: Surface, per_decade: float | None) -> tuple[Array, Array, Array]:
     """Return the wavenumber, the density and the number of waves of each ring."""
-    step = max(2 * math.pi / length for length in surface.grid.lengths)
+    step = min(2 * math.pi / length for length in surface.grid.lengths)
     limit = math.pi / max(surface.grid.spacing) * (1 - 1e-12)
     least = min(2 * math.pi / length for length in surface.grid.lengths)
     size = (
