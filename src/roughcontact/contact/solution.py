@@ -266,7 +266,7 @@ class Solution:
     def _knife_edge(self) -> tuple[str, ...]:
         """Return what there is to say where the stiffness has two sides."""
         count, k = int(namespace(self.pressure).count_nonzero(self.touching)), self.stiffness
-        most = added_stiffness(self.problem.operator, self.pressure, self.touching)
+        most = added_stiffness(self.problem.operator, self.contact, self.touching)
         if not (count and 0 < k < most / SLIGHT and self.loading_stiffness > (1 + SLIGHT) * k):
             return ()
         touch = "1 cell touches" if count == 1 else f"{count} cells touch"

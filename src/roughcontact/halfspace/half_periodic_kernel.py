@@ -19,9 +19,9 @@ Mask = npt.NDArray[np.bool_]
 Form = Callable[[Array, Array, tuple[float, float], float], Array]
 
 # In periods. What lies nearer than NEAR to the row is divided into pieces of CELL at most, whose images are summed one
-# by one up to IMAGES on either side, and beyond by powers of the distance over theirs. What lies further away is done in
-# one piece, however long, by waves along the row, of which WAVES are left. Each form is good to 1e-14 where it is used
-# (tests/halfspace/test_half_periodic.py).
+# by one up to IMAGES on either side, and beyond by powers of the distance over theirs. What lies further away is done
+# in one piece, however long, by waves along the row, of which WAVES are left. Each form is good to 1e-14 where it is
+# used (tests/halfspace/test_half_periodic.py).
 IMAGES = 4
 NEAR = 0.5
 CELL = 0.25
