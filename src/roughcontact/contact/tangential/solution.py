@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
+from roughcontact.cached import cached_property
 from roughcontact.contact.status import Status
 from roughcontact.contact.tangential.coulomb import at_limit
 from roughcontact.contact.tangential.interface import Interface
