@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
 from typing import Any, Generic, TypeVar, overload
 
-__all__ = ["cached_property", "fields_alone"]
+__all__ = ["cached_property"]
 
 T = TypeVar("T", covariant=True)
 
@@ -19,7 +18,7 @@ class cached_property(Generic[T]):  # noqa: N801  # used as the one of the stand
     waits for ever. Threads that ask at once all compute it, and all get the object that was ready first.
 
     The class needs a ``__dict__``; it may be a frozen dataclass, but has no slots. What is kept is copied and pickled
-    with the instance, unless its class says otherwise (`fields_alone`).
+    with the instance.
     """
 
     def __init__(self, function: Callable[[Any], T]) -> None:
@@ -41,8 +40,3 @@ class cached_property(Generic[T]):  # noqa: N801  # used as the one of the stand
             return self
         # Not asked for again: Python looks into the dictionary first. To set a default is one step for all threads.
         return vars(instance).setdefault(self._name, self._function(instance))
-
-
-def fields_alone(body: Any) -> dict[str, Any]:
-    """Return the fields of a dataclass without what is kept beside them: as ``__getstate__``, what pickling sends."""
-    return {field.name: getattr(body, field.name) for field in fields(body)}
