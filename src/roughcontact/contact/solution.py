@@ -27,6 +27,7 @@ from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import exact_of
 from roughcontact.surface.surface import Surface
+from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -84,6 +85,7 @@ class Solution:
         return self.pressure > 0
 
     @cached_property
+    @one_blas_thread()
     def force(self) -> float:
         """Normal force [N]; on a line [N/m]."""
         if not is_numpy(self.pressure):
@@ -109,6 +111,7 @@ class Solution:
         return self._mean_displacement(self.pressure) + self.problem.mean_separation - self.depth
 
     @cached_property
+    @one_blas_thread()
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
         if self.problem.hardness < np.inf or not is_numpy(
@@ -304,6 +307,7 @@ class Solution:
     def _measure(self) -> Measure:
         return Measure(self.problem.operator.weights)
 
+    @one_blas_thread()
     def _mean_displacement(self, pressure: Array) -> float:
         """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
         if self.problem.semidefinite and not self.missing:

@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.threads import once
+
 __all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
 COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code hangs on
@@ -26,7 +28,7 @@ _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner
 _REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 
-@cache
+@once
 def is_available() -> bool:
     """Whether LLVM is there and knows this machine; without it NumPy and SciPy do everything."""
     try:
@@ -41,7 +43,7 @@ def code_for(family: str, field: Any) -> Mapping[str, Callable[..., None]]:
     return functions(family, _NAMES[field.dtype.char])
 
 
-@cache
+@once
 def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
     """Return the functions of a module of this package, which take arrays by their addresses.
 

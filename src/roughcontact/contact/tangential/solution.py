@@ -17,6 +17,7 @@ from roughcontact.contact.tangential.problem import Pull, Shift, SlipProblem
 from roughcontact.contact.tangential.stiffness import TangentialStiffness, frozen_shear
 from roughcontact.halfspace.shear import dundurs_parameter
 from roughcontact.material import Solid
+from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -105,6 +106,7 @@ class TangentialSolution:
         return _count(self.sticking) == 0
 
     @cached_property
+    @one_blas_thread()
     def elastic_energy(self) -> float:
         """Elastic energy of the tangential displacement [J]: half the traction times it."""
         traction = self._on_cells(self.traction)
