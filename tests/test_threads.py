@@ -3,8 +3,11 @@
 import os
 import subprocess
 import sys
+import textwrap
 import threading
+import time
 import weakref
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import pytest
@@ -12,7 +15,13 @@ import pytest
 import roughcontact as rc
 from roughcontact import arrays
 from roughcontact import threads as threads_module
-from roughcontact.threads import join_in, limit_threads, spread, threads
+from roughcontact.contact.problem import ContactProblem, Force
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.status import Status
+from roughcontact.threads import join_in, limit_threads, once, one_blas_thread, spread, threads
+
+PATIENCE = 120  # [s], of a busy machine
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 
 
 def test_within_a_limit():
@@ -64,7 +73,7 @@ def test_where_nobody_can_come_all_is_done_and_nothing_is_held(monkeypatch):
 
     monkeypatch.setattr(threads_module, "Thread", Refused)
     crew = threads_module._Crew()
-    monkeypatch.setattr(threads_module, "_crew", lambda: crew)
+    monkeypatch.setattr(threads_module, "_crew", crew)
     field = np.zeros(3)
     held = weakref.ref(field)
 
@@ -127,18 +136,294 @@ def test_answers_do_not_hang_on_their_number(monkeypatch, periodic):
     assert answers[0].depth == answers[1].depth
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+class Library:
+    """A BLAS with one number of threads for the whole process."""
+
+    def __init__(self, count):
+        self.num_threads = count
+
+    def set_num_threads(self, count):
+        self.num_threads = count
+
+
+@pytest.fixture
+def library(monkeypatch):
+    library = Library(4)
+    monkeypatch.setattr(threads_module, "_shared", lambda: (library,))
+    return library
+
+
+def within(ready, go_on):
+    """Come in, say so, and go out when told to."""
+    with one_blas_thread():
+        ready.set()
+        assert go_on.wait(60)
+
+
+def started(*arguments):
+    thread = threading.Thread(target=within, args=arguments)
+    thread.start()
+    return thread
+
+
+def test_blas_has_one_thread_until_the_last_is_out(library):
+    events = [(threading.Event(), threading.Event()) for _ in range(2)]
+    both = [started(*pair) for pair in events]
+    for thread, (ready, go_on) in zip(both, events, strict=True):
+        assert ready.wait(60)
+        assert library.num_threads == 1
+        go_on.set()
+        thread.join(60)
+    assert library.num_threads == 4
+
+
+def test_blas_has_its_threads_again_after_a_failure(library):
+    with pytest.raises(ArithmeticError), one_blas_thread(), one_blas_thread():
+        raise ArithmeticError
+    assert library.num_threads == 4
+
+
+def test_what_somebody_else_sets_meanwhile_stays(library):
+    with one_blas_thread():
+        library.set_num_threads(3)
+    assert library.num_threads == 3
+
+
+def test_blas_that_counts_for_each_thread_is_limited_in_each(monkeypatch):
+    """Each thread sets its own number, and sets it back itself: no other could."""
+
+    class Counts(threading.local):
+        num_threads = 4
+
+        @contextmanager
+        def limit(self, limits, user_api):
+            before, self.num_threads = self.num_threads, limits
+            yield
+            self.num_threads = before
+
+    counts, seen = Counts(), []
+    monkeypatch.setattr(threads_module, "_own", lambda: counts)
+
+    def work():
+        with one_blas_thread():
+            seen.append(counts.num_threads)
+        seen.append(counts.num_threads)
+
+    with one_blas_thread():
+        other = threading.Thread(target=work)
+        other.start()
+        other.join(60)
+        work()
+        assert counts.num_threads == 1
+    assert seen == [1, 4, 1, 1]
+    assert counts.num_threads == 4
+
+
+@pytest.fixture
+def two_blas_threads():
+    """Give BLAS two threads, and return a function that tells how many it has."""
+    libraries = threads_module._shared()
+    before = [library.num_threads for library in libraries]
+    for library in libraries:
+        threads_module._set(library, 2)
+    yield lambda: [library.num_threads for library in libraries]
+    for library, count in zip(libraries, before, strict=True):
+        threads_module._set(library, count)
+
+
+def surfaces(shape):
+    """Return eight rough surfaces, on which two BLAS threads would change the last bits."""
+    samples = ((rc.Grid(shape, 1 / 12, k % 2 == 1), np.random.default_rng(k)) for k in range(8))
+    return [rc.self_affine(grid, 0.8, 0.01, rng) for grid, rng in samples]
+
+
+def answers(rough):
+    solution = rc.press(rough, 1.0, force=0.08)
+    return solution.pressure.tobytes(), solution.depth
+
+
+def test_eight_threads_press_as_one_does(two_blas_threads):
+    """Each presses 200 times: all bits are equal, and BLAS has its threads afterwards."""
+    before, samples = two_blas_threads(), surfaces((10, 16))
+    expected, wrong = [answers(rough) for rough in samples], []
+
+    def work(first):
+        pressed = (k % 8 for k in range(first, first + 200))
+        wrong.extend(k for k in pressed if answers(samples[k]) != expected[k])
+
+    together = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+    for thread in together:
+        thread.start()
+    for thread in together:
+        thread.join()
+    assert wrong == []
+    assert two_blas_threads() == before
+
+
+@pytest.mark.parametrize("shape", [(128, 160), (20, 20)])
+def test_what_a_solution_tells_does_not_hang_on_the_threads_of_blas(two_blas_threads, shape):
+    """Another thread that presses would change them: sums of more than 10 000 products are divided among them."""
+    rng, grid = np.random.default_rng(0), rc.Grid(shape, 1.0)
+    separation, pressure = rng.permutation(grid.size).reshape(shape) / grid.size, rng.random(shape)
+    operator = rc.half_space(grid, 1.0, "fft" if grid.size > 400 else "dense")
+    told = []
+    for _ in range(2):
+        problem = ContactProblem(separation, operator, Force(1.0))
+        solution = Solution(problem, pressure, 10.0, Status.CONVERGED, 0.0, 1)
+        field = solution.displacement.tobytes()
+        told.append((solution.force, solution.elastic_energy, solution.mean_gap, field))
+        for library in threads_module._shared():
+            threads_module._set(library, 1)
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_once_is_once_for_all_threads(fails):
+    calls, gate = [], threading.Barrier(4)
+
+    @once
+    def slow(number):
+        calls.append(number)
+        if fails and len(calls) == 1:
+            raise ArithmeticError
+        time.sleep(0.05)
+        return [number]
+
+    found = []
+
+    def ask():
+        gate.wait(60)
+        with suppress(ArithmeticError):
+            found.append(slow(3))
+
+    asking = [threading.Thread(target=ask) for _ in range(4)]
+    for thread in asking:
+        thread.start()
+    for thread in asking:
+        thread.join(60)
+    assert calls == [3] * (1 + fails)
+    assert len(found) == 4 - fails
+    assert all(one is slow(3) for one in found)
+    slow.cache_clear()
+    assert slow(3) is not found[0]
+
+
+FORKED = """
+import os, signal, sys, threading, time, warnings
+# Python 3.12 warns of all forks beside threads: that these go well is what is shown here.
+warnings.filterwarnings("ignore", "This process .* is multi-threaded", DeprecationWarning)
+
+def fork(work):
+    child = os.fork()
+    if not child:
+        signal.alarm({patience})  # who hangs is killed
+        os._exit(0 if work() else 1)
+    return child
+
+def ended(child):
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+"""
+
+
+def run_forking(script):
+    script = FORKED.format(patience=PATIENCE) + textwrap.dedent(script)
+    command = [sys.executable, "-W", "error", "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=2 * PATIENCE, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@forks
 def test_a_forked_process_has_threads_of_its_own():
-    code = (
-        "import os, sys\n"
-        "from roughcontact.threads import limit_threads, spread\n"
-        "with limit_threads(2):\n"
-        "    spread(lambda item: None, range(4))\n"
-        "    child = os.fork()\n"
-        "    if not child:\n"
-        "        done = []\n"
-        "        spread(done.append, range(4))\n"
-        "        os._exit(len(done))\n"
-        "    sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 4)\n"
+    run_forking(
+        """
+        from roughcontact.threads import join_in, limit_threads, spread
+        def work():
+            done, joined = [], []
+            spread(done.append, range(4))
+            join_in(joined.append, 2)
+            return len(done) == 4 and 0 in joined
+        with limit_threads(2):
+            assert work()
+            sys.exit(ended(fork(work)))
+        """
     )
-    subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=True, timeout=60)
+
+
+@forks
+def test_a_forked_process_has_the_blas_threads_of_whoever_forked():
+    """Where another thread was inside it has all of them, for that thread is not there to set them back."""
+    run_forking(
+        """
+        from types import SimpleNamespace
+        from roughcontact import threads
+        library = SimpleNamespace(num_threads=4)
+        library.set_num_threads = lambda count: setattr(library, "num_threads", count)
+        threads._shared = lambda: (library,)
+        ready, go_on = threading.Event(), threading.Event()
+        def inside():
+            with threads.one_blas_thread():
+                ready.set()
+                go_on.wait()
+        thread = threading.Thread(target=inside)
+        thread.start()
+        ready.wait()
+        counts = [ended(fork(lambda: library.num_threads == 4)), library.num_threads]
+        with threads.one_blas_thread():
+            counts.append(ended(fork(lambda: library.num_threads == 1)))
+        go_on.set()
+        thread.join()
+        sys.exit((*counts, library.num_threads) != (0, 1, 0, 4))
+        """
+    )
+
+
+@forks
+def test_a_fork_waits_for_what_is_computed_once():
+    run_forking(
+        """
+        from roughcontact.threads import once
+        begun, calls = threading.Event(), []
+        @once
+        def slow():
+            calls.append(0)
+            begun.set()
+            time.sleep(0.2)
+            return 7
+        thread = threading.Thread(target=slow)
+        thread.start()
+        begun.wait()
+        sys.exit(ended(fork(lambda: slow() == 7 and len(calls) == 1)))
+        """
+    )
+
+
+@forks
+def test_processes_forked_while_others_press_all_finish():
+    """Fifty of fifty, the first while machine code is being loaded; the bits are those of the parent."""
+    run_forking(
+        """
+        import numpy as np
+        import roughcontact as rc
+        def press():
+            found = rc.press(rough, 1.0, force=0.08)
+            return found.pressure.tobytes(), found.stiffness, found.mean_gap
+        def go_on():
+            while not done:
+                press()
+        rough = rc.self_affine(rc.Grid((12, 14), 1 / 12), 0.8, 0.01, np.random.default_rng(0))
+        done, children, codes, known = [], [], [], None
+        beside = [threading.Thread(target=go_on, daemon=True) for _ in range(2)]
+        for thread in beside:
+            thread.start()
+        for k in range(50):
+            time.sleep(0.002 * (k % 5))
+            children.append(fork(lambda: press() == known if known else bool(press())))
+            if len(children) == 5:
+                codes += map(ended, children)
+                children, known = [], press()
+        done.append(True)
+        for thread in beside:
+            thread.join()
+        assert codes == [0] * 50, codes
+        """
+    )

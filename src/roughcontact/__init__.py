@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.threads import no_fork
+
 __version__ = "0.1.0"
 
 # The public names and the rooms they live in; a room is opened when its name is first asked for.
@@ -216,11 +218,12 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    if name in _MODULES:
-        return import_module(f"roughcontact.{_MODULES[name]}")
-    if name not in _ROOMS:
-        raise AttributeError(f"module 'roughcontact' has no attribute {name!r}")
-    value = getattr(import_module(f"roughcontact.{_ROOMS[name]}"), name)
+    with no_fork:  # a process forked in the middle of an import could never import the same
+        if name in _MODULES:
+            return import_module(f"roughcontact.{_MODULES[name]}")
+        if name not in _ROOMS:
+            raise AttributeError(f"module 'roughcontact' has no attribute {name!r}")
+        value = getattr(import_module(f"roughcontact.{_ROOMS[name]}"), name)
     globals()[name] = value
     return value
 

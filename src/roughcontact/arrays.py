@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import array_api_compat
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
@@ -48,8 +49,6 @@ def namespace(array: Any) -> Any:
     """Return the functions for an array by the names of the array API standard: NumPy, CuPy, PyTorch, ..."""
     if isinstance(array, np.ndarray):
         return np
-    import array_api_compat
-
     return array_api_compat.array_namespace(array)
 
 
@@ -57,8 +56,6 @@ def is_array(value: Any) -> bool:
     """Whether a value is an array of a library that follows the array API standard, NumPy or another."""
     if isinstance(value, np.ndarray):
         return True
-    import array_api_compat
-
     return bool(array_api_compat.is_array_api_obj(value))
 
 
@@ -89,8 +86,6 @@ def on_host(array: Any) -> Array:
     """Return an array in NumPy's memory, as it is if there already: for files and pictures, at the rim."""
     if isinstance(array, np.ndarray):
         return array
-    import array_api_compat
-
     if array_api_compat.is_cupy_array(array):
         return np.asarray(array.get(), dtype=np.float64)
     torch = array_api_compat.is_torch_array(array)
@@ -102,8 +97,6 @@ def beside(values: Array, array: Any) -> Any:
     """Return some numbers of the host in the library, on the device and in the precision of `array`."""
     if isinstance(array, np.ndarray):
         return values
-    import array_api_compat
-
     return namespace(array).asarray(values, dtype=array.dtype, device=array_api_compat.device(array))
 
 
@@ -172,8 +165,6 @@ class Placed:
         """
         if isinstance(array, np.ndarray) and (array.dtype == self.host.dtype or array.dtype.kind in "biu"):
             return self.host
-        import array_api_compat
-
         require_floating(array)
         device = array_api_compat.device(array)
         key = (type(array), str(device), str(array.dtype))

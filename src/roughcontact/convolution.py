@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, convolve, fast_even_length, is_numpy
+from roughcontact.machine import convolution as machine
 from roughcontact.machine import loader
 
 __all__ = ["Convolution", "padded_length"]
@@ -53,11 +54,9 @@ class Convolution:
 
     def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
         """Return the machine's kernel for fields of one shape and precision."""
-        from roughcontact.machine.convolution import Convolution
-
         if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
             raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
-        ready = Convolution.of(self._kernel(), shape, self.lengths, dtype.name)
+        ready = machine.Convolution.of(self._kernel(), shape, self.lengths, dtype.name)
         self._ready[shape, dtype] = ready
         if dtype == np.float64:
             self._multiplier = None  # planes are large: none is kept twice
@@ -87,6 +86,4 @@ def padded_length(cells: int) -> int:
 def _in_machine_code(field: Array, lengths: Pair) -> bool:
     if not is_numpy(field) or field.ndim != 2 or field.shape[0] < ROWS or not loader.takes(field):
         return False
-    from roughcontact.machine.convolution import fits
-
-    return fits(lengths)
+    return machine.fits(lengths)

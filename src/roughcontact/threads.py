@@ -1,4 +1,4 @@
-"""How many threads work is done by."""
+"""How many threads work is done by, and what forks wait for."""
 
 from __future__ import annotations
 
@@ -7,20 +7,50 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from functools import cache
+from functools import cache, update_wrapper
 from queue import SimpleQueue
-from threading import Lock, Thread
-from typing import TypeVar
+from threading import Lock, RLock, Thread, get_ident
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, TypeVarTuple
 
-from threadpoolctl import ThreadpoolController
+if TYPE_CHECKING:
+    from threadpoolctl import ThreadpoolController
 
-__all__ = ["join_in", "limit_threads", "one_blas_thread", "spread", "threads"]
+__all__ = ["join_in", "limit_threads", "no_fork", "once", "one_blas_thread", "spread", "threads"]
 
 T = TypeVar("T")
+Ts = TypeVarTuple("Ts")
 
 MOST = 8  # transforms wait for memory: more threads than this find none
 
 _limit: ContextVar[int | None] = ContextVar("threads", default=None)
+
+# Held for what a forked process must not find half done: a fork waits until nobody holds it. One lock for all of it,
+# so that no two can wait for each other.
+no_fork = RLock()
+
+
+class once(Generic[*Ts, T]):  # noqa: N801  # a decorator
+    """Keep what a function returns, as `functools.cache` does; one thread computes it, and others and forks wait.
+
+    For what takes long, or takes locks that a fork must not catch, as an import does.
+    """
+
+    def __init__(self, function: Callable[[*Ts], T]) -> None:
+        self._function = function
+        self._kept: dict[tuple[*Ts], T] = {}
+        update_wrapper(self, function)
+
+    def __call__(self, *arguments: *Ts) -> T:
+        """Return what the function does."""
+        if arguments not in self._kept:
+            with no_fork:
+                if arguments not in self._kept:
+                    self._kept[arguments] = self._function(*arguments)
+        return self._kept[arguments]
+
+    def cache_clear(self) -> None:
+        """Forget it all."""
+        self._kept.clear()
 
 
 def threads() -> int:
@@ -59,7 +89,7 @@ def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> Non
         for item in items[first::count]:
             work(item)
 
-    others = [_pool().submit(share, first) for first in range(1, count)]
+    others = [_pool.submit(share, first) for first in range(1, count)]
     try:
         share(0)
     finally:
@@ -76,7 +106,7 @@ def join_in(work: Callable[[int], None], count: int) -> None:
     wanted = [work]
     try:
         if count > 1:
-            _crew().call(wanted, range(1, count))
+            _crew.call(wanted, range(1, count))
         work(0)
     finally:
         wanted.clear()  # who has not come holds nothing any more
@@ -88,9 +118,67 @@ def one_blas_thread() -> Iterator[None]:
 
     The factorisations here are small. A second thread makes them at best twice as fast on an idle machine, and
     much slower where another process wants a core, since BLAS threads spin while they wait for each other.
+
+    Most BLAS has one number of threads for the whole process: it is 1 from the first thread of Python that comes in
+    until the last one is out, and others that call BLAS meanwhile have one thread, too.
     """
-    with _controller().limit(limits=1, user_api="blas"):
-        yield
+    mine = object()
+    try:
+        _come_in(mine)
+        with _own().limit(limits=1, user_api="blas"):
+            yield
+    finally:
+        _go_out(mine)
+
+
+_inside: dict[object, int] = {}  # the threads that want one BLAS thread, as often as they do
+_before: list[tuple[Any, int]] = []  # the libraries that were limited for them, and the threads that each had
+
+
+def _come_in(mine: object) -> None:
+    with no_fork:
+        _inside[mine] = get_ident()
+        if len(_inside) == 1:
+            _before[:] = [(library, library.num_threads) for library in _shared()]
+            for library, _ in _before:
+                _set(library, 1)
+
+
+def _go_out(mine: object) -> None:
+    with no_fork:
+        _inside.pop(mine, None)
+        while not _inside and _before:
+            library, count = _before.pop()
+            if library.num_threads == 1:  # else somebody has set another number meanwhile, which stays
+                _set(library, count)
+
+
+def _set(library: Any, count: int) -> None:
+    # Newer versions let one thread set the number and ignore all others, as long as that lives or until it is cleared.
+    clear = getattr(library, "clear_controlling_thread", lambda force: None)
+    clear(force=True)
+    library.set_num_threads(count)
+    clear(force=True)
+
+
+@cache
+def _own() -> ThreadpoolController:
+    """Return the BLAS of which each thread of Python has a number of its own."""
+    return _controller().select(threading_layer="openmp", internal_api="mkl")
+
+
+@cache
+def _shared() -> tuple[Any, ...]:
+    """Return the other BLAS."""
+    own = _own().lib_controllers
+    return tuple(library for library in _controller().lib_controllers if library not in own)
+
+
+@once
+def _controller() -> ThreadpoolController:
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController().select(user_api="blas")
 
 
 @cache
@@ -131,21 +219,18 @@ class _Crew:
             del wanted
 
 
-@cache
-def _crew() -> _Crew:
-    return _Crew()
+_crew = _Crew()
+_pool = ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
 
 
-@cache
-def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
-
-
-@cache
-def _controller() -> ThreadpoolController:
-    return ThreadpoolController()
+def _in_child() -> None:
+    """Go on in a forked process, which has one thread: the one that forked."""
+    global _crew, _pool
+    _crew, _pool = _Crew(), ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
+    for mine in [mine for mine, thread in _inside.items() if thread != get_ident()]:
+        _go_out(mine)
+    no_fork.release()
 
 
 if hasattr(os, "register_at_fork"):
-    for _threads in (_pool, _crew):
-        os.register_at_fork(after_in_child=_threads.cache_clear)  # a forked process has none of these threads
+    os.register_at_fork(before=no_fork.acquire, after_in_parent=no_fork.release, after_in_child=_in_child)

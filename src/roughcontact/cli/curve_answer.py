@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.cached import cached_property
 from roughcontact.cli.conductance import COLUMNS
 from roughcontact.cli.errors import note, plain
 from roughcontact.cli.output import all_or_none, command_line

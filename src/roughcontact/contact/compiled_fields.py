@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.cached import cached_property
 from roughcontact.contact.bounded import Bounded, Measured, Preconditioned
 from roughcontact.contact.drivers import Driver
 from roughcontact.contact.trial import Trial

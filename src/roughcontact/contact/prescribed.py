@@ -141,8 +141,8 @@ def prescribe(
         start = None if start is None else take(start, place)
     with one_blas_thread():
         pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
-    # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
-    work = Measure(part.weights).dot(pressure, wanted + lacking)
+        # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
+        work = Measure(part.weights).dot(pressure, wanted + lacking)
     whole = pressure if place is None else embed(pressure, place, region.shape)
     return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
 

@@ -205,7 +205,7 @@ class ContactProblem:
     def once(self, name: str, compute: Callable[[], T]) -> T:
         """Return what depends on the bodies alone, computed once for all loads on them."""
         if name not in self._memo:
-            self._memo[name] = compute()
+            self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
         value: T = self._memo[name]
         return value
 

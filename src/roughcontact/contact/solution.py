@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace, on_host
+from roughcontact.cached import cached_property
 from roughcontact.contact.complementarity import SLIGHT, added_stiffness, weakly_active
 from roughcontact.contact.measure import Measure
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
@@ -30,6 +30,7 @@ from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import exact_of, is_positive
 from roughcontact.surface.surface import Surface
+from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -87,6 +88,7 @@ class Solution:
         return self.pressure > 0
 
     @cached_property
+    @one_blas_thread()
     def force(self) -> float:
         """Normal force [N]; on a line [N/m]."""
         if not is_numpy(self.pressure):
@@ -119,6 +121,7 @@ class Solution:
         return self._mean_opening(self.displacement + self.problem.separation - self.depth)
 
     @cached_property
+    @one_blas_thread()
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
         if self.problem.hardness < np.inf or not is_numpy(
@@ -376,6 +379,7 @@ class Solution:
         problem, closed = self.problem, yields_not(self.pressure, self.problem.hardness)
         return mean_opening(exact_of(problem.operator), opening, closed, problem.measured)
 
+    @one_blas_thread()
     def _mean_displacement(self, pressure: Array) -> float:
         """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
         if self._moves_no_mean:

@@ -45,8 +45,12 @@ class ConvergenceError(RuntimeError):
     """A solve that missed its tolerance; `solution` is the best that was reached."""
 
     def __init__(self, solution: Solution) -> None:
-        super().__init__(
+        super().__init__(solution)  # in `args`, so that the error can be pickled
+        self.solution = solution
+
+    def __str__(self) -> str:
+        solution = self.solution
+        return (
             f"residual {solution.residual:.1e} after {solution.steps} steps, tolerance "
             f"{solution.problem.tolerance:.1e}: {solution.status.message}"
         )
-        self.solution = solution

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.direct_sum import DirectSum
 from roughcontact.halfspace.influence import Tables

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.arrays import fast_even_length
+from roughcontact.cached import cached_property
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator

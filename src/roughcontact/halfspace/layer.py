@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.cached import cached_property
 from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator

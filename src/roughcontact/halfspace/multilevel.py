@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import require_numpy
+from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator
 from roughcontact.halfspace.levels import Hierarchy, Kernel

@@ -9,13 +9,14 @@ certify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import over
+from roughcontact.cached import cached_property
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.direct_sum import DirectSum

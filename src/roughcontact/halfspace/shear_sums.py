@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, fast_even_length, namespace
+from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.field_transform import padded_lengths
 from roughcontact.halfspace.shear_influence import ShearInfluence, ShearWaves

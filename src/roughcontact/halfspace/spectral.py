@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import even_multiplier, fast_even_length, less, namespace, require_floating
+from roughcontact.cached import cached_property
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.cells import CellsOperator

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.cached import cached_property
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.field_transform import Parity, convolve_each, padded_lengths, parity_multiplier
 from roughcontact.halfspace.love_field import (

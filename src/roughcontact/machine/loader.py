@@ -14,6 +14,7 @@ import numpy as np
 
 from roughcontact.machine import disk
 from roughcontact.machine.processor import is_off, processor
+from roughcontact.threads import once
 
 __all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
@@ -24,7 +25,7 @@ _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner
 _REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 
-@cache
+@once
 def is_available() -> bool:
     """Whether LLVM makes code that runs here, and is wanted; without it NumPy and SciPy do everything.
 
@@ -47,7 +48,7 @@ def code_for(family: str, field: Any) -> Mapping[str, Callable[..., None]]:
     return functions(family, _NAMES[field.dtype.char])
 
 
-@cache
+@once
 def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
     """Return the functions of a module of this package, which take arrays by their addresses.
 

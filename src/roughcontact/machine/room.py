@@ -8,14 +8,13 @@ Very large planes are not: their pages are better touched where they are needed.
 from __future__ import annotations
 
 import math
-import os
-from threading import RLock
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.machine.loader import address
+from roughcontact.threads import no_fork
 
 __all__ = ["aligned", "empty", "zeros"]
 
@@ -29,9 +28,6 @@ LARGE = 2**23  # bytes from which on none is kept
 MOST = 2**26  # bytes that are kept in all
 _kept: dict[Kind, list[Block]] = {}
 _total = [0]  # bytes that are kept now
-_lock = RLock()  # an array may go whenever Python clears up: even here
-if hasattr(os, "register_at_fork"):  # a forked process has no other thread that could give it back
-    os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release, after_in_child=_lock.release)
 
 
 def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
@@ -41,7 +37,7 @@ def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     if not SMALL <= size < LARGE:
         return np.empty(shape, dtype)
     kind, block = (shape, dtype.str), None
-    with _lock:
+    with no_fork:
         blocks = _kept.get(kind)
         if blocks:
             block = blocks.pop()
@@ -93,7 +89,10 @@ def _new(kind: Kind, size: int) -> Block:
 
 def _keep(block: Block) -> None:
     kind, size = (block[0]["shape"], block[0]["typestr"]), block[1].nbytes - LINE
-    with _lock:
+    # An array may go whenever Python clears up, even here or on the way into a fork: nobody waits then.
+    if not no_fork.acquire(blocking=False):
+        return
+    try:
         _kept[kind] = _kept.pop(kind, [])  # the last of all
         while _total[0] + size > MOST:  # those to which nothing came for longest make room
             other = next(iter(_kept))
@@ -104,3 +103,5 @@ def _keep(block: Block) -> None:
         if _total[0] + size <= MOST:
             _kept[kind].append(block)
             _total[0] += size
+    finally:
+        no_fork.release()

@@ -100,6 +100,7 @@ def slide(
     return answer
 
 
+@one_blas_thread()
 def advance(
     problem: SlipProblem, load: Pull | Shift, initial: TangentialSolution | None = None
 ) -> TangentialSolution:
@@ -121,8 +122,7 @@ def advance(
         scale=float(namespace(moved).max(lengths(moved))),
         tolerance=problem.tolerance,
     )
-    with one_blas_thread():
-        found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
+    found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
     now = found.displacement - beside(found.shift[:, None], found.displacement)
     fields = [interface.embed(found.traction), interface.embed(now)]
     for field in fields:

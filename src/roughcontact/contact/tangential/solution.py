@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
+from roughcontact.cached import cached_property
 from roughcontact.contact.status import Status
 from roughcontact.contact.tangential.coulomb import at_limit
 from roughcontact.contact.tangential.interface import Interface
@@ -17,6 +17,7 @@ from roughcontact.contact.tangential.problem import Pull, Shift, SlipProblem
 from roughcontact.contact.tangential.stiffness import TangentialStiffness, frozen_shear
 from roughcontact.halfspace.shear import dundurs_parameter
 from roughcontact.material import Solid
+from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -109,6 +110,7 @@ class TangentialSolution:
         return _count(self.sticking) == 0
 
     @cached_property
+    @one_blas_thread()
     def elastic_energy(self) -> float:
         """Elastic energy of the tangential displacement [J]: half the traction times it."""
         traction = self._on_cells(self.traction)

@@ -97,6 +97,7 @@ def tangential_stiffness(
     return frozen
 
 
+@one_blas_thread()
 def frozen_shear(
     operator: ShearOperator, region: Mask, *, tolerance: float = TOLERANCE
 ) -> TangentialStiffness:
@@ -107,8 +108,7 @@ def frozen_shear(
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
-    with one_blas_thread():
-        answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
+    answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
     # By what the errors are to the tractions, the matrix is good to the product of two errors, beside the diagonal too.
     matrix = np.array(
         [
