@@ -1,7 +1,6 @@
 """Machine code on disk: found again, mended, done without; and the whole package without LLVM."""
 
 import ast
-import importlib.util
 import os
 import platform
 import subprocess
@@ -10,87 +9,18 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-import platformdirs
 import pytest
 
 import roughcontact
 from roughcontact.machine import disk, loader
 from roughcontact.machine.processor import VARIABLE
 
-posix = pytest.mark.skipif(os.name != "posix", reason="owners and modes are those of POSIX")
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 FAMILIES = ("fourier", "judging", "passes", "scaling", "tiles")
-TINY = '''
-"""Adds a number to some."""
-
-from roughcontact.machine.code import Code
-
-KINDS = {"add": "index reals real"}
 
 
-def write(module, precision):
-    with Code(module, "add", precision, KINDS["add"]) as code:
-        n, x, by = code.arguments
-        for at in code.range(0, n):
-            x.put(at, x.take_one(at) + by)
-'''
-
-
-@pytest.fixture
-def kept(monkeypatch, tmp_path):
-    """Return the folder for caches, which is empty, of a package with two small families: one adds, one subtracts."""
-    if disk.private(tmp_path) is None:
-        pytest.skip("others can write to the folder of the tests")
-    source, caches = tmp_path / "source", tmp_path / "caches"
-    source.mkdir()
-    for name in loader.COMMON:
-        (source / f"{name}.py").write_bytes(loader._text(name))
-    families = {"tiny": TINY, "other": TINY.replace("+ by", "- by")}
-    for name, text in families.items():
-        (source / f"{name}.py").write_text(text)
-        spec = importlib.util.spec_from_file_location(name, source / f"{name}.py")
-        families[name] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(families[name])
-    monkeypatch.setattr(loader, "_families", lambda: families)
-    monkeypatch.setattr(loader, "_text", lambda name: (source / f"{name}.py").read_bytes())
-    monkeypatch.setattr(platformdirs, "user_cache_path", lambda name: caches / name)
-    loader.functions.cache_clear()
-    yield caches / "roughcontact"
-    loader.functions.cache_clear()
-
-
-@pytest.fixture
-def translated(monkeypatch):
-    """Return a list that grows with each translation."""
-    done, translate = [], loader._translated
-
-    def counted(writer, precision):
-        done.append((writer.__name__, precision))
-        return translate(writer, precision)
-
-    monkeypatch.setattr(loader, "_translated", counted)
-    return done
-
-
-@pytest.fixture
-def others(monkeypatch):
-    """Return what gives a file or folder to another user; where only root may, this user becomes another."""
-    other = os.geteuid() + 54321
-    if os.geteuid() == 0:
-        return lambda place: os.chown(place, other, -1)
-    return lambda place: monkeypatch.setattr(os, "geteuid", lambda: other)
-
-
-def works(precision="float64"):
-    """Whether a new process would have the function: this one forgets it first."""
-    loader.functions.cache_clear()
-    numbers = np.arange(5, dtype=precision)
-    loader.functions("tiny", precision)["add"](5, loader.address(numbers), 0.5)
-    return numbers.tolist() == [0.5, 1.5, 2.5, 3.5, 4.5]
-
-
-def test_code_is_translated_once(kept, translated):
+def test_code_is_translated_once(kept, translated, works):
     assert works()
     assert works()
     assert works("float32")
@@ -99,67 +29,10 @@ def test_code_is_translated_once(kept, translated):
     assert len(list(kept.iterdir())) == 2
 
 
-def test_within_a_process_it_is_not_even_looked_for(kept, monkeypatch):
+def test_within_a_process_it_is_not_even_looked_for(kept, monkeypatch, works):
     assert works()
     monkeypatch.setattr(disk, "read", None)
     assert loader.functions("tiny", "float64") is loader.functions("tiny", "float64")
-
-
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda whole: b"",
-        lambda whole: whole[:10],
-        lambda whole: whole[: disk.DIGEST],
-        lambda whole: whole[:-1],
-        lambda whole: whole[: len(whole) // 2],
-        lambda whole: whole + b"\0",
-        lambda whole: bytes([whole[0] ^ 1]) + whole[1:],
-        lambda whole: whole[:-200] + bytes([whole[-200] ^ 64]) + whole[-199:],
-        lambda whole: bytes(len(whole)),
-    ],
-)
-def test_damaged_code_is_translated_anew_and_replaced(kept, translated, damage):
-    assert works()
-    (file,) = kept.iterdir()
-    whole = file.read_bytes()
-    file.write_bytes(damage(whole))
-    assert works()
-    assert len(translated) == 2
-    assert [f.name for f in kept.iterdir()] == [file.name]
-    assert works()
-    assert len(translated) == 2
-
-
-def test_nothing_half_written_stays(kept, translated):
-    """A file in the code's place that cannot be replaced: the rest of it is taken away."""
-    assert works()
-    (place,) = kept.iterdir()
-    place.unlink()
-    place.mkdir()
-    (place / "something").write_text("in the way")
-    assert works()
-    assert [f.name for f in kept.iterdir()] == [place.name]
-    assert works()
-    assert len(translated) == 3
-
-
-def test_a_disk_that_is_full_does_not_matter(kept, translated, monkeypatch):
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", full)
-    assert works()
-    assert list(kept.iterdir()) == []
-
-
-def test_a_folder_that_cannot_be_made_does_not_matter(kept, translated, monkeypatch, tmp_path):
-    (tmp_path / "file").write_text("not a folder")
-    monkeypatch.setattr(platformdirs, "user_cache_path", lambda name: tmp_path / "file" / name)
-    assert works()
-    assert works()
-    assert len(translated) == 2
-    assert (tmp_path / "file").read_text() == "not a folder"
 
 
 @pytest.mark.parametrize("name", [*loader.COMMON, "tiny"])
@@ -205,7 +78,7 @@ def test_no_text_is_left_out_that_a_family_is_written_with(family):
     assert imports(family) <= set(loader.COMMON)
 
 
-def test_without_texts_code_is_made_and_not_kept(kept, translated, monkeypatch):
+def test_without_texts_code_is_made_and_not_kept(kept, translated, monkeypatch, works):
     """As in bundles of programs, which hold no source."""
 
     def missing(name):
@@ -218,127 +91,10 @@ def test_without_texts_code_is_made_and_not_kept(kept, translated, monkeypatch):
     assert not kept.exists()
 
 
-def test_code_of_another_key_is_not_run(kept, translated):
-    """It subtracts, or takes numbers of another precision; its name says otherwise."""
-    for family, precision in (("other", "float64"), ("tiny", "float32")):
-        assert works()
-        (ours,) = kept.glob("tiny-float64-*")
-        loader.functions(family, precision)
-        (theirs,) = kept.glob(f"{family}-{precision}-*")
-        os.replace(theirs, ours)
-        assert works()
-    assert [done for done in translated if done == ("tiny", "float64")] == [("tiny", "float64")] * 3
-
-
-def test_code_without_the_function_is_made_anew(kept, translated):
-    """An address of 0, which would end the process."""
-    assert works()
-    (file,) = kept.iterdir()
-    wrong = loader._translated(loader._families()["tiny"], "float32")
-    disk.keep(file.name, loader._key("tiny", "float64"), wrong)
-    assert works()
-    assert works()
-    assert [precision for _, precision in translated] == ["float64", "float32", "float64"]
-
-
 def test_a_function_that_was_never_written_is_an_error():
     code = loader._translated(loader._families()["scaling"], "float64")
     with pytest.raises(RuntimeError, match="widen, nothing are in the code"):
         loader._loaded(code, {"widen": "", "nothing": ""}, "float64")
-
-
-@posix
-@pytest.mark.parametrize("mode", [0o660, 0o606, 0o666])
-def test_a_file_that_others_can_write_to_is_not_run_but_replaced(kept, translated, mode):
-    assert works()
-    (file,) = kept.iterdir()
-    file.chmod(mode)
-    assert works()
-    assert works()
-    assert len(translated) == 2
-    assert file.stat().st_mode & 0o77 == 0
-
-
-@posix
-def test_a_file_of_another_user_is_not_run(kept, translated, others):
-    assert works()
-    others(next(kept.iterdir()))
-    assert works()
-    assert len(translated) == 2
-
-
-@posix
-@pytest.mark.parametrize("mode", [0o770, 0o707, 0o1777])
-@pytest.mark.parametrize("above", [False, True])
-def test_a_folder_that_others_can_write_to_is_neither_read_nor_written(kept, translated, mode, above):
-    assert works()
-    (kept.parent if above else kept).chmod(mode)
-    assert works()
-    if above and mode & 0o1000:  # as /tmp is: everybody writes, but what is in it belongs to its owners
-        assert len(translated) == 1
-    else:
-        assert works("float32")
-        assert len(translated) == 3
-        assert len(list(kept.iterdir())) == 1
-
-
-@posix
-@pytest.mark.parametrize("above", [False, True])
-def test_a_folder_of_another_user_is_neither_read_nor_written(kept, translated, others, above):
-    assert works()
-    others(kept.parent if above else kept)
-    assert works()
-    assert works("float32")
-    assert len(translated) == 3
-    assert len(list(kept.iterdir())) == 1
-
-
-@posix
-def test_a_link_in_place_of_a_file_is_not_followed_but_replaced(kept, translated, tmp_path):
-    assert works()
-    (file,) = kept.iterdir()
-    file.rename(tmp_path / "elsewhere")
-    file.symlink_to(tmp_path / "elsewhere")
-    assert works()
-    assert works()
-    assert len(translated) == 2
-    assert not file.is_symlink()
-
-
-@posix
-def test_a_pipe_in_place_of_a_file_keeps_nobody_waiting(kept, translated):
-    assert works()
-    (file,) = kept.iterdir()
-    file.unlink()
-    os.mkfifo(file)
-    assert works()
-    assert works()
-    assert len(translated) == 2
-
-
-@posix
-@pytest.mark.parametrize("open_to_others", [False, True])
-def test_a_link_to_a_folder_is_as_good_as_the_folder(kept, translated, tmp_path, open_to_others):
-    """A folder for caches on another disk, say."""
-    (tmp_path / "disk").mkdir(mode=0o700)
-    kept.parent.symlink_to(tmp_path / "disk")
-    if open_to_others:
-        (tmp_path / "disk").chmod(0o777)
-    assert works()
-    assert works()
-    assert len(translated) == 1 + open_to_others
-
-
-@posix
-def test_folders_are_made_for_the_user_alone(kept, translated):
-    before = os.umask(0o002)
-    try:
-        assert works()
-    finally:
-        os.umask(before)
-    assert [place.stat().st_mode & 0o777 for place in (kept, kept.parent)] == [0o700, 0o700]
-    assert works()
-    assert len(translated) == 1
 
 
 @pytest.mark.parametrize("family", FAMILIES)
