@@ -6,8 +6,9 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact import hard
+from roughcontact.contact.cascade import coarse_guess
 from roughcontact.contact.polonsky_keer import PolonskyKeer
-from roughcontact.contact.problem import Force, Terms
+from roughcontact.contact.problem import Depth, Force, Terms
 from roughcontact.contact.state import State
 from roughcontact.contact.status import Status
 
@@ -24,6 +25,11 @@ def rough(request):
 @pytest.fixture(params=SOLVERS, ids=str)
 def solver(request):
     return SOLVERS[request.param]
+
+
+def unit(shape):
+    """One on the first cell."""
+    return (np.arange(np.prod(shape)) == 0).reshape(shape) * 1.0
 
 
 def violation(solution, hardness):
@@ -109,6 +115,59 @@ def test_on_other_operators(kind, solver):
     solution = rc.press(body, MODULUS, depth=0.05, operator=operator, solver=solver, hardness=hardness)
     assert solution.pressure.max() == hardness
     assert 0 < solution.force < plain.force
+
+
+def grooved(shape, wave):
+    """Half of every `wave` columns stand by 1 above the others."""
+    heights = np.where(np.indices(shape)[1] % wave < wave // 2, 1.0, 0.0)
+    return rc.Surface(heights, rc.Grid(shape, 1.0, True))
+
+
+@pytest.mark.parametrize(
+    ("depth", "hardness"),
+    [
+        (0.54, 0.364 * MODULUS),  # crests give way: with too long a step crests and grooves took turns
+        (0.6, 0.25 * MODULUS),
+        (0.5001, 4 * MODULUS),  # all but some cells are elastic: a constant pressure moves next to nothing
+        (0.500001, 4 * MODULUS),
+    ],
+)
+@pytest.mark.parametrize(("shape", "wave"), [((16, 16), 16), ((8, 32), 32)], ids=str)
+def test_deeper_than_full_contact(shape, wave, depth, hardness, solver):
+    """Beyond the mean separation, 0.5, only cells that give way let an elastic period go deeper."""
+    grooves = grooved(shape, wave)
+    solution = rc.press(grooves, MODULUS, depth=depth, hardness=hardness, solver=solver)
+    assert violation(solution, hardness) < 1.5e-8
+    assert (solution.pressure == hardness).any()
+    assert solution.steps < 500  # where those took more than 1000 they did not converge
+
+
+def test_nested_grids_are_asked_for_no_more_than_an_elastic_answer_has():
+    grid = rc.Grid((80, 80), 1 / 80, True)
+    wavy = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(4))
+    body, separation = rc.half_space(grid, MODULUS), wavy.heights.max() - wavy.heights
+    depths = separation.mean(), 1.2 * separation.mean()
+    full, deeper = (coarse_guess(body, separation, Depth(depth), rc.ActiveSet()) for depth in depths)
+    np.testing.assert_array_equal(full[0], deeper[0])
+    assert full[1] == deeper[1]
+
+
+@pytest.mark.parametrize("missing", [1e-6, 1e-9])
+@pytest.mark.parametrize(("shape", "wave"), [((16, 16), 16), ((8, 32), 32)], ids=str)
+def test_displacements_far_below_the_heights(shape, wave, missing, solver):
+    """Crests and grooves bear nearly the same: what is left to solve lies below the rounding of the heights."""
+    grooves, hardness = grooved(shape, wave), 1e-3 * MODULUS
+    solution = rc.press(grooves, MODULUS, pressure=hardness * (1 - missing), hardness=hardness, solver=solver)
+    crests = grooves.heights == 1
+    np.testing.assert_array_equal(solution.pressure[crests], hardness)
+    # All grooves lie equally deep: their displacement is one number, to the certificate and its rounding.
+    u, alone = (oracles.displacement(grooves.grid, MODULUS, p) for p in (solution.pressure, unit(shape)))
+    rounding = 16 * np.finfo(float).eps * hardness * alone.max()
+    assert np.ptp(u[~crests]) <= 2 * (1e-8 * np.abs(u).max() + rounding)
+    assert solution.depth == pytest.approx(
+        1 + u[~crests].mean(), abs=1e-15
+    )  # to some units in its last place
+    assert solution.steps < 500
 
 
 def test_a_periodic_body_that_gives_way_has_no_deepest_depth():

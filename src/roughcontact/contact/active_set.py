@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.bounds import within
+from roughcontact.contact.bounds import elastic_control, within
 from roughcontact.contact.direct import DENSE_LIMIT, press_cells
 from roughcontact.contact.drivers import Driver, Plane, driver_on, factorised, first_product
 from roughcontact.contact.hard import press_hard
@@ -56,13 +56,16 @@ class ActiveSet:
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure from an `initial` one, on the given terms.
 
-        With a hardness that the elastic answer would exceed, that answer is where to start.
+        With a hardness that the elastic answer would exceed, that answer is where to start; where there is none at the
+        depth that is prescribed, the one at the largest depth.
         """
         measure = Measure(operator.weights)
         if terms.hardness < math.inf:
-            elastic = self.run(operator, separation, replace(terms, hardness=math.inf), initial)
+            control = elastic_control(operator, separation, terms.control)
+            body = replace(terms, control=control, hardness=math.inf)
+            elastic = self.run(operator, separation, body, initial)
             xp = namespace(separation)
-            if float(xp.max(elastic.pressure)) <= terms.hardness:
+            if control == terms.control and float(xp.max(elastic.pressure)) <= terms.hardness:
                 return elastic
             excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
             start, steps = within(measure, elastic.pressure, separation, terms), elastic.steps

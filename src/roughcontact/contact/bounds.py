@@ -7,9 +7,10 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.measure import Measure
-from roughcontact.contact.problem import Force, Terms
+from roughcontact.contact.problem import Control, Depth, Force, Terms
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 
-__all__ = ["depth_of", "within"]
+__all__ = ["depth_of", "elastic_control", "within"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -29,6 +30,18 @@ def depth_of(measure: Measure, level: Array, pressure: Array, inside: Mask) -> f
     if bool(xp.any(inside)):
         return measure.mean(level, inside)
     return float(xp.max(xp.where(pressure > 0, level, -np.inf)))
+
+
+def elastic_control(operator: Operator, separation: Array, control: Control) -> Control:
+    """Return what is prescribed, or the largest depth of an elastic body if that is less.
+
+    A periodic one without missing cells goes no deeper than its mean separation, where contact is full.
+    """
+    if isinstance(control, Force) or not is_semidefinite(operator):
+        return control
+    xp = namespace(separation)
+    mean = float(xp.mean(separation))  # infinite with missing cells, which may bulge
+    return control if control.value <= mean else Depth(mean)
 
 
 def within(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:

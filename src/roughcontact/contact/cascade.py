@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.contact.bounds import elastic_control
 from roughcontact.contact.pooling import raised
 from roughcontact.contact.problem import Control, Depth, Terms
 from roughcontact.contact.state import Solver
@@ -33,6 +34,7 @@ def coarse_guess(
     if coarser is None:
         return namespace(separation).zeros_like(separation), 0.0
     part, factors = coarser
+    control = elastic_control(operator, separation, control)
     heights = raised(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, heights)

@@ -15,13 +15,14 @@ from roughcontact.contact.problem import Terms
 from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State
 from roughcontact.contact.status import Status
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operator import Operator, is_semidefinite
 
 __all__ = ["PolonskyKeer"]
 
 Array = npt.NDArray[np.float64]
 
 LEAP = 4.0  # times the least residual so far
+CIRCLING = 10  # iterations without a smaller residual, after which cells that are wrong may run in circles
 PATIENCE = 500  # iterations without a smaller residual, after which rounding or a cycle has the better of it
 
 
@@ -48,16 +49,23 @@ class PolonskyKeer:
         else:  # not scaled to the force: what is under the hardness is to stay there
             p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
             p = within(measure, p, separation, terms)
-        t = xp.zeros_like(p)
+        t, before = xp.zeros_like(p), p > 0
+        singular = given is not None and is_semidefinite(operator)
+        d = 0.0 if given is None else given
         delta, norm_old = 0.0, 1.0
         best, idle, steps = np.inf, 0, 0
         while True:
             u = operator.apply(p)
             steps += 1
             inside = (p > 0) & (p < hardness)
-            g = u + separation
-            d = depth_of(measure, g, p, inside) if given is None else given
-            g -= d
+            g = u + (separation - d)  # in this order: where much flows, u may be far smaller than both
+            if given is None:
+                shift = depth_of(measure, g, p, inside)
+                g -= shift
+                d += shift
+            elif singular and bool(xp.all(inside)):
+                p = _to_bound(p, hardness, float(xp.mean(g)))
+                inside = (p > 0) & (p < hardness)
             r = judge.residual(p, u, g)
             idle = 0 if r < best else idle + 1
             best = min(best, r)
@@ -68,7 +76,10 @@ class PolonskyKeer:
             if idle > PATIENCE or not bool(xp.all(xp.isfinite(p))):
                 return State(p, d, r, steps, Status.STAGNATED)
             wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
-            if r > LEAP * best:  # too long a step for those that were wrong: one that suits them too
+            some_wrong, free = bool(xp.any(wrong)), inside
+            # Too long a step for those that were wrong: one that suits them too. On the same cells as before
+            # the residual of conjugate gradients may leap.
+            if (some_wrong and idle > CIRCLING) or (r > LEAP * best and bool(xp.any(free != before))):
                 inside, delta = inside | wrong, 0.0
             errors = xp.where(inside, g, 0.0)
             norm = measure.dot(errors, errors)
@@ -87,6 +98,19 @@ class PolonskyKeer:
             norm_old = norm if norm > 0 else 1.0
             p = xp.where(inside, xp.clip(p - tau * t, 0.0, hardness), p)
             p = xp.where(wrong, xp.clip(p - tau * g, 0.0, hardness), p)
-            delta = 0.0 if bool(xp.any(wrong)) else 1.0
+            delta, before = 0.0 if some_wrong else 1.0, free
             if given is None and 0 < measure.total(p) < np.inf:
                 p = within(measure, p, g, terms)
+
+
+def _to_bound(pressure: Array, hardness: float, gap: float) -> Array:
+    """Return a pressure that nothing bounds, with a constant added that takes one cell to zero or to the hardness.
+
+    At a given depth a periodic body in full contact has no equilibrium between the bounds: on the mean its `gap` is
+    what the depth leaves, whatever the pressure, and a constant moves nothing.
+    """
+    xp = namespace(pressure)
+    if gap > 0 or hardness == np.inf:
+        return pressure - xp.min(pressure)  # type: ignore[no-any-return]
+    strongest = xp.max(pressure)
+    return xp.where(pressure == strongest, hardness, pressure + (hardness - strongest))  # type: ignore[no-any-return]
