@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace, on_host
 from roughcontact.cached import cached_property
-from roughcontact.contact.complementarity import SLIGHT, added_stiffness, weakly_active
+from roughcontact.contact.complementarity import weakly_active
 from roughcontact.contact.measure import Measure
+from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.optimality import UNITS
 from roughcontact.contact.problem import ContactProblem
@@ -38,9 +39,6 @@ if TYPE_CHECKING:
 __all__ = ["Solution"]
 
 Array = npt.NDArray[np.float64]
-
-STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
-OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -239,70 +237,11 @@ class Solution:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of these numbers should know, in sentences."""
-        notes = []
-        if not self.status.converged:
-            notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
-        xp = namespace(self.pressure)
-        yielding, touching = (
-            int(xp.count_nonzero(mask)) for mask in (self.pressure >= self.problem.hardness, self.contact)
-        )
-        if yielding:
-            notes.append(
-                f"{yielding} of {touching} cells in contact are under the hardness: they give way, and the "
-                "stiffness is that of the others."
-            )
-        if self.missing:
-            hold = "1 cell holds" if self.missing == 1 else f"{self.missing} cells hold"
-            notes.append(f"{hold} no height: kept out of contact.")
-        if self.touches_edge and self.problem.surface is not None:
-            notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
-        if touching == 1:
-            notes.append(
-                "A single cell is in contact: stiffness and area are those of the grid, not of the body."
-            )
-        elif touching and not self._above_cells:
-            line = self.problem.geometry is Geometry.LINE
-            small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
-            notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
-        return (*notes, *self._knife_edge(), *self._doubts())
-
-    def _knife_edge(self) -> tuple[str, ...]:
-        """Return what there is to say where the stiffness has two sides."""
-        count, k = int(namespace(self.pressure).count_nonzero(self.touching)), self.stiffness
-        most = added_stiffness(self.problem.operator, self.contact, self.touching)
-        if not (count and 0 < k < most / SLIGHT and self.loading_stiffness > (1 + SLIGHT) * k):
-            return ()
-        touch = "1 cell touches" if count == 1 else f"{count} cells touch"
-        return (
-            f"{touch} without pressure: as the load grows the stiffness is {self.loading_stiffness:.6g}, and "
-            f"{k:.6g} as it is reduced, which is the one that is given.",
-        )
-
-    def _doubts(self) -> tuple[str, ...]:
-        """Return what an engineer would doubt in these numbers."""
-        doubts = []
-        modulus, surface = self.problem.modulus, self.problem.surface
-        largest = float(namespace(self.pressure).max(self.pressure))
-        springs = self.problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
-        if largest > STRAINED * modulus and not springs:
-            doubts.append(
-                f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
-                "bodies yield or break before, and the theory of small strains ends."
-            )
-        if self.depth > max(self.problem.grid.lengths):
-            doubts.append(
-                f"The depth, {self.depth:.3g} m, exceeds the map: check the units of load and modulus."
-            )
-        summit = self.problem.mean_separation
-        if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
-            doubts.append(
-                f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
-                "if it is an outlier of the measurement, it carries the load."
-            )
-        return tuple(doubts)
+        return notes_on(self)
 
     @property
-    def _above_cells(self) -> bool:
+    def above_cells(self) -> bool:
+        """Whether the contact is so large that the surface speaks, and not the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell
 

@@ -1,0 +1,86 @@
+"""What a reader of the numbers of a contact should know, and what an engineer would doubt in them, in sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from roughcontact.arrays import namespace
+from roughcontact.contact.complementarity import SLIGHT, added_stiffness
+from roughcontact.contact.stiffness import CELLS
+from roughcontact.halfspace.geometry import Geometry
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["notes_on"]
+
+STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
+OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
+
+
+def notes_on(solution: Solution) -> tuple[str, ...]:
+    """Return what is to be said of a solution."""
+    problem, notes = solution.problem, []
+    if not solution.status.converged:
+        notes.append(f"Residual {solution.residual:.1e}: {solution.status.message}")
+    count = namespace(solution.pressure).count_nonzero
+    yielding, in_contact = int(count(solution.pressure >= problem.hardness)), int(count(solution.contact))
+    if yielding:
+        notes.append(
+            f"{yielding} of {in_contact} cells in contact are under the hardness: they give way, and the "
+            "stiffness is that of the others."
+        )
+    if solution.missing:
+        hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"
+        notes.append(f"{hold} no height: kept out of contact.")
+    if solution.touches_edge and problem.surface is not None:
+        notes.append("Contact reaches the edge of the map: what lies beyond it would carry load too.")
+    if in_contact == 1:
+        notes.append(
+            "A single cell is in contact: stiffness and area are those of the grid, not of the body."
+        )
+    elif in_contact and not solution.above_cells:
+        line = problem.geometry is Geometry.LINE
+        small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
+        notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
+    touching = int(count(solution.touching))
+    if in_contact and touching:
+        notes.extend(_of_two_sides(solution, touching))
+    return (*notes, *_doubts(solution))
+
+
+def _of_two_sides(solution: Solution, touching: int) -> tuple[str, ...]:
+    """Return what there is to say where the stiffness on loading is another."""
+    k = solution.stiffness
+    most = added_stiffness(solution.problem.operator, solution.contact, solution.touching)
+    if most <= SLIGHT * k or solution.loading_stiffness <= (1 + SLIGHT) * k:
+        return ()
+    touch = "1 cell touches" if touching == 1 else f"{touching} cells touch"
+    return (
+        f"{touch} without pressure: as the load grows the stiffness is {solution.loading_stiffness:.6g}, and "
+        f"{k:.6g} as it is reduced, which is the one that is given.",
+    )
+
+
+def _doubts(solution: Solution) -> tuple[str, ...]:
+    """Return what an engineer would doubt in these numbers."""
+    problem, doubts = solution.problem, []
+    modulus, surface = problem.modulus, problem.surface
+    largest = float(namespace(solution.pressure).max(solution.pressure))
+    springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
+    if largest > STRAINED * modulus and not springs:
+        doubts.append(
+            f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
+            "bodies yield or break before, and the theory of small strains ends."
+        )
+    if solution.depth > max(problem.grid.lengths):
+        doubts.append(
+            f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus."
+        )
+    summit = problem.mean_separation
+    if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
+        doubts.append(
+            f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
+            "if it is an outlier of the measurement, it carries the load."
+        )
+    return tuple(doubts)
