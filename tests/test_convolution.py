@@ -245,6 +245,7 @@ def test_copies_outlive_what_they_were_made_of(copied, precision):
     np.testing.assert_array_equal(other.apply(field), answer)
 
 
+@needs_machine_code
 @pytest.mark.parametrize("shape", [(41, 24), (20, 49), (100, 100)])
 def test_a_field_larger_than_the_transforms_is_refused(shape):
     with pytest.raises(ValueError, match="larger than transforms"):

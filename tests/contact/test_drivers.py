@@ -14,8 +14,10 @@ from roughcontact.contact.fields import fields_on
 from roughcontact.contact.measure import Measure
 from roughcontact.halfspace import patches
 from roughcontact.halfspace.patches import ListPatches, Patches, PatchOperator
+from roughcontact.machine import loader
 
 ITERATIVE = ActiveSet(dense_limit=0)
+needs_machine_code = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
 
 class Plain:
@@ -44,7 +46,10 @@ def rough(request):
     return rc.self_affine(grid, hurst=0.8, rms=1e-3, rng=np.random.default_rng(5))
 
 
-@pytest.fixture(params=[PatchOperator, SinglePlane])
+TILES = pytest.param(PatchOperator, marks=needs_machine_code)
+
+
+@pytest.fixture(params=[TILES, SinglePlane])
 def used(request, monkeypatch):
     """Let one kind of driver stand in wherever it can, and count its products."""
     kind = request.param
@@ -146,6 +151,7 @@ def test_wrong_drivers_cost_time_and_no_more(monkeypatch, used, factor):
     )
 
 
+@needs_machine_code
 def test_who_drives():
     def kind(operator, region, previous=None):
         return type(driver_on(operator, region, previous))
@@ -165,6 +171,7 @@ def test_who_drives():
     assert driver_on(large, few[::-1], tiles) is not tiles
 
 
+@needs_machine_code
 def test_one_driver_takes_off_what_it_says(rough):
     """`gain`: a change of pressure that one makes leaves this of an error, and what its products get wrong."""
     operator = rc.half_space(rough.grid, 1e9)
