@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from libraries import LIBRARIES
 from roughcontact.contact import certified
 from roughcontact.contact.complementarity import FINEST
 from roughcontact.contact.problem import ContactProblem
@@ -126,6 +127,32 @@ def test_a_curve_and_a_single_load_take_the_same_side(name):
     assert curve.stiffness[1] == pytest.approx(alone.stiffness, rel=1e-10)
     assert curve.contact_area[1] == pytest.approx(alone.contact_area, rel=1e-12)
     np.testing.assert_array_equal(alone.contact, problem.contact)
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("name", ["free", "periodic", "rings"])
+def test_arrays_of_other_libraries(name, library):
+    problem = Degenerate(OPERATORS[name](), 7)
+    problem.separation = library.put(problem.separation)
+    solution = problem.solved(rc.Force(problem.force))
+    np.testing.assert_array_equal(library.get(solution.contact), problem.contact)
+    np.testing.assert_array_equal(library.get(solution.touching), problem.touching)
+    assert solution.loading_stiffness > 1.001 * solution.stiffness
+    assert any("touch" in note for note in solution.notes)
+
+
+@pytest.mark.parametrize("solver", list(SOLVERS)[:2])
+def test_on_a_window(solver):
+    # The same contact on the plane, and where the solver looks at the cells that overlap alone.
+    problem = Degenerate(OPERATORS["free"](), 7)
+    large = rc.half_space(rc.Grid((128, 128), STEP), MODULUS)
+    inside = np.s_[40:72, 50:82]
+    far = np.full((128, 128), 2 * problem.separation.max())
+    far[inside] = problem.separation
+    solution = solve(ContactProblem(far, large, rc.Force(problem.force)), solver=SOLVERS[solver])
+    np.testing.assert_array_equal(solution.contact[inside], problem.contact)
+    np.testing.assert_array_equal(solution.touching[inside], problem.touching)
+    assert solution.contact.sum() == problem.contact.sum()
 
 
 @pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])

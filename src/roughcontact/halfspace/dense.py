@@ -49,7 +49,7 @@ class DenseOperator:
     @property
     def diagonal(self) -> Array:
         """Displacement of each cell per unit pressure on itself [m/Pa], shape of the grid."""
-        return np.diagonal(self.matrix).reshape(self.grid.shape)
+        return np.diagonal(self.matrix).reshape(self.grid.shape).copy()
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
