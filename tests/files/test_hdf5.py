@@ -1,6 +1,7 @@
 """Foreign HDF5 files show no file of this machine as heights, and declare no more than the memory holds."""
 
 import io
+import zlib
 from types import SimpleNamespace
 
 import h5py
@@ -9,6 +10,7 @@ import psutil
 import pytest
 
 import roughcontact as rc
+from roughcontact.files import hdf5
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.inspect import channels
 
@@ -108,3 +110,33 @@ def test_a_block_larger_than_the_memory_is_not_unpacked(monkeypatch):
     monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=8e8))
     with pytest.raises(rc.ReadError, match=r"needs 0\.9 GB"), opened_hdf5(stream.getvalue(), "a.nc"):
         pass
+
+
+@pytest.mark.parametrize("shuffle", [False, True])
+def test_a_block_that_unpacks_to_more_than_it_declares_is_refused(shuffle):
+    packer = zlib.compressobj(9)
+    packed = b"".join(packer.compress(bytes(1_000_000)) for _ in range(300)) + packer.flush()
+    stream = io.BytesIO()
+    with h5py.File(stream, "w") as file:
+        values = file.create_dataset(
+            "heights", (6, 8), "f8", chunks=(6, 8), compression="gzip", shuffle=shuffle
+        )
+        values.id.write_direct_chunk((0, 0), packed)
+    with (
+        pytest.raises(rc.ReadError, match="a block of its /heights unpacks to more than it declares"),
+        opened_hdf5(stream.getvalue(), "a.nc"),
+    ):
+        pass
+
+
+@pytest.mark.parametrize(
+    "filters", [{}, {"shuffle": True}, {"fletcher32": True}, {"shuffle": True, "fletcher32": True}]
+)
+def test_large_blocks_are_read(tmp_path, monkeypatch, filters):
+    monkeypatch.setattr(hdf5, "_HARMLESS", 0)
+    heights = np.random.default_rng(3).integers(0, 99, (60, 80)).cumsum(axis=1) * 1.0
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        file.create_dataset("heights", data=heights, chunks=(40, 80), compression="gzip", **filters)
+    np.testing.assert_allclose(
+        rc.read(tmp_path / "a.nc", unit="nm", size=1e-3).heights, heights * 1e-9, rtol=1e-15
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 __all__ = ["is_hdf5", "opened_hdf5", "require_memory_for"]
 
+_DEFLATED = 1032  # bytes that one byte may unpack to
+_HARMLESS = 100_000_000  # bytes
 _MARK = b"\x89HDF\r\n\x1a\n"
 
 
@@ -43,7 +46,9 @@ def opened_hdf5(data: bytes, file: str) -> Iterator[h5py.File]:
         elsewhere = opened.visititems_links(_linked_elsewhere) or opened.visititems(_stored_elsewhere)
         if elsewhere is not None:
             raise ReadError(file, elsewhere, "write the numbers into the file itself")
-        require_memory(max(_blocks(opened), default=0), file)
+        for values in _datasets(opened):
+            if values.chunks:
+                _require_blocks(values, file)
         yield opened
 
 
@@ -68,15 +73,38 @@ def _stored_elsewhere(name: str, item: Any) -> str | None:
     return None
 
 
-def _blocks(opened: h5py.File) -> list[int]:
-    """Return the sizes of the blocks in which datasets are stored [bytes]; each is unpacked whole."""
+def _datasets(opened: h5py.File) -> list[h5py.Dataset]:
     import h5py
 
-    found: list[int] = []
+    found: list[h5py.Dataset] = []
 
     def look(_: str, item: Any) -> None:
-        if isinstance(item, h5py.Dataset) and item.chunks:
-            found.append(math.prod(item.chunks) * item.dtype.itemsize)
+        if isinstance(item, h5py.Dataset):
+            found.append(item)
 
     opened.visititems(look)
     return found
+
+
+def _require_blocks(values: h5py.Dataset, file: str) -> None:
+    """Refuse blocks that do not fit in memory, by their declared size, or by what their bytes unpack to.
+
+    HDF5 unpacks a block whole and as far as it goes. Only those large enough to become too large are tried here.
+    """
+    size = math.prod(values.chunks) * values.dtype.itemsize
+    require_memory(size, file)
+    large: list[tuple[int, ...]] = []
+
+    def look(block: Any) -> None:
+        if _DEFLATED * block.size > _HARMLESS and not block.filter_mask:
+            large.append(block.chunk_offset)
+
+    if values.compression != "gzip":
+        return
+    values.id.chunk_iter(look)
+    for place in large:
+        packed = values.id.read_direct_chunk(place)[1]
+        if len(zlib.decompressobj().decompress(packed, size + 1)) > size:
+            raise ReadError(
+                file, f"a block of its {values.name} unpacks to more than it declares", "copy it again"
+            )
