@@ -1,8 +1,6 @@
 """Bad input is one line; a mistake of ours shows itself."""
 
-import tracemalloc
 import warnings
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,9 +9,10 @@ import pytest
 import typer
 
 import roughcontact as rc
+from roughcontact.cli import options
 from roughcontact.cli.errors import UsageError, note, reported
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED
-from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.memory import require_memory
 from roughcontact.files.errors import SurfaceWarning
 
 
@@ -132,7 +131,6 @@ class TestMemory:
     @pytest.mark.parametrize("verb", ["info", "press", "curve"])
     def test_a_map_beyond_the_machine_is_refused_before_it_is_read(self, invoke, monkeypatch, tmp_path, verb):
         path = sparse(tmp_path / "huge.npy", (20000, 20000))
-        monkeypatch.setattr(Path, "read_bytes", lambda _: pytest.fail("it went to read"))
         words = {
             "info": ("surface", "info", path),
             "press": ("press", path, "--force", "1N", "--modulus", "1GPa"),
@@ -142,7 +140,7 @@ class TestMemory:
         assert answer.exit_code == BAD_INPUT
         # 1.6 GB of file and a hundred bytes for each of 4e8 points.
         assert answer.stderr == (
-            f"Error: reading {path} needs 41.6 GB of memory, and 8 GB are free: "
+            f"Error: {path}: reading it needs 41.6 GB of memory, and 8 GB are free; "
             "cut the map or thin it out, or use a machine with more memory\n"
         )
 
@@ -155,50 +153,18 @@ class TestMemory:
         assert "a grid of 24 x 32 cells needs" in answer.stderr
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
-        free = iter([1e9, 1e3])  # another program takes it meanwhile
-        monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=next(free)))
+        read = options.Reading.map_or_line
+
+        def then_another_program_takes_it(reading):
+            surface = read(reading)
+            monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e3))
+            return surface
+
+        monkeypatch.setattr(options.Reading, "map_or_line", then_another_program_takes_it)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("surface", "info", rough)
         assert answer.exit_code == BAD_INPUT
         assert "a grid of 24 x 32 cells needs" in answer.stderr
-
-    @pytest.mark.parametrize("size", [300_000_000, 400_000_000])
-    def test_other_files_are_judged_by_their_size(self, tmp_path, size):
-        path = tmp_path / "huge.sur"
-        with open(path, "wb") as stream:
-            stream.truncate(size)
-        if 25 * size < 8e9:
-            require_memory_to_read(path)
-        else:
-            with pytest.raises(UsageError, match="needs 10 GB of memory, and 8 GB are free"):
-                require_memory_to_read(path)
-
-    def test_archives_count_unpacked(self, monkeypatch, tmp_path):
-        np.savez_compressed(tmp_path / "a.npz", heights=np.zeros((1000, 1000), np.uint8))
-        assert (tmp_path / "a.npz").stat().st_size < 1e5
-        monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e8))
-        with pytest.raises(UsageError, match=r"needs 0\.102 GB"):
-            require_memory_to_read(tmp_path / "a.npz")
-
-    @pytest.mark.parametrize("name", ["a.npy", "a.npz", "a.x3p", "missing.npy"])
-    def test_damage_is_left_to_the_reader(self, tmp_path, name):
-        if name != "missing.npy":
-            (tmp_path / name).write_bytes(b"PK\x03\x04 no such thing")
-        require_memory_to_read(tmp_path / name)
-
-    @pytest.mark.parametrize("kind", ["f4", "f8", "u1"])
-    def test_reading_stays_within_what_was_asked_for(self, monkeypatch, tmp_path, kind):
-        np.save(tmp_path / "a.npy", np.random.default_rng(1).integers(0, 99, (700, 700)).astype(kind))
-        need = []
-        monkeypatch.setattr("roughcontact.cli.memory._require", lambda size, *_: need.append(size))
-        require_memory_to_read(tmp_path / "a.npy")
-        tracemalloc.start()
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SurfaceWarning)  # white noise is no surface
-            rc.read(tmp_path / "a.npy", unit="um", size=1e-3)
-        peak = tracemalloc.get_traced_memory()[1]
-        tracemalloc.stop()
-        assert 0.5 * need[0] < peak < need[0]
 
 
 def sparse(path, shape):

@@ -16,7 +16,7 @@ DATA = bytes(range(256)) * 4
 
 
 def test_it_is_read_like_any_binary_file():
-    stream = BoundedStream(DATA)
+    stream = BoundedStream(DATA, "surface.any")
     assert stream.read(3) == DATA[:3]
     assert stream.read1(2) == DATA[3:5]
     buffer = bytearray(4)
@@ -30,7 +30,7 @@ def test_it_is_read_like_any_binary_file():
 
 
 def test_it_knows_what_was_not_read():
-    stream = BoundedStream(DATA)
+    stream = BoundedStream(DATA, "surface.any")
     stream.seek(100)
     stream.read(24)
     stream.seek(0)
@@ -51,7 +51,7 @@ def test_reading_for_ever_is_ended_for_good(monkeypatch, limit, value):
     for name in ("_TIMES", limit):
         monkeypatch.setattr(bounded, name, 0 if name == "_TIMES" else value)
     monkeypatch.setattr(bounded, "_BYTES_A_CALL", len(DATA) + 1)
-    stream = BoundedStream(DATA)
+    stream = BoundedStream(DATA, "surface.any")
     for _ in range(500):  # of 100 bytes
         read_again(stream)
     for _ in range(3):

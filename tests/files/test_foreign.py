@@ -1,7 +1,13 @@
 """The guard before SurfaceTopography, on small files written here."""
 
+import hashlib
 import io
+import logging
+import sys
+import threading
 import warnings
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -94,3 +100,138 @@ def test_rubbish_is_refused_under_any_name(put, name, content):
             rc.read(put(name, content), unit="um", size=1e-5)
         with pytest.raises(rc.ReadError, match=name):
             channels(put(name, content))
+
+
+class ByName:
+    """A reader that knows its format by the extension, as some libraries do."""
+
+    def __init__(self, stream):
+        if not stream.name.endswith(".known"):
+            raise ValueError(stream.name)
+        self.name = stream.name
+        self.heights = np.frombuffer(stream.read(), "<f8").reshape(3, 4)
+
+    @classmethod
+    def format(cls):
+        return "known"
+
+    @classmethod
+    def can_read(cls, _):
+        from SurfaceTopography.IO import MagicMatch
+
+        return MagicMatch.MAYBE
+
+    @property
+    def channels(self):
+        return [
+            SimpleNamespace(
+                nb_grid_pts=(3, 4),
+                physical_sizes=None,
+                unit=None,
+                data_unit=None,
+                name=self.name,
+                is_periodic=False,
+            )
+        ]
+
+    def topography(self, **_):
+        return SimpleNamespace(heights=lambda: self.heights)
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize("name", ["a.known", "A.KNOWN", "../evil; rm.known", "a b.known"])
+def test_a_format_known_by_its_extension_is_reached(put, tmp_path, monkeypatch, name):
+    """Under a name that holds nothing of the user's but the extension."""
+    import SurfaceTopography.IO
+
+    monkeypatch.setattr(SurfaceTopography.IO, "readers", [ByName])
+    (channel,) = channels(put(name.replace("/", "_"), HEIGHTS.astype("<f8").tobytes()))
+    assert (channel.name, channel.shape) == ("surface.known", (4, 3))
+    with pytest.raises(rc.ReadError, match="not recognised"):
+        rc.read(put("a.kn\u00f6wn", HEIGHTS.tobytes()), **{"unit": "um", "size": 1e-5})
+
+
+def test_an_extension_without_a_mark_goes_before_what_the_bytes_look_like(put):
+    """A terrain that another reader takes for a text: 8224 m are two blanks, 12592 m are "10"."""
+    terrain = np.full((20, 20), 0x2020, ">i2")
+    terrain[:, ::2] = 0x3130
+    surface = rc.read(put("a.hgt", terrain.tobytes()), unit="nm", size=1e-3)
+    assert {0x2020, 0x3130} == set(np.rint(surface.heights * 1e9).astype(int).ravel().tolist())
+
+
+def test_what_is_read_is_what_was_hashed(put, monkeypatch):
+    """Whatever happens to the file meanwhile."""
+    import SurfaceTopography.IO
+
+    first, second = (mat(Z=values) for values in (HEIGHTS, HEIGHTS + 1))
+    path = put("a.mat", first)
+    original = SurfaceTopography.IO.open_topography
+
+    def swapped(*arguments, **keywords):
+        path.write_bytes(second)
+        return original(*arguments, **keywords)
+
+    monkeypatch.setattr(SurfaceTopography.IO, "open_topography", swapped)
+    surface = rc.read(path, unit="um", size=1e-5)
+    np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-15)
+    assert hashlib.sha256(first).hexdigest()[:16] in surface.provenance[0]
+
+
+def test_reading_switches_nothing_of_the_process(put, monkeypatch):
+    """Seen from inside the reader: what other threads print, log and warn goes its usual way."""
+    import SurfaceTopography.IO
+
+    path = put("a.mat", mat(Z=HEIGHTS))
+    original = SurfaceTopography.IO.open_topography
+    seen = []
+
+    def switches():
+        return (
+            sys.stdout,
+            sys.stderr,
+            logging.root.manager.disable,
+            warnings.showwarning,
+            list(warnings.filters),
+        )
+
+    def looked(*arguments, **keywords):
+        seen.append(switches())
+        return original(*arguments, **keywords)
+
+    monkeypatch.setattr(SurfaceTopography.IO, "open_topography", looked)
+    before = switches()
+    rc.read(path, unit="um", size=1e-5)
+    channels(path)
+    assert seen == [before, before]
+
+
+def test_only_the_reading_thread_is_spared_the_log(put, monkeypatch, caplog):
+    import SurfaceTopography.IO
+
+    def speak(*_, **__):
+        logging.getLogger("tifffile").error("of the reader")
+        other = threading.Thread(target=logging.getLogger("tifffile").error, args=("of another thread",))
+        other.start()
+        other.join()
+        raise ValueError("damaged")
+
+    monkeypatch.setattr(SurfaceTopography.IO, "open_topography", speak)
+    with pytest.raises(rc.ReadError, match="damaged"):
+        rc.read(put("a.tiff", "II"), unit="um", size=1e-5)
+    assert [record.message for record in caplog.records] == ["of another thread"]
+
+
+def test_threads_leave_the_process_as_it_was(put):
+    paths = [put(f"{k}.mat", mat(Z=HEIGHTS + k)) for k in range(4)]
+    before = sys.stdout, logging.root.manager.disable, list(warnings.filters)
+
+    def read(k):
+        return [rc.read(paths[k], unit="um", size=1e-5).heights for _ in range(3)]
+
+    with ThreadPoolExecutor(4) as pool:
+        for k, maps in enumerate(pool.map(read, range(4))):
+            for heights in maps:
+                np.testing.assert_allclose(heights, (HEIGHTS + k) * 1e-6, rtol=1e-15)
+    assert before == (sys.stdout, logging.root.manager.disable, list(warnings.filters))

@@ -22,7 +22,7 @@ def rows(step=0.5, digits=6, start=2.0, separator=","):
         ("# x (mm)\tz (um)\n" + rows(separator="\t"), {}),
         ("A profile\n\nLateral mm,Raw Micrometer,\n" + rows().replace("\n", ",,\n") + "\n\n", {}),
         (rows(separator=" "), {"unit": "um", "size": "20 mm"}),
-        ("\n".join(map(repr, HEIGHTS.tolist())), {"unit": "um", "size": 0.02}),
+        ("".join(f"{z!r}\n" for z in HEIGHTS.tolist()), {"unit": "um", "size": 0.02}),
     ],
 )
 @pytest.mark.parametrize("name", ["a.csv", "a.txt"])
@@ -118,7 +118,7 @@ def test_a_map_is_no_line_and_a_line_no_map(put, npy):
 def test_either_is_what_the_file_holds(put, npy, npz, make_x3p):
     for name, content, keywords in (
         ("a.csv", "x [um], z [um]\n" + rows(), {}),
-        ("b.txt", "\n".join(map(repr, HEIGHTS.tolist())), {"unit": "um", "size": 0.02}),
+        ("b.txt", "".join(f"{z!r}\n" for z in HEIGHTS.tolist()), {"unit": "um", "size": 0.02}),
         ("a.npy", npy(HEIGHTS), {"unit": "um", "size": ("2 mm",)}),
         ("a.npz", npz(heights=HEIGHTS, unit="nm", spacing=1e-6), {}),
         ("a.x3p", make_x3p(HEIGHTS[None] * 1e-6, feature="PRF"), {}),

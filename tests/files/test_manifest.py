@@ -73,6 +73,9 @@ def test_a_measured_file_comes_out_as_the_manifest_says(surfaces, manifest, name
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         surface = rc.read(path, **keywords)
+    said = [
+        one for one in said if "dateutil" not in one.filename
+    ]  # a time zone, of which we know nothing either
     assert bool(said) == (name in WARNED)
     assert all(one.category is SurfaceWarning for one in said)
     assert name not in WARNED or any(WARNED[name] in str(one.message) for one in said)
@@ -136,6 +139,7 @@ def test_arbitrary_units_are_refused_by_name(surfaces, manifest):
     np.testing.assert_allclose(surface.grid.lengths[1] * 1e6, float(row["lx_um"]), rtol=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore:tzname CEST")
 def test_another_channel_is_taken_when_named(surfaces):
     pytest.importorskip("SurfaceTopography")
     surface = rc.read(surfaces / "di-3.di", channel="height")

@@ -83,6 +83,7 @@ def attempt(path):
             outcome = reader(path, **GIVEN.get(path.name, {}))
         except rc.ReadError as error:
             outcome = error
+    said = [one for one in said if "dateutil" not in one.filename]  # it warns of an unknown time zone
     assert all(one.category is SurfaceWarning for one in said)
     return outcome, bool(said)
 

@@ -86,7 +86,8 @@ def test_a_text_holds_every_digit_and_its_header(tmp_path, surface):
     # Lengths are written, cells are read: two roundings.
     np.testing.assert_allclose(back.grid.spacing, surface.grid.spacing, rtol=4e-16)
     lines = (tmp_path / "a.txt").read_text(encoding="utf-8").splitlines()
-    assert lines[3:6] == ["# Value units: m", "# History: made", "# History: say <b> & c"]
+    rows = f"# Rows: {len(surface.heights)}"
+    assert lines[3:7] == ["# Value units: m", rows, "# History: made", "# History: say <b> & c"]
     np.testing.assert_array_equal(np.loadtxt(tmp_path / "a.txt"), surface.heights)
 
 

@@ -1,9 +1,12 @@
 """Digital Surf's files, from a writer of a few lines that fills the header by offsets."""
 
 import struct
+import tracemalloc
 import zlib
+from types import SimpleNamespace
 
 import numpy as np
+import psutil
 import pytest
 
 import roughcontact as rc
@@ -136,3 +139,26 @@ def test_a_stream_that_promises_too_little_or_too_much_is_refused(put):
     struct.pack_into("<I", whole, 512, 2**32 - 1)
     with pytest.raises(rc.ReadError, match=r"a\.sur"):
         rc.read(put("a.sur", bytes(whole)))
+
+
+def test_streams_that_unpack_to_more_than_the_header_states_are_not_unpacked(put):
+    """Two hundred streams of the whole map each, of zeros: each is as long as stated, all together are not."""
+    whole = np.zeros((500, 1000), "<i4").tobytes()
+    stream = zlib.compress(whole)
+    packed = struct.pack("<I", 200) + struct.pack("<II", len(whole), len(stream)) * 200 + stream * 200
+    head = sur(np.zeros((500, 1000), int), packed=1)[:512]
+    path = put("a.sur", head + packed)
+    tracemalloc.start()
+    with pytest.raises(rc.ReadError, match="a stream holds 1 bytes where its table states 2000000"):
+        rc.read(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 2e7  # unpacked they take 400 MB
+
+
+def test_points_beyond_the_memory_are_not_unpacked(put, monkeypatch):
+    data = bytearray(sur(packed=1))
+    struct.pack_into("<iii", data, 108, 40000, 50000, 2_000_000_000)
+    monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=8e9))
+    with pytest.raises(rc.ReadError, match="needs 200 GB of memory, and 8 GB are free"):
+        rc.read(put("a.sur", bytes(data)))

@@ -1,6 +1,7 @@
 """Matrices in texts."""
 
 import tempfile
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
+from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.read import read_line
 
 GIVEN = {"unit": "mm", "size": 1e-2}
 VALUES = [[1.5, -2.0, 3e-3, 0.0], [4.0, 5.25, 6.0, 1.0], [7.0, 8.0, -9.0, 2.0]]
@@ -36,7 +39,6 @@ def text(separator, decimal=".", end=""):
         text(",", end=","),
         text("\t", end="\t"),
         text(" ").replace("\n", "\r\n"),
-        text(" ").rstrip(),
         "\n# words\n\n" + text(" ") + "\n\n# end\n",
         "\ufeff" + text(" "),
     ],
@@ -108,6 +110,84 @@ def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):
 def test_what_is_no_matrix_is_refused_with_its_place(put, content, message):
     with pytest.raises(rc.ReadError, match=r"hole\.csv: .*" + message):
         rc.read(put("hole.csv", content), **GIVEN)
+
+
+ROUGH = rc.self_affine(rc.Grid((26, 20), 1e-6), 0.8, 1e-7, np.random.default_rng(26)).heights
+TABLES = {
+    "blanks": "".join(" ".join(map(repr, row)) + "\n" for row in ROUGH.tolist()),
+    "tabs": "".join("\t".join(f"{z:.6e}" for z in row) + "\n" for row in ROUGH.tolist()),
+    "commas": "".join(",".join(map(repr, row)) + ",\n" for row in ROUGH.tolist()),
+    "decimal commas": "".join(
+        ";".join(f"{z:.6e}".replace(".", ",") for z in row) + "\r\n" for row in ROUGH.tolist()
+    ),
+}
+HEADERS = {
+    "Gwyddion": "# Channel: Z\n# Width: 20.00 µm\n# Height: 26.00 µm\n# Value units: m\n",
+    "German": "# Breite: 20,0 µm\n# Höhe: 26,0 µm\n# Einheiten: m\n",
+    "rows": "# Rows: 26\n",
+    "pixels": "# x-pixels = 20\n# y-pixels = 26\n",
+}
+
+
+@pytest.mark.parametrize("table", TABLES)
+@pytest.mark.parametrize("header", HEADERS)
+def test_a_map_that_ends_early_is_told(put, header, table):
+    """After 14 of 26 rows, after the last but one, and within the last one: within a number or between two."""
+    head, rows = HEADERS[header], TABLES[table].splitlines(keepends=True)
+    assert not told(put("a.txt", head + "".join(rows)))
+    assert told(put("a.txt", head + "".join(rows[:14])))
+    assert told(put("a.txt", head + "".join(rows[:25])))
+    last = rows[-1].rstrip("\r\n")
+    for count in places_within(last):
+        assert told(put("a.txt", head + "".join(rows[:-1]) + last[:count]))
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_a_bare_matrix_that_ends_within_a_row_is_told(put, table):
+    rows = TABLES[table].splitlines(keepends=True)
+    last = rows[13].rstrip("\r\n")
+    for count in places_within(last):
+        assert told(put("a.txt", "".join(rows[:13]) + last[:count]))
+
+
+def places_within(row):
+    """Return some places to cut a row at: in its first number, in its last ones, and before its end."""
+    return (1, 5, len(row) // 2, *range(len(row) - 16, len(row)))
+
+
+def told(path):
+    """Whether a doubt is spoken, or the file refused."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            rc.read(path, unit="m", size=20e-6)
+        except rc.ReadError:
+            return True
+    return any("cut short" in str(one.message) for one in said)
+
+
+def test_rows_apart_by_choice_are_not_told(tmp_path, put):
+    surface = rc.Surface(ROUGH, rc.Grid((26, 20), (3e-6, 1e-6)))
+    rc.write(surface, tmp_path / "a.txt")
+    np.testing.assert_allclose(rc.read(tmp_path / "a.txt").grid.spacing, (3e-6, 1e-6), rtol=1e-15)
+    # Printed without decimals, 8 um by 9 um may be 7.5 um by 9.5 um: room for 3.2 rows of square cells, not 3.6.
+    square = "# Width: 9 µm\n# Height: 8 µm\n# Value units: nm\n" + text("\t")
+    assert not told(put("b.txt", square))
+
+
+def test_a_line_that_states_its_rows_and_ends_early_is_refused(tmp_path):
+    rc.write(rc.Surface(ROUGH[0], rc.Grid(20, 1e-6)), tmp_path / "a.txt")
+    lines = (tmp_path / "a.txt").read_text().splitlines(keepends=True)
+    (tmp_path / "a.txt").write_text("".join(lines[:-6]))
+    with pytest.raises(rc.ReadError, match="14 rows are there where it states 20: it is cut short"):
+        read_line(tmp_path / "a.txt")
+
+
+def test_a_list_of_points_that_ends_within_a_number_is_told(put):
+    points = "".join(f"{k % 4} {k // 4} 0.{k + 1}\n" for k in range(12))
+    assert not any("cut short" in line for line in rc.read(put("a.xyz", points), unit="nm").provenance)
+    with pytest.warns(SurfaceWarning, match="its last line has no end: it may be cut short"):
+        rc.read(put("a.xyz", points[:-2]), unit="nm")
 
 
 def test_nan_marks_a_missing_point(put):

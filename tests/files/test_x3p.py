@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.files.xmlnode import parse_xml
 
 HEIGHTS = np.array([[0.0, 1e-6, 2e-6], [-1e-6, 5e-7, 3e-6]])
 COUNTS = np.array([[0, 1000, -2000], [300, -32768, 32767]])
@@ -74,6 +75,17 @@ def test_checksums(put, make_x3p):
 def test_what_is_no_surface_is_refused(put, make_x3p, changes, message):
     with pytest.raises(rc.ReadError, match=r"a\.x3p: .*" + message):
         rc.read(put("a.x3p", make_x3p(HEIGHTS, **changes)))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_a_document_type_is_seen_in_every_encoding(encoding):
+    """Names that stand for names that stand for ...: a few lines that unpack to as much as one wants."""
+    first = f'<?xml version="1.0" encoding="{encoding}"?>'
+    names = "".join(f'<!ENTITY e{k + 1} "{f"&e{k};" * 10}">' for k in range(3))
+    growing = f'{first}<!DOCTYPE a [<!ENTITY e0 "{"x" * 100}">{names}]><a>&e3;</a>'
+    with pytest.raises(rc.ReadError, match="declares a document type"):
+        parse_xml(growing.encode(encoding), "a.x3p")
+    assert parse_xml(f"{first}<a>1</a>".encode(encoding), "a.x3p").element.text == "1"
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import re
+import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from opcode import opmap
 from pathlib import Path
 from typing import Any
@@ -70,11 +72,21 @@ def reported(*paths: Path | None) -> Iterator[None]:
 
 @contextmanager
 def as_typed(file: Path) -> Iterator[None]:
-    """Name a file that cannot be read by its path as the user typed it, not by its bare name."""
+    """Name a file that cannot be read by its path as the user typed it, not by its bare name.
+
+    What foreign readers print goes to standard error, what they log or warn of nowhere: this process is ours.
+    """
+    threshold = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
     try:
-        yield
+        with warnings.catch_warnings(), redirect_stdout(sys.stderr):
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", SurfaceWarning)
+            yield
     except ReadError as error:
         raise ReadError(plain(str(file)), error.problem, error.remedy) from error
+    finally:
+        logging.disable(threshold)
 
 
 def plain(text: str) -> str:

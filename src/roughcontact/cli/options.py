@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -13,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from roughcontact.cli.errors import UsageError, as_typed, note, plain
-from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.memory import require_memory
 from roughcontact.cli.quantity import PRESSURE, parse, parse_number, parse_size
 
 if TYPE_CHECKING:
@@ -152,7 +149,7 @@ class Reading:
         """Return the map of heights as the file holds it."""
         import roughcontact as rc
 
-        with self._named():
+        with as_typed(self.file):
             try:
                 return rc.read(self.file, **self._keywords())
             except rc.ReadError as error:
@@ -164,17 +161,11 @@ class Reading:
         """Return the map of heights as the file holds it, or its line scan; say so of a line."""
         from roughcontact.files.read import read_either
 
-        with self._named():
+        with as_typed(self.file):
             surface = read_either(self.file, **self._keywords())
         if surface.grid.ndim == 1:
             note(f"{plain(str(self.file))} holds a line scan of {surface.grid.size} heights")
         return surface
-
-    @contextmanager
-    def _named(self) -> Iterator[None]:
-        """Name the file as it was typed, and keep standard output for the answer whatever a foreign reader prints."""
-        with redirect_stdout(sys.stderr), as_typed(self.file):
-            yield
 
     def _keywords(self) -> dict[str, Any]:
         size = None if self.size is None else parse_size(self.size, "--size")
@@ -198,7 +189,6 @@ class Reading:
         """
         from roughcontact.halfspace.build import memory_needed
 
-        require_memory_to_read(self.file)
         surface = self.as_it_is()
         require_memory(memory_needed(surface.grid), surface.grid.shape)
         level = self.level

@@ -9,7 +9,7 @@ import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.errors import note, plain, reported
-from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.memory import require_memory
 from roughcontact.cli.report import emit, print_facts, quantity, screen, size_of
 from roughcontact.cli.saving import ENDINGS, require_output, save_surface
 from roughcontact.cli.steps import TipShape, Trend, WindowShape, Wishes, steps
@@ -106,7 +106,6 @@ def prepare(
             crop, level, form, fill, tip, tip_shape, short, long, average, downsample, alias, window, share
         )
         wanted = steps(wishes)
-        require_memory_to_read(file)
         surface = options.Reading(file, channel, unit, size, None, periodic).map_or_line()
         require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
         if not wanted:

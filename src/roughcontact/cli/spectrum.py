@@ -12,7 +12,7 @@ import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.errors import UsageError, note, plain, reported
-from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.memory import require_memory
 from roughcontact.cli.output import output
 from roughcontact.cli.quantity import LENGTH, parse
 from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
@@ -145,7 +145,6 @@ def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
 
 def _surface(reading: options.Reading, fill: bool) -> Surface:
     """Return the surface without missing points; its tilt goes when the spectrum is taken."""
-    require_memory_to_read(reading.file)
     surface = reading.map_or_line()
     require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
     if surface.missing and not fill:

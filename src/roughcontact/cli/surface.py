@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from contextlib import redirect_stdout
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,7 +10,7 @@ import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.errors import as_typed, plain, reported
-from roughcontact.cli.memory import require_memory, require_memory_to_read
+from roughcontact.cli.memory import require_memory
 from roughcontact.cli.quantity import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
 from roughcontact.cli.saving import ENDINGS, require_output, save_surface
@@ -152,8 +150,7 @@ def _channels(file: Path) -> list[dict[str, Any]]:
     """Return the channels of a file as plain records."""
     from roughcontact.files.inspect import channels
 
-    require_memory_to_read(file)
-    with redirect_stdout(sys.stderr), as_typed(file):
+    with as_typed(file):
         return [asdict(channel) for channel in channels(file)]
 
 

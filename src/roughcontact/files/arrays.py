@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from io import BytesIO
 from typing import Any
@@ -14,6 +13,7 @@ from roughcontact.files.archive import unzip
 from roughcontact.files.channels import Channel, pick
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.npy import read_npy_header
 
 __all__ = ["list_npz", "read_npy", "read_npz"]
 
@@ -68,19 +68,21 @@ def list_npz(data: bytes, file: str) -> tuple[Channel, ...]:
 
 def _array(data: bytes, file: str) -> npt.NDArray[Any]:
     """Return the array in the bytes of a ``.npy`` file; anything missing, left over or pickled is refused."""
-    stream = BytesIO(data)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # remarks on headers written by old versions
-            values: npt.NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
-    except Exception as error:  # damaged headers fail in a dozen ways, up to MemoryError
-        raise ReadError(
-            file, f"it is not a whole NumPy array ({error})", "save it again with numpy.save, without objects"
-        ) from error
-    if stream.tell() != len(data):
+        header = read_npy_header(BytesIO(data))
+        if header.size > len(data):
+            raise ValueError(f"{len(data)} of {header.size} bytes are there")
+        values = header.array(data)
+    except (ValueError, OverflowError) as error:
         raise ReadError(
             file,
-            f"{len(data) - stream.tell()} bytes follow the array of {values.shape}: its header is damaged",
+            f"it is not a whole NumPy array ({error})",
+            "save it again with numpy.save, without objects or names of fields",
+        ) from error
+    if header.size < len(data):
+        raise ReadError(
+            file,
+            f"{len(data) - header.size} bytes follow the array of {values.shape}: its header is damaged",
             "save it again with numpy.save",
         )
     return values

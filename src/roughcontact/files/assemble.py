@@ -10,6 +10,7 @@ import numpy as np
 
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import HeightMap
+from roughcontact.files.memory import BYTES_TO_LOOK, require_memory
 from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.files.units import is_length, length_factor, parse_length
 from roughcontact.grid import Grid
@@ -37,6 +38,7 @@ def assemble(
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and the doubts to speak aloud; the user's word goes before the file's."""
     _require(found, file, unit, size)
+    require_memory(BYTES_TO_LOOK * found.heights.size, file)
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)

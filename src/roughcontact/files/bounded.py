@@ -16,7 +16,15 @@ _CALLS, _BYTES_A_CALL = 100_000, 10
 class BoundedStream(BytesIO):
     """The content of a file, to be read only so often: a damaged header can point a reader back to itself for ever.
 
-    Readers of all kinds expect the whole interface of a binary file, which is why this is one.
+    Readers of all kinds expect the whole interface of a binary file, which is why this is one. It is nobody else's:
+    what was checked and hashed cannot change while it is read.
+
+    Parameters
+    ----------
+    data : bytes
+        The content.
+    name : str
+        Name to go by, for readers that know a format by its extension; no file of that name is there.
 
     Raises
     ------
@@ -24,8 +32,9 @@ class BoundedStream(BytesIO):
         From a read beyond the bounds, and from every one after it.
     """
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: bytes, name: str) -> None:
         super().__init__(data)
+        self.name = name
         self._size = len(data)
         self._bytes = _BYTES + _TIMES * len(data)
         self._calls = _CALLS + len(data) // _BYTES_A_CALL

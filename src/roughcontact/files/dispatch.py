@@ -1,8 +1,7 @@
-"""The bytes of a file, and the reader that its extension asks for."""
+"""The reader that the extension of a file asks for."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from roughcontact.files.arrays import list_npz, read_npy, read_npz
@@ -17,7 +16,7 @@ from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
-__all__ = ["channels_of", "content", "either", "height_map", "line_scan"]
+__all__ = ["channels_of", "either", "height_map", "line_scan"]
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
 # Readers of ours whose files hold a single map or line scan, and those whose files hold channels.
@@ -31,24 +30,6 @@ _SINGLE = {
 }
 _SEVERAL = {".npz": read_npz, ".nc": read_netcdf, ".nc4": read_netcdf, ".cdf": read_netcdf}
 _LISTS = {".npz": list_npz, ".nc": list_netcdf, ".nc4": list_netcdf, ".cdf": list_netcdf}
-
-
-def content(path: str | os.PathLike[str]) -> tuple[str, bytes]:
-    """Return the name of a file and its bytes; an empty one is refused."""
-    # A name may hold bytes that are no letters; in messages and provenance they become question marks.
-    name = (Path(path).name or str(path)).encode("utf-8", "replace").decode("utf-8")
-    try:
-        data = Path(path).read_bytes()
-    except IsADirectoryError as error:
-        raise ReadError(name, "it is a folder", "name a file in it") from error
-    except (OSError, ValueError, MemoryError) as error:  # ValueError: a zero byte in the name
-        reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
-        raise ReadError(
-            name, f"it cannot be opened ({reason})", "check the path and the permissions"
-        ) from error
-    if not data:
-        raise ReadError(name, "it is empty", "copy or export the file again")
-    return name, data
 
 
 def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import logging
 import math
+import re
 import sys
-import warnings
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Callable, Sequence
+from contextvars import ContextVar
 from dataclasses import replace
-from io import StringIO
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,7 +18,9 @@ import numpy as np
 from roughcontact.files.bounded import BoundedStream
 from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
 from roughcontact.files.errors import ReadError
+from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.memory import BYTES_PER_POINT, require_memory
 from roughcontact.files.units import is_length, length_factor
 
 __all__ = ["list_foreign", "read_foreign"]
@@ -31,7 +33,7 @@ _OURS = {
     **{"nc": ".nc", "sur": ".sur"},
 }
 # Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
-_UNMARKED = {"hgt": ".hgt", "nms": ".nms"}
+_UNMARKED = {".hgt": "hgt", ".nms": "nms"}
 # Formats whose lateral size comes out wrong (by 1e6): the size must be given.
 _SIZE_UNRELIABLE = {"nms"}
 # Containers of bare matrices, whose rows are the rows of the picture; all other formats are indexed [x, y].
@@ -40,7 +42,19 @@ _MATRICES = {"mat", "h5"}
 _FILLED = {"di", "metropro", "mi", "tmd", "wsxm"}
 # Formats whose factor from counts to heights is a product of positive numbers: a wavelength, an obliquity, a share.
 _UPRIGHT = {"metropro"}
+# What these say about a damaged file, up to megabytes of it, is not for the user. Only what they log while we read is
+# left out, in this thread: the settings of the process stay as they are.
+_TALKATIVE = ("tifffile", "igor2.binarywave")
+_READING: ContextVar[bool] = ContextVar("_READING", default=False)
 _REMEDY = "check that the file is whole, or export it as X3P, Gwyddion text or .npz"
+
+
+def _unless_reading(_: logging.LogRecord) -> bool:
+    return not _READING.get()
+
+
+for _name in _TALKATIVE:
+    logging.getLogger(_name).addFilter(_unless_reading)
 
 
 def read_foreign(data: bytes, file: str, channel: str | int | None) -> HeightMap:
@@ -66,41 +80,40 @@ def list_foreign(data: bytes, file: str) -> tuple[Channel, ...]:
 
 def _with_reader(data: bytes, file: str, work: Callable[[Any, BoundedStream], Result]) -> Result:
     """Open the bytes, let `work` look at them, close; whatever goes wrong becomes a ReadError."""
-    with _quiet():
-        try:
-            from SurfaceTopography.IO import open_topography
-        except ImportError as error:
-            raise ReadError(
-                file,
-                f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
-                f"run: {sys.executable} -m pip install 'roughcontact[formats]'",
-            ) from error
-        try:
-            # Bytes in memory leave no open file behind when a reader gives up half-way.
-            stream = BoundedStream(data)
-            reader = open_topography(stream)
-            try:
-                _accept(str(reader.format()), file)
-                return work(reader, stream)
-            finally:
-                reader.close()
-        except ReadError:
-            raise
-        except Exception as error:  # any reader of forty may fail in any way on a damaged file
-            raise ReadError(file, f"it cannot be read ({_brief(error)})", _REMEDY) from error
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Silence warnings, prints and log lines of foreign readers: some log megabytes of raw bytes."""
-    threshold = logging.root.manager.disable
-    logging.disable(logging.CRITICAL)
+    reading = _READING.set(True)
     try:
-        with warnings.catch_warnings(), redirect_stdout(StringIO()):
-            warnings.simplefilter("ignore")
-            yield
+        with np.errstate(all="ignore"):  # of damaged numbers; what is odd about them shows in the heights
+            return _opened(data, file, work)
     finally:
-        logging.disable(threshold)
+        _READING.reset(reading)
+
+
+def _opened(data: bytes, file: str, work: Callable[[Any, BoundedStream], Result]) -> Result:
+    try:
+        from SurfaceTopography.IO import open_topography
+    except ImportError as error:
+        raise ReadError(
+            file,
+            f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
+            f"run: {sys.executable} -m pip install 'roughcontact[formats]'",
+        ) from error
+    suffix = Path(file).suffix.casefold()
+    # Bytes in memory leave no open file behind when a reader gives up half-way.
+    stream = BoundedStream(data, "surface" + suffix if re.fullmatch(r"\.[a-z0-9_-]+", suffix) else "surface")
+    try:
+        if is_hdf5(data):
+            with opened_hdf5(data, file):
+                pass
+        reader = open_topography(stream, format=_UNMARKED.get(suffix))
+        try:
+            _accept(str(reader.format()), file)
+            return work(reader, stream)
+        finally:
+            reader.close()
+    except ReadError:
+        raise
+    except Exception as error:  # any reader of forty may fail in any way on a damaged file
+        raise ReadError(file, f"it cannot be read ({_brief(error)})", _REMEDY) from error
 
 
 def _brief(error: Exception) -> str:
@@ -112,8 +125,9 @@ def _brief(error: Exception) -> str:
 
 def _accept(format_name: str, file: str) -> None:
     """Refuse what the other library reads too readily."""
-    suffix = _OURS.get(format_name) or _UNMARKED.get(format_name)
-    if suffix is not None and not (format_name in _UNMARKED and file.casefold().endswith(suffix)):
+    unmarked = {name: suffix for suffix, name in _UNMARKED.items()}
+    suffix = _OURS.get(format_name) or unmarked.get(format_name)
+    if suffix is not None and not (format_name in unmarked and file.casefold().endswith(suffix)):
         raise ReadError(
             file,
             f"its extension hides its format: it can only be taken for {suffix}",
@@ -236,6 +250,7 @@ def _map(reader: Any, index: int, channel: Channel, file: str) -> HeightMap:
         raise ReadError(
             file, f"channel {channel.name!r} is a line scan", "give a two-dimensional map of heights"
         )
+    require_memory(BYTES_PER_POINT * math.prod(channel.shape), file)
     info = reader.channels[index]
     if reader.format() in _UPRIGHT and not info.height_scale_factor > 0:
         raise ReadError(

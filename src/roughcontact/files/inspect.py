@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 
 from roughcontact.files.channels import Channel
-from roughcontact.files.dispatch import channels_of, content
+from roughcontact.files.content import content
+from roughcontact.files.dispatch import channels_of
 
 __all__ = ["Channel", "channels"]
 

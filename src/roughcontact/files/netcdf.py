@@ -14,13 +14,13 @@ import numpy.typing as npt
 
 from roughcontact.files.channels import Channel, names_a_height, names_something_else, pick
 from roughcontact.files.errors import ReadError
+from roughcontact.files.hdf5 import is_hdf5, opened_hdf5, require_memory_for
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.units import is_length, length_factor
 
 __all__ = ["Variable", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
-_HDF5 = b"\x89HDF\r\n\x1a\n"
 # Coordinates and lengths are often computed in single precision.
 _EVEN = 1e-5
 
@@ -99,7 +99,6 @@ def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
 def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mapping[str, Any]]]:
     """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
     # Late, for they take long; here, since a library that cannot be imported is no damage of the file.
-    import h5py
     from scipy.io import netcdf_file
 
     try:
@@ -107,9 +106,9 @@ def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mappin
             reader: Any = netcdf_file
             with reader(BytesIO(data), "r", mmap=False) as classic:
                 yield _classic(classic), dict(classic._attributes)
-        elif data.startswith(_HDF5):
-            with h5py.File(BytesIO(data), "r") as modern:
-                yield _modern(modern), dict(modern.attrs)
+        elif is_hdf5(data):
+            with opened_hdf5(data, file) as modern:
+                yield _modern(modern, file), dict(modern.attrs)
         else:
             raise ReadError(file, "it is not a NetCDF file", "check its extension; copy it again")
     except ReadError:
@@ -128,10 +127,10 @@ def _classic(file: Any) -> dict[str, Variable]:
     }
 
 
-def _modern(file: Any) -> dict[str, Variable]:
+def _modern(opened: Any, file: str) -> dict[str, Variable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
-    for name, values in file.items():
+    for name, values in opened.items():
         # Groups have no shape; a dimension without values says so in its own attribute NAME.
         if not hasattr(values, "shape") or "not a netCDF variable" in str(values.attrs.get("NAME", "")):
             continue
@@ -139,8 +138,14 @@ def _modern(file: Any) -> dict[str, Variable]:
         if values.is_scale and values.ndim == 1:
             axes = [name]
         attributes = {key: value for key, value in values.attrs.items() if not key.isupper()}
-        found[name] = Variable(tuple(axes), values.shape, values.dtype, attributes, partial(_values, values))
+        load = partial(_stored, values, file)
+        found[name] = Variable(tuple(axes), values.shape, values.dtype, attributes, load)
     return found
+
+
+def _stored(values: Any, file: str) -> npt.NDArray[Any]:
+    require_memory_for(values, file)
+    return _values(values)
 
 
 def _values(variable: Any) -> npt.NDArray[Any]:

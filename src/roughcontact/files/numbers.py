@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,18 +12,22 @@ import numpy as np
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import Array
 
-__all__ = ["Table", "decode", "parse_table"]
+__all__ = ["Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]
 
 _HOLE = "write nan where a point was not measured, so that all rows are equally long"
+_ROWS = re.compile(
+    r"(?:(?:number of )?rows|y-pixels|y-?res|ny|zeilen|lignes)\s*[:=,;\t]\s*(\d{1,9})", re.IGNORECASE
+)
 _PLAIN = "give rows of numbers only; lines of explanation before them start with #"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """The numbers of a text, shape (rows, columns), and its comment lines without their ``#``."""
+    """The numbers of a text, shape (rows, columns), its comment lines without their ``#``, and doubts."""
 
     values: Array
     comments: tuple[str, ...]
+    doubts: tuple[str, ...]
 
 
 def parse_table(data: bytes, file: str) -> Table:
@@ -40,7 +45,8 @@ def parse_table(data: bytes, file: str) -> Table:
     rows: list[tuple[int, str]] = []
     interrupted = False
     interruption = 0  # the line of an empty line or comment after the first row
-    for number, line in enumerate(decode(data, file).split("\n"), start=1):
+    text = decode(data, file)
+    for number, line in enumerate(text.split("\n"), start=1):
         bare = line.strip()
         if bare.startswith("#") or not bare:
             if bare:
@@ -62,7 +68,33 @@ def parse_table(data: bytes, file: str) -> Table:
             f"line {interruption}, empty or a comment, is a hole after row {len(rows)}",
             "keep one uninterrupted table in a file",
         )
-    return Table(values, tuple(comments))
+    require_rows(comments, len(rows), file)
+    return Table(values, tuple(comments), unended(text))
+
+
+def require_rows(comments: Iterable[str], found: int, file: str) -> None:
+    """Refuse a text of fewer rows than a comment states."""
+    stated = stated_rows(comments)
+    if stated is not None and stated > found:
+        raise ReadError(
+            file,
+            f"{found} rows are there where it states {stated}: it is cut short",
+            "copy or export it again, or take out that line if it says something else",
+        )
+
+
+def stated_rows(comments: Iterable[str]) -> int | None:
+    """Return the number of rows that a comment such as ``Rows: 512`` or ``y-pixels = 512`` states."""
+    found = (_ROWS.fullmatch(comment.strip()) for comment in comments)
+    return next((int(match[1]) for match in found if match is not None), None)
+
+
+def unended(text: str) -> tuple[str, ...]:
+    """Return a doubt where the last line has no end: its last number may lack digits."""
+    last = text.rpartition("\n")[2].strip()
+    if not last or last.startswith("#"):
+        return ()
+    return ("its last line has no end: it may be cut short, and its last number may lack digits",)
 
 
 def decode(data: bytes, file: str) -> str:
@@ -77,6 +109,12 @@ def decode(data: bytes, file: str) -> str:
             file, "it is not a text: it holds zero bytes", "rename it to the extension of its format"
         )
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def last_digit(number: str) -> float:
+    """Return the unit of the last digit of a number that is printed."""
+    mantissa, _, exponent = number.casefold().partition("e")
+    return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
 
 def _numbers(rows: list[tuple[int, str]], file: str) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
-from roughcontact.files.numbers import decode
+from roughcontact.files.numbers import decode, last_digit, require_rows, unended
 from roughcontact.files.units import is_length, length_factor, parse_length
 
 __all__ = ["read_profile"]
@@ -29,13 +29,19 @@ def read_profile(data: bytes, file: str) -> HeightMap:
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
     such as ``Length, 1500 um`` is compared with the places.
     """
-    words, rows = _split(data, file)
+    text = decode(data, file)
+    words, rows = _split(text, file)
+    require_rows(words, len(rows), file)
+    doubts = unended(text)
     values = np.array([[float(field) for field in row] for row in rows])
     if values.shape[1] == 1:
-        return HeightMap(as_heights(values[:, 0], file), "text line scan", unit=_header_units(words, 1)[0])
+        unit = _header_units(words, 1)[0]
+        return HeightMap(as_heights(values[:, 0], file), "text line scan", unit=unit, doubts=doubts)
     step, note = _step(values[:, 0], [row[0] for row in rows], file)
     lateral, unit = _header_units(words, 2)
     factor = length_factor(lateral) if lateral is not None else None
+    if factor is not None:
+        doubts += _announced(words, step * factor * (len(values) - 1))
     return HeightMap(
         as_heights(values[:, 1], file),
         "text line scan",
@@ -43,15 +49,15 @@ def read_profile(data: bytes, file: str) -> HeightMap:
         spacing=None if factor is None else (step * factor,),
         steps=(step,) if factor is None else None,
         notes=note,
-        doubts=() if factor is None else _announced(words, step * factor * (len(values) - 1)),
+        doubts=doubts,
     )
 
 
-def _split(data: bytes, file: str) -> tuple[list[str], list[list[str]]]:
+def _split(text: str, file: str) -> tuple[list[str], list[list[str]]]:
     """Return the lines of words and the rows of numbers after them."""
     words: list[str] = []
     rows: list[list[str]] = []
-    lines = decode(data, file).rstrip().split("\n")
+    lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
         bare = line.strip().rstrip(",;").rstrip()
         fields = re.split(r"\s*[,;\t]\s*|\s+", bare)
@@ -78,7 +84,7 @@ def _step(places: Array, printed: list[str], file: str) -> tuple[float, tuple[st
         raise ReadError(
             file, f"its places run from {places[0]:g} to {places[-1]:g}", "sort the rows by place"
         )
-    digit = min(_last_digit(text) for text in printed)
+    digit = min(last_digit(text) for text in printed)
     error = float(np.abs(places - places[0] - step * np.arange(count)).max())
     # The two ends are rounded as well: half a digit of each place, and of the line through the ends.
     if not error <= max(_SLACK * step, _PRINTED * digit, 1e-6 * abs(places).max()):
@@ -90,12 +96,6 @@ def _step(places: Array, printed: list[str], file: str) -> tuple[float, tuple[st
     if error <= _SLACK * step:
         return step, ()
     return step, (f"places printed to {digit:g} are taken as even steps of {step:g}",)
-
-
-def _last_digit(number: str) -> float:
-    """Return the unit of the last digit that is printed."""
-    mantissa, _, exponent = number.casefold().partition("e")
-    return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
 
 def _header_units(words: list[str], columns: int) -> tuple[str | None, ...]:

@@ -8,7 +8,8 @@ import warnings
 from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
-from roughcontact.files.dispatch import content, either, height_map, line_scan
+from roughcontact.files.content import content
+from roughcontact.files.dispatch import either, height_map, line_scan
 from roughcontact.files.errors import SurfaceWarning
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.units import length_factor

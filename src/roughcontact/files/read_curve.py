@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.status import Status
-from roughcontact.files.dispatch import content
+from roughcontact.files.content import content
 from roughcontact.files.errors import ReadError
 from roughcontact.files.netcdf import Variable, opened
 from roughcontact.halfspace.geometry import Geometry

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.memory import BYTES_PER_POINT, require_memory
 from roughcontact.files.units import is_length, length_factor
 
 __all__ = ["read_sur"]
@@ -120,6 +121,7 @@ def _counts(data: bytes, header: Any, file: str) -> npt.NDArray[np.int64]:
     expected = int(header["points"]) * dtype.itemsize
     rest = data[_HEADER.itemsize + int(header["comment"]) + int(header["private"]) :]
     if header["magic"] == b"DSCOMPRESSED":
+        require_memory(BYTES_PER_POINT * int(header["points"]), file)
         rest = _unpacked(rest, expected, file)
     if len(rest) < expected:
         raise ReadError(
@@ -133,13 +135,14 @@ def _unpacked(packed: bytes, expected: int, file: str) -> bytes:
     try:
         (streams,) = struct.unpack_from("<I", packed)
         lengths = struct.unpack_from(f"<{2 * streams}I", packed, 4) if streams <= expected else ()
-        place, parts = 4 + 8 * streams, []
+        place, parts, left = 4 + 8 * streams, [], expected
         for whole, part in zip(lengths[::2], lengths[1::2], strict=True):
             unpacker = zlib.decompressobj()
-            parts.append(unpacker.decompress(packed[place : place + part], min(whole, expected) + 1))
+            parts.append(unpacker.decompress(packed[place : place + part], min(whole, left) + 1))
             if len(parts[-1]) != whole or not unpacker.eof:
                 raise ValueError(f"a stream holds {len(parts[-1])} bytes where its table states {whole}")
             place += part
+            left -= min(whole, left)
     except (struct.error, zlib.error, ValueError) as error:
         raise ReadError(file, f"its compressed heights are damaged ({error})", _AGAIN) from error
     return b"".join(parts)

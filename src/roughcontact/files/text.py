@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from roughcontact.files.errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
-from roughcontact.files.numbers import parse_table
+from roughcontact.files.numbers import last_digit, parse_table, stated_rows
 from roughcontact.files.units import parse_length
 
 __all__ = ["read_text"]
@@ -27,11 +27,12 @@ _COORDINATES = 8  # rows from which two or three bare columns are taken for coor
 
 @dataclass(frozen=True, slots=True)
 class _Header:
-    """What the comment lines state: size in metres, unit of the heights."""
+    """What the comment lines state: size in metres, its rounding (relative), unit of the heights."""
 
     channel: str | None = None
     width: float | None = None
     height: float | None = None
+    rounding: float = 0.0
     unit: str | None = None
 
 
@@ -55,6 +56,20 @@ def read_text(data: bytes, file: str) -> HeightMap:
         channel=header.channel,
         unit=header.unit,
         spacing=spacing,
+        doubts=(*table.doubts, *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx)))),
+    )
+
+
+def _rows_missing(header: _Header, shape: tuple[int, int]) -> tuple[str, ...]:
+    """Return a doubt where the height in the header has room for more rows of square cells than there are."""
+    if header.width is None or header.height is None:
+        return ()
+    ny, nx = shape
+    expected = header.height / (header.width / nx)
+    if not expected * (1 - header.rounding) > ny + 0.5:
+        return ()
+    return (
+        f"its height has room for {expected:.0f} rows of square cells, and {ny} are there: it may be cut short",
     )
 
 
@@ -66,9 +81,9 @@ def _header(comments: Iterable[str]) -> _Header:
         for key, words in _LABELS.items():
             if words.fullmatch(label.strip().casefold()) and value.strip():
                 stated.setdefault(key, value.strip())
-    return _Header(
-        stated.get("channel"), _length(stated.get("width")), _length(stated.get("height")), stated.get("unit")
-    )
+    width, height = (_length(stated.get(name)) for name in ("width", "height"))
+    rounding = sum(_rounding(stated[name]) for name in ("width", "height") if name in stated)
+    return _Header(stated.get("channel"), width, height, rounding, stated.get("unit"))
 
 
 def _length(text: str | None) -> float | None:
@@ -76,3 +91,11 @@ def _length(text: str | None) -> float | None:
         return None if text is None else parse_length(text.replace(",", "."))
     except ValueError:
         return None
+
+
+def _rounding(text: str) -> float:
+    """Return by how much of itself a printed number may have been rounded."""
+    number = re.match(r"\d+\.?\d*(?:[eE][-+]?\d+)?", text.replace(",", "."))
+    if number is None or float(number[0]) == 0:
+        return 0.0
+    return 0.5 * last_digit(number[0]) / float(number[0])

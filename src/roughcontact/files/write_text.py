@@ -20,7 +20,7 @@ def text_of(surface: Surface) -> str:
         places = surface.grid.coordinates[0].tolist()
         rows: Iterable[tuple[float, ...]] = zip(places, surface.heights.tolist(), strict=True)
         # The line above the numbers names their units.
-        header = [*history, "x [m]\tz [m]"]
+        header = [f"# Rows: {surface.grid.size}", *history, "x [m]\tz [m]"]
     else:
         height, width = surface.grid.lengths
         rows = surface.heights.tolist()
@@ -29,6 +29,7 @@ def text_of(surface: Surface) -> str:
             f"# Width: {width!r} m",
             f"# Height: {height!r} m",
             "# Value units: m",
+            f"# Rows: {surface.grid.shape[0]}",
             *history,
         ]
     return "\n".join([*header, *("\t".join(map(repr, row)) for row in rows)]) + "\n"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 from roughcontact.files.errors import ReadError
 
@@ -62,9 +63,18 @@ def local_name(element: ElementTree.Element) -> str:
 
 def parse_xml(main: bytes, file: str) -> Node:
     """Return the root of ``main.xml``."""
-    if b"<!ENTITY" in main or b"<!DOCTYPE" in main:
+
+    def refuse(*_: str | None) -> None:
         raise ReadError(file, "its main.xml declares a document type, which X3P does not know", _AGAIN)
+
+    builder = ElementTree.TreeBuilder()
+    # The parser knows a document type in any encoding; it comes before all that could be made to grow.
+    target = SimpleNamespace(
+        start=builder.start, end=builder.end, data=builder.data, close=builder.close, doctype=refuse
+    )
     try:
-        return Node(ElementTree.fromstring(main), file)
+        return Node(ElementTree.fromstring(main, ElementTree.XMLParser(target=target)), file)
+    except ReadError:
+        raise
     except Exception as error:  # ParseError, but also LookupError and ValueError over the declared encoding
         raise ReadError(file, f"its main.xml is damaged ({error})", _AGAIN) from error

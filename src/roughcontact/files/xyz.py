@@ -53,7 +53,7 @@ def read_xyz(data: bytes, file: str) -> HeightMap:
         spacing=(dy * length_factor(units[1]), dx * length_factor(units[0])) if units else None,
         steps=(dy, dx),
         notes=("the first row has the smallest y",),
-        doubts=_cut_short(rows, columns, (ny, nx)),
+        doubts=(*table.doubts, *_cut_short(rows, columns, (ny, nx))),
     )
 
 
