@@ -98,11 +98,10 @@ def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
 @contextmanager
 def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mapping[str, Any]]]:
     """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
-    # Late, for they take long; here, since a library that cannot be imported is no damage of the file.
-    from scipy.io import netcdf_file
-
     try:
         if data.startswith(b"CDF"):
+            from scipy.io import netcdf_file
+
             reader: Any = netcdf_file
             with reader(BytesIO(data), "r", mmap=False) as classic:
                 yield _classic(classic), dict(classic._attributes)
@@ -111,7 +110,7 @@ def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mappin
                 yield _modern(modern, file), dict(modern.attrs)
         else:
             raise ReadError(file, "it is not a NetCDF file", "check its extension; copy it again")
-    except ReadError:
+    except (ReadError, ImportError):  # a library that cannot be imported is no damage of the file
         raise
     except Exception as error:  # damaged files fail in a dozen ways, down to OverflowError
         reason = (str(error).strip().splitlines() or [""])[0][:120] or type(error).__name__
