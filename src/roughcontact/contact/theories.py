@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -95,7 +96,8 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
         raise ValueError("Persson's theory is about surfaces on a grid of two axes")
     waves = _waves(surface)
     nominal = solution.force / surface.grid.area
-    return lambda stress: persson.pressure_density(stress, nominal, solution.problem.modulus, waves)
+    modulus = solution.problem.modulus
+    return partial(persson.pressure_density, pressure=nominal, modulus=modulus, surface=waves)
 
 
 def _whole(surface: Surface) -> Surface:

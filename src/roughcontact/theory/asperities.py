@@ -11,8 +11,8 @@ What it says of merged spots is a guess, and `AsperityContact.merged` counts the
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -217,22 +217,18 @@ def law(asperities: Asperities, *, interaction: bool = True) -> LoadingLaw:
         the bodies, without it "interfacial_stiffness" alone, since nothing lies beneath the summits. Each call
         solves for all forces again. The law has no upper force: `AsperityContact.merged` tells where spots merge.
     """
-
-    def of(quantity: Callable[[AsperityContact], float]) -> Callable[[Array], Array]:
-        def values(force: Array) -> Array:
-            return np.array(
-                [quantity(press(asperities, force=one, interaction=interaction)) for one in force]
-            )
-
-        return values
-
-    quantities = {
-        "contact_area": of(lambda contact: contact.contact_area),
-        "spots": of(lambda contact: contact.count),
-        "elastic_energy": of(lambda contact: contact.elastic_energy),
-        "stiffness" if interaction else "interfacial_stiffness": of(lambda contact: contact.stiffness),
+    found = {
+        "contact_area": "contact_area",
+        "spots": "count",
+        "elastic_energy": "elastic_energy",
+        "stiffness" if interaction else "interfacial_stiffness": "stiffness",
+        **({"depth": "depth"} if interaction else {}),
     }
-    if interaction:
-        quantities["depth"] = of(lambda contact: contact.depth)
+    quantities = {name: partial(_of, asperities, interaction, value) for name, value in found.items()}
     name = "Interacting asperities" if interaction else "Independent asperities"
     return LoadingLaw(name, SOURCE, quantities, domain=(math.ulp(0.0), math.inf))
+
+
+def _of(asperities: Asperities, interaction: bool, quantity: str, force: Array) -> Array:
+    contacts = (press(asperities, force=one, interaction=interaction) for one in force)
+    return np.array([getattr(contact, quantity) for contact in contacts])

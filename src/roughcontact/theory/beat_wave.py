@@ -5,6 +5,8 @@ z = h0 sum_i (1 - cos phi_i), the depth below the common peak. Its density start
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from scipy.special import binom, gammaln, j0
 
@@ -53,10 +55,17 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     n, h0 = int(given), float(positive(amplitude, "amplitude [m]"))
     name = f"{n} waves of independent phases" if n > 1 else "One cosine"
     if n == 1:
-        return HeightDistribution(
-            name, lambda u: cosine.stiffness(u, h0, 1.0, 1.0), lambda u: cosine.force(u, h0, 1.0, 1.0)
-        )
-    return HeightDistribution(name, lambda u: _moment(u / h0, n, 1), lambda u: h0 * _moment(u / h0, n, 2))
+        wave = {"amplitude": h0, "length": 1.0, "modulus": 1.0}
+        return HeightDistribution(name, partial(cosine.stiffness, **wave), partial(cosine.force, **wave))
+    return HeightDistribution(name, partial(_fraction, h0, n), partial(_excess, h0, n))
+
+
+def _fraction(amplitude: float, n: int, u: Array) -> Array:
+    return _moment(u / amplitude, n, 1)
+
+
+def _excess(amplitude: float, n: int, u: Array) -> Array:
+    return amplitude * _moment(u / amplitude, n, 2)
 
 
 def _moment(u: Array, n: int, order: int) -> Array:

@@ -13,6 +13,7 @@ heat cross in the contact region only: no film, no gas, no radiation.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -137,13 +138,27 @@ def law(
     quantities: dict[str, Callable[[Array], Array]] = {}
     if resistivities is not None:
         electrical(0.0, modulus, resistivities)
-        quantities["electrical_conductance"] = lambda f: electrical(stiffness(f), modulus, resistivities)
+        quantities["electrical_conductance"] = partial(
+            _of_stiffness, electrical, stiffness, modulus, resistivities
+        )
     if conductivities is not None:
         thermal(0.0, modulus, conductivities)
-        quantities["thermal_conductance"] = lambda f: thermal(stiffness(f), modulus, conductivities)
+        quantities["thermal_conductance"] = partial(
+            _of_stiffness, thermal, stiffness, modulus, conductivities
+        )
     if not quantities:
         raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
     return LoadingLaw(mechanical.name, mechanical.source, quantities, mechanical.domain)
+
+
+def _of_stiffness(
+    conductance: Callable[[Array, float, Pair], Array],
+    stiffness: Callable[[Array], Array],
+    modulus: float,
+    pair: Pair,
+    force: Array,
+) -> Array:
+    return conductance(stiffness(force), modulus, pair)
 
 
 def _lengths(stiffness: float | Array, modulus: float) -> Array:

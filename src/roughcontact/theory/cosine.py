@@ -6,6 +6,9 @@ note of each other, so only the distribution of heights matters, not the wavenum
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 from scipy.special import spherical_jn
@@ -115,17 +118,21 @@ def law(amplitude: float, length: float, modulus: float) -> LoadingLaw:
     amplitude, length, modulus : float
         See `force`.
     """
-    wave = amplitude, length, modulus
+    wave = {"amplitude": amplitude, "length": length, "modulus": modulus}
     # A wrong body is refused now, not at the first force.
-    force(0.0, *wave)
+    force(0.0, **wave)
     return LoadingLaw(
         "One cosine on springs",
         "thesis, eq. 4.33, corrected",
         {
-            "stiffness": lambda force: stiffness(depth(force, *wave), *wave),
-            "depth": lambda force: depth(force, *wave),
+            "stiffness": partial(_stiffness, wave),
+            "depth": partial(depth, **wave),
         },
     )
+
+
+def _stiffness(wave: Mapping[str, float], force: Array) -> Array:
+    return stiffness(depth(force, **wave), **wave)
 
 
 def _given(

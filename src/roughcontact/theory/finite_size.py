@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -126,13 +127,15 @@ def law(
     fits = cell.length**2 <= nominal * (1 + 1e-9)
     require(fits, f"a cell of side {cell.length} m is larger than the nominal area of {area} m^2")
 
-    def stiffness(force: Array) -> Array:
-        many = nominal * separation.stiffness(force / nominal, modulus, waves, gamma=gamma)
-        return np.asarray(np.maximum(cell.stiffness(force, modulus), many))
-
+    stiffness = partial(_stiffness, cell, waves, modulus, nominal, gamma)
     stiffness(np.array([0.0]))  # bad numbers show themselves here, not in the first prediction
     return LoadingLaw(
         "Finite size",
         "after Pastewka et al., Phys. Rev. E 87, 062809 (2013), heuristic",
         {"interfacial_stiffness": stiffness},
     )
+
+
+def _stiffness(cell: Cell, waves: Waves, modulus: float, area: float, gamma: float, force: Array) -> Array:
+    many = area * separation.stiffness(force / area, modulus, waves, gamma=gamma)
+    return np.asarray(np.maximum(cell.stiffness(force, modulus), many))

@@ -11,6 +11,8 @@ There is no highest peak, so no depth; and no number of grid points, which eq. 4
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtr
@@ -92,7 +94,7 @@ def law(rms: float, length: float, modulus: float) -> LoadingLaw:
     return LoadingLaw(
         "White heights on springs",
         "Gaussian heights in thesis, eq. 4.59",
-        {"stiffness": lambda force: stiffness(force, rms, length, modulus)},
+        {"stiffness": partial(stiffness, rms=rms, length=length, modulus=modulus)},
     )
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -102,10 +103,8 @@ class HeightDistribution:
             self.name,
             self.source,
             {
-                "stiffness": lambda force: self.stiffness(
-                    self.depth(force, length, modulus), length, modulus
-                ),
-                "depth": lambda force: self.depth(force, length, modulus),
+                "stiffness": partial(_stiffness, self, length, modulus),
+                "depth": partial(self.depth, length=length, modulus=modulus),
             },
         )
 
@@ -130,17 +129,10 @@ def from_density(
     ValueError
         When evaluated: if an integral cannot be had to a relative error of 1e-8, for want of `breaks`.
     """
-    inner = sorted(float(positive(z, "breaks [m]")) for z in breaks)
-
-    def integral(weight: Callable[[float, float], float]) -> Callable[[Array], Array]:
-        def at(u: float) -> float:
-            ends = [0.0, *(z for z in inner if z < u), u]
-            return math.fsum(_integral(lambda z: density(z) * weight(u, z), *part) for part in pairwise(ends))
-
-        many = np.vectorize(at, otypes=[np.float64])
-        return lambda u: many(u)[()]
-
-    return HeightDistribution(name, integral(lambda u, z: 1.0), integral(lambda u, z: u - z))
+    inner = tuple(sorted(float(positive(z, "breaks [m]")) for z in breaks))
+    return HeightDistribution(
+        name, partial(_integrals, density, inner, 0), partial(_integrals, density, inner, 1)
+    )
 
 
 def from_samples(
@@ -170,17 +162,7 @@ def from_samples(
     require(np.diff(z) > 0, "depth must increase from sample to sample")
     once = PPoly(np.array([np.diff(phi) / np.diff(z), phi[:-1]]), z).antiderivative()
     twice = once.antiderivative()
-    end, whole = z[-1], once(z[-1])
-
-    def fraction(u: Array) -> Array:
-        value: Array = once(np.clip(u, z[0], end))
-        return value
-
-    def excess(u: Array) -> Array:
-        value: Array = twice(np.clip(u, z[0], end)) + whole * np.maximum(u - end, 0.0)
-        return value
-
-    return HeightDistribution(name, fraction, excess)
+    return HeightDistribution(name, partial(_sampled_fraction, once), partial(_sampled_excess, once, twice))
 
 
 @numeric
@@ -250,6 +232,34 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
 def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
     """Return E* L [N/m]."""
     return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
+
+
+def _stiffness(heights: HeightDistribution, length: float, modulus: float, force: Array) -> Array:
+    return heights.stiffness(heights.depth(force, length, modulus), length, modulus)
+
+
+def _sampled_fraction(once: PPoly, u: Array) -> Array:
+    value: Array = once(np.clip(u, once.x[0], once.x[-1]))
+    return value
+
+
+def _sampled_excess(once: PPoly, twice: PPoly, u: Array) -> Array:
+    first, end = once.x[0], once.x[-1]
+    value: Array = twice(np.clip(u, first, end)) + once(end) * np.maximum(u - end, 0.0)
+    return value
+
+
+def _integrals(
+    density: Callable[[float], float], breaks: tuple[float, ...], order: int, depth: Array
+) -> Array:
+    """Return int_0^u Phi(z) (u - z)^order dz at depths u."""
+
+    def at(u: float) -> float:
+        ends = [0.0, *(z for z in breaks if z < u), u]
+        return math.fsum(_integral(lambda z: density(z) * (u - z) ** order, *part) for part in pairwise(ends))
+
+    value: Array = np.vectorize(at, otypes=[np.float64])(depth)[()]
+    return value
 
 
 def _integral(function: Callable[[float], float], low: float, high: float) -> float:

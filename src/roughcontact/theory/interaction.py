@@ -13,7 +13,9 @@ between 0.561 and 1.122 on a square. On a periodic surface there is no such sink
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -114,15 +116,19 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     of_interface = law.quantities["interfacial_stiffness"]
     more = dict(law.quantities)
 
-    def stiffness(force: Array) -> Array:
-        interface = of_interface(force)
-        return interface / (1 + compliance * interface)  # 1/k = 1/K + c/(E* L)
-
-    more["stiffness"] = stiffness
+    more["stiffness"] = partial(_stiffness, of_interface, compliance)
     if "elastic_energy" in more:
-        of_asperities = more["elastic_energy"]
-        more["elastic_energy"] = lambda force: of_asperities(force) + compliance * force**2 / 2
+        more["elastic_energy"] = partial(_energy, more["elastic_energy"], compliance)
     return replace(law, name=f"{law.name} on a finite body", quantities=more)
+
+
+def _stiffness(of_interface: Callable[[Array], Array], compliance: float, force: Array) -> Array:
+    interface = of_interface(force)
+    return interface / (1 + compliance * interface)  # 1/k = 1/K + c/(E* L)
+
+
+def _energy(of_asperities: Callable[[Array], Array], compliance: float, force: Array) -> Array:
+    return of_asperities(force) + compliance * force**2 / 2
 
 
 @numeric

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -77,18 +78,24 @@ def loading_law(interface: Interface, area: float, *, name: str, source: str) ->
     """
     nominal = float(positive(area, "the nominal area [m^2]"))
 
-    def at(force: Array) -> Array:
-        return interface.separation(force / nominal)
-
     return LoadingLaw(
         name,
         source,
         {
-            "interfacial_stiffness": lambda force: nominal * interface.stiffness(at(force)),
-            "contact_area": lambda force: nominal * interface.contact_fraction(at(force)),
-            "mean_gap": at,
-            "spots": lambda force: nominal * interface.spot_density(at(force)),
-            "elastic_energy": lambda force: nominal * interface.energy(at(force)),
+            "interfacial_stiffness": partial(_in_all, interface, "stiffness", nominal),
+            "contact_area": partial(_in_all, interface, "contact_fraction", nominal),
+            "mean_gap": partial(_separation, interface, nominal),
+            "spots": partial(_in_all, interface, "spot_density", nominal),
+            "elastic_energy": partial(_in_all, interface, "energy", nominal),
         },
         domain=(0.0, nominal * float(interface.pressure(max(0.0, interface.lowest)))),
     )
+
+
+def _separation(interface: Interface, area: float, force: Array) -> Array:
+    return interface.separation(force / area)
+
+
+def _in_all(interface: Interface, quantity: str, area: float, force: Array) -> Array:
+    per_area: Array = getattr(interface, quantity)(interface.separation(force / area))
+    return area * per_area

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.tools.domain import number
 
-__all__ = ["LoadingLaw"]
+__all__ = ["LoadingLaw", "over_area"]
 
 Array = npt.NDArray[np.float64]
 
@@ -61,3 +61,8 @@ class LoadingLaw:
     def __repr__(self) -> str:
         """Say whose theory it is and what it is about."""
         return f"LoadingLaw({self.name}: {', '.join(sorted(self.quantities))})"
+
+
+def over_area(quantity: Callable[[Array], Array], area: float, force: Array) -> Array:
+    """Return what a nominal area [m^2] has in all of a quantity per area, a function of the nominal pressure [Pa]."""
+    return area * quantity(force / area)

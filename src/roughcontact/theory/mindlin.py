@@ -11,6 +11,8 @@ regions a good approximation: along the long side of a rectangle of 4 : 1 the ra
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import Literal, Protocol
 
 from roughcontact.theory import pohrt_popov
@@ -102,12 +104,14 @@ def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
     normal = mechanical.quantities["stiffness"]
     positive(ratio, "the ratio E*/G*")
 
-    def sideways(force: Array) -> Array:
-        return tangential_stiffness(normal(force), ratio)
-
+    sideways = partial(_sideways, normal, ratio)
     return LoadingLaw(
         mechanical.name, mechanical.source, {"tangential_stiffness": sideways}, mechanical.domain
     )
+
+
+def _sideways(normal: Callable[[Array], Array], ratio: float, force: Array) -> Array:
+    return tangential_stiffness(normal(force), ratio)
 
 
 @numeric

@@ -13,12 +13,15 @@ A surface enters through its rms slope alone: `surface` is anything with profile
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.special import erf, erfc, erfinv
 
 from roughcontact.theory import persson_separation as separation
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.tools.numeric import numeric
@@ -142,22 +145,24 @@ def law(spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separ
     lowest loads of a finite surface see `finite_size`.
     """
     waves, area = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
-    given = (modulus, waves)
-    separation.stiffness(0.0, *given, gamma=gamma)  # bad numbers show themselves here
+    given: dict[str, Any] = {"modulus": modulus, "spectrum": waves, "gamma": gamma}
+    separation.stiffness(0.0, **given)  # bad numbers show themselves here
     return LoadingLaw(
         "Persson",
         "Persson, J. Chem. Phys. 115, 3840 (2001); Yang and Persson, J. Phys.: Condens. Matter 20, 215214 (2008)",
         {
-            "contact_area": lambda force: area * contact_fraction(force / area, *given),
-            "mean_gap": lambda force: separation.mean_gap(force / area, *given, gamma=gamma),
-            "interfacial_stiffness": lambda force: (
-                area * separation.stiffness(force / area, *given, gamma=gamma)
+            "contact_area": partial(
+                over_area, partial(contact_fraction, modulus=modulus, surface=waves), area
             ),
-            "elastic_energy": lambda force: (
-                area * separation.elastic_energy(force / area, *given, gamma=gamma)
-            ),
+            "mean_gap": partial(_mean_gap, given, area),
+            "interfacial_stiffness": partial(over_area, partial(separation.stiffness, **given), area),
+            "elastic_energy": partial(over_area, partial(separation.elastic_energy, **given), area),
         },
     )
+
+
+def _mean_gap(given: Mapping[str, Any], area: float, force: Array) -> Array:
+    return separation.mean_gap(force / area, **given)
 
 
 def _pressure(pressure: float | Array) -> Array:

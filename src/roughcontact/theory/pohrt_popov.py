@@ -6,6 +6,9 @@ prefactor is a fit to boundary-element results.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 
@@ -236,23 +239,24 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     LoadingLaw
         Up to a force of 0.07 E* h L, where the thesis' fits end.
     """
-    surface = hurst, rms, length, modulus
-    alpha, _, force_scale, _ = _scales(*surface)
-
-    def energy(force: Array) -> Array:
-        # U = int F dd with F ~ d^(1/(1 - alpha)).
-        return (1 - alpha) / (2 - alpha) * force * depth(force, *surface)
-
+    surface = {"hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
+    _, _, force_scale, _ = _scales(**surface)
     return LoadingLaw(
         "Pohrt and Popov",
         "thesis, eq. 4.74",
         {
-            "stiffness": lambda force: stiffness(force, *surface),
-            "depth": lambda force: depth(force, *surface),
-            "elastic_energy": energy,
+            "stiffness": partial(stiffness, **surface),
+            "depth": partial(depth, **surface),
+            "elastic_energy": partial(_energy, surface),
         },
         (0.0, float(FORCE_LIMIT * force_scale)),
     )
+
+
+def _energy(surface: Mapping[str, float], force: Array) -> Array:
+    # U = int F dd with F ~ d^(1/(1 - alpha)).
+    alpha, *_ = _scales(**surface)
+    return (1 - alpha) / (2 - alpha) * force * depth(force, **surface)
 
 
 def _hurst(hurst: npt.ArrayLike) -> Array:

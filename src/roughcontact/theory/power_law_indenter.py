@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -162,11 +163,12 @@ def law(exponent: float, coefficient: float, modulus: float) -> LoadingLaw:
     """
     # A wrong body is refused now, not at the first force.
     contact(modulus, exponent=exponent, coefficient=coefficient, force=0.0)
-
-    def of(name: str) -> Callable[[Array], Array]:
-        return lambda force: getattr(
-            contact(modulus, exponent=exponent, coefficient=coefficient, force=force), name
-        )
-
+    body = {"modulus": modulus, "exponent": exponent, "coefficient": coefficient}
     names = ("stiffness", "depth", "contact_area", "elastic_energy")
-    return LoadingLaw(f"z ~ r^{exponent:g}", "thesis, eq. 5.3", {name: of(name) for name in names})
+    quantities = {name: partial(_of, name, body) for name in names}
+    return LoadingLaw(f"z ~ r^{exponent:g}", "thesis, eq. 5.3", quantities)
+
+
+def _of(name: str, body: Mapping[str, float], force: Array) -> Array:
+    value: Array = getattr(contact(**body, force=force), name)
+    return value

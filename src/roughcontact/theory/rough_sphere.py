@@ -7,6 +7,8 @@ contact is one disc and known in closed form.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -159,6 +161,9 @@ def crossover_force(
     return value
 
 
+Terms = tuple[tuple[float, float], ...]  # powers of a radius, and their coefficients
+
+
 @numeric
 def law(radius: float, hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     """Return stiffness, depth and elastic energy of a rough sphere as functions of force (thesis, eqs 5.7 to 5.9).
@@ -178,28 +183,35 @@ def law(radius: float, hurst: float, rms: float, length: float, modulus: float) 
     # Powers p of r, and the depths by each term alone: d = sum D a^p, F = sum 2 E* p/(p + 1) D a^(p + 1).
     terms = ((2.0, 1 / radius), (hurst, float(coefficient(hurst, rms, length) * kappa(hurst))))
 
-    def contact_radius(force: Array) -> Array:
-        return stiffness(force, **body) / (2 * modulus)
-
-    def depth(force: Array) -> Array:
-        a = contact_radius(force)
-        return np.asarray(sum(scale * a**p for p, scale in terms))
-
-    def energy(force: Array) -> Array:
-        # U = int F dd, term by term.
-        a = contact_radius(force)
-        parts = [
-            2 * modulus * p / (p + 1) * scale * other * q / (p + q + 1) * a ** (p + q + 1)
-            for (p, scale), (q, other) in itertools.product(terms, repeat=2)
-        ]
-        return np.asarray(sum(parts))
-
     return LoadingLaw(
         "Rough sphere",
         "thesis, eq. 5.9",
-        {"stiffness": lambda force: stiffness(force, **body), "depth": depth, "elastic_energy": energy},
+        {
+            "stiffness": partial(stiffness, **body),
+            "depth": partial(_depth, body, terms),
+            "elastic_energy": partial(_energy, body, terms),
+        },
         (0.0, highest),
     )
+
+
+def _contact_radius(body: Mapping[str, float], force: Array) -> Array:
+    return stiffness(force, **body) / (2 * body["modulus"])
+
+
+def _depth(body: Mapping[str, float], terms: Terms, force: Array) -> Array:
+    a = _contact_radius(body, force)
+    return np.asarray(sum(scale * a**p for p, scale in terms))
+
+
+def _energy(body: Mapping[str, float], terms: Terms, force: Array) -> Array:
+    # U = int F dd, term by term.
+    a = _contact_radius(body, force)
+    parts = [
+        2 * body["modulus"] * p / (p + 1) * scale * other * q / (p + q + 1) * a ** (p + q + 1)
+        for (p, scale), (q, other) in itertools.product(terms, repeat=2)
+    ]
+    return np.asarray(sum(parts))
 
 
 def _roughness(hurst: npt.ArrayLike, prefactor: npt.ArrayLike | None) -> tuple[Array, Array]:

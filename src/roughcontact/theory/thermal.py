@@ -12,12 +12,13 @@ Moments are those of the sum of both surfaces, and k_s is the harmonic mean of b
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from roughcontact.theory.conductance import Pair, harmonic_mean
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.tools.numeric import numeric
@@ -140,15 +141,14 @@ def plastic_law(moments: ProfileMoments, hardness: float, conductivities: Pair, 
     top = float(
         FIT_LIMIT * positive(hardness, "the hardness [Pa]") * positive(area, "the nominal area [m^2]")
     )
-    plastic_conductance(0.0, hardness, conductivities, moments)  # bad numbers show themselves here
+    conductance = partial(
+        plastic_conductance, hardness=hardness, conductivities=conductivities, moments=moments
+    )
+    conductance(0.0)  # bad numbers show themselves here
     return LoadingLaw(
         "Cooper-Mikic-Yovanovich",
         "Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969); Yovanovich (1982)",
-        {
-            "thermal_conductance": lambda force: (
-                area * plastic_conductance(force / area, hardness, conductivities, moments)
-            )
-        },
+        {"thermal_conductance": partial(over_area, conductance, area)},
         (0.0, top),
     )
 
@@ -157,15 +157,14 @@ def plastic_law(moments: ProfileMoments, hardness: float, conductivities: Pair, 
 def elastic_law(moments: ProfileMoments, modulus: float, conductivities: Pair, area: float) -> LoadingLaw:
     """Return `elastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K]."""
     top = float(FIT_LIMIT * _asperity_pressure(modulus, moments) * positive(area, "the nominal area [m^2]"))
-    elastic_conductance(0.0, modulus, conductivities, moments)
+    conductance = partial(
+        elastic_conductance, modulus=modulus, conductivities=conductivities, moments=moments
+    )
+    conductance(0.0)
     return LoadingLaw(
         "Mikic",
         "Mikic, Int. J. Heat Mass Transfer 17, 205 (1974)",
-        {
-            "thermal_conductance": lambda force: (
-                area * elastic_conductance(force / area, modulus, conductivities, moments)
-            )
-        },
+        {"thermal_conductance": partial(over_area, conductance, area)},
         (0.0, top),
     )
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -143,9 +143,12 @@ def law(radius: float, modulus: float) -> LoadingLaw:
     """
     # A wrong body is refused now, not at the first force.
     point(modulus, radius=radius, force=0.0)
-
-    def of(name: str) -> Callable[[Array], Array]:
-        return lambda force: getattr(point(modulus, radius=radius, force=force), name)
-
     names = ("stiffness", "depth", "contact_area", "elastic_energy")
-    return LoadingLaw("Hertz", "thesis, eq. 5.4", {name: of(name) for name in names})
+    return LoadingLaw(
+        "Hertz", "thesis, eq. 5.4", {name: partial(_of, name, radius, modulus) for name in names}
+    )
+
+
+def _of(name: str, radius: float, modulus: float, force: Array) -> Array:
+    value: Array = getattr(point(modulus, radius=radius, force=force), name)
+    return value

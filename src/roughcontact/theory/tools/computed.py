@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -62,28 +63,37 @@ def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
             (loading.stiffness, "the stiffnesses of the curve [N/m]"),
         )
     )
-    by_force, rigidity = _through(force, depth), _through(force, stiffness)
     return LoadingLaw(
         "the computed curve",
         "",
-        {"depth": lambda f: np.where(f == 0, 0.0, by_force(f)), "stiffness": rigidity},
+        {"depth": partial(_depth, _Points.of(force, depth)), "stiffness": _Points.of(force, stiffness)},
         (0.0, float(force.max(initial=0.0)) * (1 + ROUNDING)),
     )
 
 
-def _through(force: Array, values: Array) -> Callable[[Array], Array]:
-    right = (force > 0) & (values > 0) & np.isfinite(force) & np.isfinite(values)
-    x, y = force[right], values[right]
-    if len(x) < 2 or not (np.diff(x) > 0).all():
-        raise ValueError(
-            f"a computed curve wants at least two points of strictly increasing force, not {len(x)} "
-            f"between {x.min(initial=np.inf):g} and {x.max(initial=0):g} N"
-        )
-    cubic = PchipInterpolator(np.log(x), np.log(y), extrapolate=False)
-    low, high = x[0] * (1 - ROUNDING), x[-1] * (1 + ROUNDING)
+@dataclass(frozen=True, slots=True, eq=False)
+class _Points:
+    """A monotone cubic through the logarithms of positive points."""
 
-    def at(f: Array) -> Array:
-        inside = (f >= low) & (f <= high)
-        return np.where(inside, np.exp(cubic(np.log(np.clip(f, x[0], x[-1])))), np.nan)
+    cubic: PchipInterpolator
+    ends: tuple[float, float]
 
-    return at
+    @classmethod
+    def of(cls, force: Array, values: Array) -> _Points:
+        right = (force > 0) & (values > 0) & np.isfinite(force) & np.isfinite(values)
+        x, y = force[right], values[right]
+        if len(x) < 2 or not (np.diff(x) > 0).all():
+            raise ValueError(
+                f"a computed curve wants at least two points of strictly increasing force, not {len(x)} "
+                f"between {x.min(initial=np.inf):g} and {x.max(initial=0):g} N"
+            )
+        return cls(PchipInterpolator(np.log(x), np.log(y), extrapolate=False), (x[0], x[-1]))
+
+    def __call__(self, f: Array) -> Array:
+        low, high = self.ends
+        inside = (f >= low * (1 - ROUNDING)) & (f <= high * (1 + ROUNDING))
+        return np.where(inside, np.exp(self.cubic(np.log(np.clip(f, low, high)))), np.nan)
+
+
+def _depth(points: _Points, force: Array) -> Array:
+    return np.where(force == 0, 0.0, points(force))
