@@ -290,7 +290,8 @@ STEPS, CREST = BODIES[-2:]
         (lambda: CREST.amplitudes(0), "count must be a whole number"),
         (lambda: CREST.corners(-1, 1e9), "count must be a whole number"),
         (lambda: beat_wave.beat_wave("x", 1.0), "modes must be a number"),
-        (lambda: beat_wave.beat_wave(np.nan, 1.0), "modes must be a positive whole number"),
+        (lambda: beat_wave.beat_wave(np.nan, 1.0), "modes must be a whole number"),
+        (lambda: beat_wave.beat_wave(0, 1.0), "modes must be a positive whole number"),
     ],
 )
 def test_lists_and_counts_are_refused_by_name(call, message):

@@ -36,7 +36,7 @@ class Force:
     value: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.value) and self.value > 0):
+        if not 0 < number("force", self.value) < math.inf:
             raise ValueError(f"the force must be positive and finite [N], not {self.value}")
 
 
@@ -47,7 +47,7 @@ class Depth:
     value: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.value) and self.value >= 0):
+        if not 0 <= number("depth", self.value) < math.inf:
             raise ValueError(
                 f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
             )
@@ -121,7 +121,7 @@ class ContactProblem:
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
         checked_tolerance(self.tolerance)
-        if not self.hardness > 0:
+        if not number("hardness", self.hardness) > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
             strongest = self.hardness * self._measure.total(self.measured)
