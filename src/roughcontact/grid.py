@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import moderate, scalar
+from roughcontact.theory.tools.domain import LARGEST, SMALLEST, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
 
@@ -60,8 +60,13 @@ class Grid:
         steps = _per_axis(spacing, len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
             raise ValueError(f"spacing must be positive and finite [m], not {steps}")
-        for step in steps:
-            moderate(scalar(step, "spacing [m]"), "spacing [m]")
+        # Of a line the spacing may be the area of cells of which it is a list.
+        area = math.prod(scalar(step, "spacing [m]") for step in steps)
+        if not SMALLEST**2 <= area <= LARGEST**2:
+            raise ValueError(
+                f"spacing must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
+                f"their digits, not {steps}: give lengths in other units"
+            )
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
         object.__setattr__(

@@ -97,7 +97,7 @@ def one_blas_thread() -> Iterator[None]:
 def _available() -> int:
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     asked = os.environ.get("OMP_NUM_THREADS", "")
-    return max(1, min(MOST, cores, int(asked) if asked.isdigit() and int(asked) else cores))
+    return max(1, min(MOST, cores, int(asked) if asked.isdecimal() and int(asked) else cores))
 
 
 class _Crew:

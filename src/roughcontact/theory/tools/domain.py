@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Array", "count", "moderate", "number", "pair", "positive", "require", "scalar", "shown"]
+__all__ = ["Array", "count", "finite", "moderate", "number", "pair", "positive", "require", "scalar", "shown"]
 
 Array = npt.NDArray[np.float64]
 
@@ -52,6 +52,13 @@ def scalar(value: npt.ArrayLike, what: str) -> float:
     x = number(value, what)
     require(np.ndim(x) == 0, f"{what} must be one number, not an array of shape {np.shape(x)}")
     return float(x)
+
+
+def finite(value: npt.ArrayLike, what: str) -> Array:
+    """Return `value` as `number` does, if all of it is finite."""
+    x = number(value, what)
+    require(np.isfinite(x), f"{what} must be finite", x)
+    return x
 
 
 def moderate(value: float, what: str) -> float:
