@@ -16,7 +16,6 @@ from roughcontact.contact.tangential.interface import Interface
 from roughcontact.contact.tangential.problem import Bodies, shear_body
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear import ShearOperator
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
@@ -53,7 +52,6 @@ class TangentialStiffness:
         return values, vectors.T
 
 
-@numeric
 def tangential_stiffness(
     region: Mask,
     grid: Grid,
