@@ -16,10 +16,21 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.material import number
+from roughcontact.memory import require_memory
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms", "checked_tolerance"]
+__all__ = [
+    "Body",
+    "ContactProblem",
+    "Control",
+    "Depth",
+    "Force",
+    "Terms",
+    "checked_tolerance",
+    "require_memory_for",
+    "separation_of",
+]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -80,6 +91,9 @@ class Terms:
         return None if isinstance(self.control, Force) else self.control.value
 
 
+# A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
+# `separation_of` two fields of eight bytes are alive, and the mask of missing cells; all three are written throughout.
+LEAST_BYTES = 17
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -222,6 +236,21 @@ def checked_tolerance(tolerance: Any) -> float:
     if not 1e-14 < value < 1e-2:
         raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
     return value
+
+
+def require_memory_for(surface: Body) -> None:
+    """Refuse what cannot be pressed in the memory of this machine, whatever the load.
+
+    Raises
+    ------
+    ValueError
+        If less memory is left than every press takes.
+    """
+    if is_numpy(surface.heights):
+        shape = " x ".join(map(str, surface.grid.shape))
+        require_memory(
+            LEAST_BYTES * surface.grid.size, f"pressing {shape} cells", "press a part, or average cells"
+        )
 
 
 def separation_of(surface: Body) -> Array:
