@@ -35,7 +35,7 @@ def test_within_a_limit():
 
 
 @pytest.mark.parametrize(
-    ("asked", "given"), [("1", 1), ("0", None), ("many", None), ("1000", None), ("", None)]
+    ("asked", "given"), [("1", 1), ("0", None), ("many", None), ("1000", None), ("", None), ("²", None)]
 )
 def test_the_environment_may_ask_for_fewer(asked, given):
     code = "from roughcontact.threads import threads; print(threads())"

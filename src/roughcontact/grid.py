@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.domain import LARGEST, SMALLEST, moderate, scalar
+
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
 
 Array = npt.NDArray[np.float64]
@@ -56,8 +58,15 @@ class Grid:
         if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
             raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(spacing, len(sizes), "spacing")
-        if any(not (_is_real(step) and math.isfinite(step) and step > 0) for step in steps):
+        if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
             raise ValueError(f"spacing must be positive and finite [m], not {steps}")
+        # Of a line the spacing may be the area of cells of which it is a list.
+        area = math.prod(scalar(step, "spacing [m]") for step in steps)
+        if not SMALLEST**2 <= area <= LARGEST**2:
+            raise ValueError(
+                f"spacing must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
+                f"their digits, not {steps}: give lengths in other units"
+            )
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
         object.__setattr__(
@@ -132,6 +141,8 @@ class RadialGrid:
             raise ValueError(f"edges must hold the radii of at least two circles, not shape {edges.shape}")
         if not (np.isfinite(edges).all() and edges[0] >= 0 and (np.diff(edges) > 0).all()):
             raise ValueError("edges must be finite radii [m] that increase strictly, from 0 or above")
+        for width in (np.diff(edges).min(), edges[-1]):
+            moderate(float(width), "edges and widths of rings [m]")
         edges.flags.writeable = False
         object.__setattr__(self, "edges", edges)
 
@@ -145,11 +156,11 @@ class RadialGrid:
             If the number of rings is not a positive whole one, or the radius not positive and finite.
         """
         numbers = _is_real(rings) and _is_real(radius)
-        if not (numbers and rings >= 1 and rings % 1 == 0 and math.isfinite(radius) and radius > 0):
+        if not (numbers and rings >= 1 and rings % 1 == 0 and 0 < radius < math.inf):
             raise ValueError(
                 f"a disc needs a whole number of rings, at least one, and a radius above 0, not {rings} and {radius}"
             )
-        return cls(np.linspace(0.0, radius, int(rings) + 1))
+        return cls(np.linspace(0.0, moderate(scalar(radius, "radius [m]"), "radius [m]"), int(rings) + 1))
 
     def __eq__(self, other: object) -> bool:
         """Whether both have the same circles."""

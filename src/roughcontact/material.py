@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from roughcontact.theory.tools.domain import moderate, scalar, shown
+from roughcontact.theory.tools.numeric import require_numbers
+
 __all__ = ["Solid", "as_modulus", "number", "reduced_modulus", "reduced_shear_modulus"]
 
 
@@ -25,8 +28,11 @@ class Solid:
     poisson_ratio: float
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         if not self.young_modulus > 0:
             raise ValueError(f"young_modulus must be positive [Pa], not {self.young_modulus}")
+        if self.young_modulus < math.inf:
+            moderate(self.young_modulus, "young_modulus [Pa]")
         if not -1 < self.poisson_ratio <= 0.5:
             raise ValueError(f"poisson_ratio must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
 
@@ -72,7 +78,7 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
         value = number("reduced modulus", modulus)
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
-    return value
+    return moderate(value, "the reduced modulus [Pa]")
 
 
 def number(name: str, value: Any) -> float:
@@ -84,11 +90,9 @@ def number(name: str, value: Any) -> float:
         If it is none: a text, a list, nothing. The command line reads units, this does not.
     """
     try:
-        if isinstance(value, str):
-            raise ValueError(value)
-        return float(value)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"the {name} must be one number in SI units, not {value!r}") from error
+        return scalar(value, name)
+    except ValueError as error:
+        raise ValueError(f"the {name} must be one number in SI units, not {shown(value)}") from error
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

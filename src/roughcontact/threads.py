@@ -185,7 +185,7 @@ def _controller() -> ThreadpoolController:
 def _available() -> int:
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     asked = os.environ.get("OMP_NUM_THREADS", "")
-    return max(1, min(MOST, cores, int(asked) if asked.isdigit() and int(asked) else cores))
+    return max(1, min(MOST, cores, int(asked) if asked.isdecimal() and int(asked) else cores))
 
 
 class _Crew:

@@ -9,6 +9,7 @@ import pytest
 import typer
 
 import roughcontact as rc
+from roughcontact import memory
 from roughcontact.cli import options
 from roughcontact.cli.errors import UsageError, note, reported
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED
@@ -144,13 +145,13 @@ class TestMemory:
             "cut the map or thin it out, or use a machine with more memory\n"
         )
 
-    def test_a_surface_that_was_read_may_be_too_large_to_level(self, invoke, rough, monkeypatch):
-        # Reading 24 x 32 points takes less than 100 kB; pressing them takes the libraries, too.
-        monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e6))
+    def test_a_surface_that_was_read_may_be_too_large_to_press(self, invoke, rough, monkeypatch):
+        monkeypatch.setattr(memory, "SMALL", 0)
+        monkeypatch.setattr(memory, "most_memory", lambda: 1e4)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("press", rough, "--force", "1mN", "--modulus", "1GPa")
         assert answer.exit_code == BAD_INPUT
-        assert "a grid of 24 x 32 cells needs" in answer.stderr
+        assert "pressing 24 x 32 cells needs" in answer.stderr
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
         read = options.Reading.map_or_line

@@ -123,6 +123,7 @@ def test_the_room_opens_at_its_public_names():
         ),
         ({"samples": 0}, "samples: 0 should be greater than or equal to 1"),
         ({"samples": 2.5}, "samples: 2.5 should be a valid integer"),
+        ({"samples": 10**12}, "make 1,000,000,000,000 cases, and a study has 10,000,000 at most: take fewer"),
         ({"samples": True}, "samples: True should be a valid integer"),
         ({"seed": -1}, "seed: -1 should be greater than or equal to 0"),
         ({"seed": "1"}, "seed: '1' should be a valid integer"),
@@ -225,3 +226,23 @@ def test_a_module_that_fails_is_not_mistaken_for_one_that_is_missing(tmp_path, m
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(StudyError, match=complaint):
         Study(**(GIVEN | {"case": "broken_cases:CASE"}))
+
+
+def test_a_table_with_too_many_combinations_is_refused_before_they_are_made():
+    million = {"start": 1, "stop": 2, "count": 1_000_000}
+    with pytest.raises(StudyError, match="1,000,000,000,000 cases"):
+        Study(name="a", case=NAME, table={"hurst": million, "size": million})
+
+
+@pytest.mark.parametrize("value", ["[" * 20000 + "]" * 20000, "{ a = " * 20000 + "1" + " }" * 20000])
+def test_deep_nesting_is_refused(value, written):
+    with pytest.raises(StudyError, match=r"given.toml: .* nested too deeply"):
+        Study.read(written(TEXT + f"rms = {value}\n"))
+
+
+def test_deep_nesting_of_values_is_refused():
+    value = 1.0
+    for _ in range(20000):
+        value = [value]
+    with pytest.raises(StudyError, match="nested too deeply"):
+        Study(**(GIVEN | {"parameters": {"hurst": value}}))

@@ -110,7 +110,7 @@ def test_the_same_generator_gives_the_same_surface():
     [
         ({"hurst": 3.5}, "hurst must lie"),
         ({"hurst": -1.1}, "hurst must lie"),
-        ({"hurst": np.nan}, "hurst must lie"),
+        ({"hurst": np.nan}, "hurst must be a number"),
         ({"rms": 0.0}, "rms must be positive"),
         ({"rms": np.inf}, "rms must be positive"),
         ({"support": "ball"}, "support must be"),

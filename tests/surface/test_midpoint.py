@@ -170,7 +170,7 @@ def test_rms_height(made):
             "same spac",
         ),
         (lambda: line(hurst=1.5), "self_affine goes"),
-        (lambda: line(hurst=np.nan), "self_affine goes"),
+        (lambda: line(hurst=np.nan), "hurst must be a number"),
         (lambda: line(rms=1.0, displacement=1.0), "give either"),
         (lambda: line(distribution="uniform"), "give either"),
         (lambda: line(rms=0.0), "rms must be positive"),

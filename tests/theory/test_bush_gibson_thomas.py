@@ -141,6 +141,11 @@ class TestLimits:
         load = found.pressure(plane * RMS)
         assert bgt.asymptotic_fraction(load, moments, MODULUS) == pytest.approx(fraction, rel=0.005)
 
+    def test_below_the_mean_plane_there_is_no_limit(self):
+        with pytest.raises(ValueError, match="separation must not be negative"):
+            bgt.asymptotic_pressure(-1.0, summits(2.0).moments, MODULUS)
+        assert bgt.asymptotic_pressure(np.inf, summits(2.0).moments, MODULUS) == 0
+
     @pytest.mark.parametrize("plane", [0.0, 1.0])
     def test_one_wavelength(self, plane):
         # At alpha = 3/2 the height of a summit is sqrt(3/2) times its mean curvature t.

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from roughcontact.cli.errors import UsageError, as_typed, note, plain
-from roughcontact.cli.memory import require_memory
 from roughcontact.cli.quantity import PRESSURE, parse, parse_number, parse_size
 
 if TYPE_CHECKING:
@@ -185,12 +184,14 @@ class Reading:
         Raises
         ------
         UsageError
-            If reading it, or pressing it, needs more memory than is free.
+            If reading it needs more memory than is free.
+        ValueError
+            If no press of it fits in the memory of this machine.
         """
-        from roughcontact.halfspace.build import memory_needed
+        from roughcontact.contact.problem import require_memory_for
 
         surface = self.as_it_is()
-        require_memory(memory_needed(surface.grid), surface.grid.shape)
+        require_memory_for(surface)
         level = self.level
         if level is None and self.periodic is None and all(surface.grid.periodic):
             level = Level.MEAN

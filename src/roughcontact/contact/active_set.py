@@ -26,6 +26,7 @@ from roughcontact.contact.verdict import Guess, guess_region, judge_pressure
 from roughcontact.grid import Grid
 from roughcontact.halfspace.dense import DenseOperator
 from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.theory.tools.numeric import require_numbers
 
 __all__ = ["ActiveSet"]
 
@@ -52,6 +53,9 @@ class ActiveSet:
 
     max_steps: int = 5000
     dense_limit: int = DENSE_LIMIT
+
+    def __post_init__(self) -> None:
+        require_numbers(self)
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure from an `initial` one, on the given terms.

@@ -16,7 +16,8 @@ from roughcontact.halfspace import subsurface
 from roughcontact.halfspace.build import half_space
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.subsurface import Displacement, Stress
-from roughcontact.material import Solid
+from roughcontact.material import Solid, number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "StressPeak",
@@ -59,6 +60,7 @@ class StressPeak:
     resolved: bool
 
 
+@numeric
 def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Stress:
     """Return the stresses at a depth, or at several, below a solved contact.
 
@@ -85,6 +87,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
+@numeric
 def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
     """Return the displacements at a depth, or at several, below a solved contact, as `below`.
 
@@ -98,6 +101,7 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
 
+@numeric
 def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     """Return the largest equivalent stress of von Mises below a solved contact, and where it is.
 
@@ -164,7 +168,7 @@ def half_space_grid(solution: Solution) -> Grid:
 
 def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
-    return solid.poisson_ratio if isinstance(solid, Solid) else float(solid)
+    return solid.poisson_ratio if isinstance(solid, Solid) else number("Poisson's ratio", solid)
 
 
 def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:

@@ -14,6 +14,7 @@ from roughcontact.contact.dataset import check_conducting
 from roughcontact.contact.problem import Depth
 from roughcontact.contact.solution import Solution
 from roughcontact.theory import conductance as theory
+from roughcontact.theory.tools.domain import number
 
 __all__ = ["Conductors", "conductance"]
 
@@ -44,7 +45,7 @@ class Conductors:
         if self.resistivities is None and self.conductivities is None:
             raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
         for pair in (self.resistivities, self.conductivities):
-            if pair is not None and np.shape(pair) != (2,):
+            if pair is not None and np.shape(number(pair, "the numbers of both bodies")) != (2,):
                 raise ValueError(f"give the numbers of both bodies, such as (1.7e-8, 1.7e-8), not {pair!r}")
         self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
 

@@ -19,6 +19,7 @@ from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
 from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
+from roughcontact.theory.tools.domain import number
 
 if TYPE_CHECKING:
     import xarray
@@ -152,7 +153,7 @@ class Curve:
             limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
             inside = self.resolved & (self.dimensionless_force <= limit)
         else:
-            if not 0 <= window[0] < window[1]:
+            if np.shape(number(window, "window [N]")) != (2,) or not 0 <= window[0] < window[1]:
                 raise ValueError(f"a window goes from a force to a larger one, not {window}")
             low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)

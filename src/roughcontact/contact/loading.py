@@ -21,6 +21,8 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
+from roughcontact.theory.tools.domain import number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["loading_curve", "loading_path", "suggested_forces"]
 
@@ -28,6 +30,7 @@ Array = npt.NDArray[np.float64]
 Loads = Sequence[float] | Array
 
 
+@numeric
 def loading_path(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -96,6 +99,7 @@ def loading_curve(
     return collect(path)
 
 
+@numeric
 def suggested_forces(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -122,7 +126,9 @@ def suggested_forces(
     length = 1.0 if line else length_scale(geometry, grid.lengths)
     scale = as_modulus(modulus) * surface.rms * length
     low, high = SUGGESTED_ON_LINES if line else SUGGESTED
-    return np.geomspace(low * scale, high * scale, count)
+    if count < 1:
+        raise ValueError(f"count must be at least 1, not {count}")
+    return np.geomspace(low * scale, high * scale, int(count))
 
 
 def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
@@ -188,7 +194,7 @@ def _controls(
             f"give exactly one of forces, depths and pressures, not {' and '.join(named) or 'none'}"
         )
     [(name, loads)] = named.items()
-    values = np.atleast_1d(np.asarray(loads, dtype=np.float64))
+    values = np.atleast_1d(number(loads, f"the list of {name}s"))
     if values.ndim != 1 or not len(values):
         raise ValueError(
             f"the list of {name}s must hold at least one number in one row, not shape {values.shape}"

@@ -16,6 +16,7 @@ from roughcontact.contact.start import start_pressure
 from roughcontact.contact.state import State
 from roughcontact.contact.status import Status
 from roughcontact.halfspace.operator import Operator, is_semidefinite
+from roughcontact.theory.tools.numeric import require_numbers
 
 __all__ = ["PolonskyKeer"]
 
@@ -31,6 +32,9 @@ class PolonskyKeer:
     """Settings of the projected method: robust, and the reference for the other solver."""
 
     max_steps: int = 20000
+
+    def __post_init__(self) -> None:
+        require_numbers(self)
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure from an `initial` one, on the given terms.

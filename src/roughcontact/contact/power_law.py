@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.numeric import numeric
+
 __all__ = ["PowerLaw", "fit_power_law"]
 
 Array = npt.NDArray[np.float64]
@@ -38,6 +40,7 @@ class PowerLaw:
     force_scale: float
     stiffness_scale: float
 
+    @numeric
     def stiffness(self, force: float | Array) -> Array:
         """Return the stiffness [N/m] at a `force` [N]."""
         ratio = np.asarray(force, dtype=np.float64) / self.force_scale

@@ -124,7 +124,8 @@ def prescribe(
     if is_semidefinite(operator) and bool(xp.all(region)):
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
     _check("displacement", displacement, region)
-    _check("initial pressure", initial, region)
+    if initial is not None:
+        _check("initial pressure", initial, region)
     field = xp.zeros(region.shape, dtype=xp.float64, device=region.device)
     target = xp.where(region, field + displacement, 0.0)
     size = largest(target)
@@ -171,7 +172,7 @@ def _part(operator: Operator, place: Place) -> Operator:
 
 def _check(name: str, given: Any, region: Mask) -> None:
     """Refuse a field that does not fit its region."""
-    if given is None or (is_array(given) and given.ndim == 0):
+    if is_array(given) and given.ndim == 0:
         return
     if not is_array(given):
         number(name, given)

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.contact.problem import Body, ContactProblem, Control, Depth, Force, separation_of
+from roughcontact.contact.problem import (
+    Body,
+    ContactProblem,
+    Control,
+    Depth,
+    Force,
+    require_memory_for,
+    separation_of,
+)
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve
 from roughcontact.contact.state import Solver
@@ -91,6 +99,7 @@ def make_problem(
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)
+    require_memory_for(surface)
     body = body_on(surface.grid, value, operator)
     strength = math.inf if hardness is None else number("hardness", hardness)
     allowed = number("tolerance", tolerance)

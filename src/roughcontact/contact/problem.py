@@ -16,10 +16,21 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.material import number
+from roughcontact.memory import require_memory
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Body", "ContactProblem", "Control", "Depth", "Force", "Terms", "checked_tolerance"]
+__all__ = [
+    "Body",
+    "ContactProblem",
+    "Control",
+    "Depth",
+    "Force",
+    "Terms",
+    "checked_tolerance",
+    "require_memory_for",
+    "separation_of",
+]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -36,7 +47,7 @@ class Force:
     value: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.value) and self.value > 0):
+        if not 0 < number("force", self.value) < math.inf:
             raise ValueError(f"the force must be positive and finite [N], not {self.value}")
 
 
@@ -47,7 +58,7 @@ class Depth:
     value: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.value) and self.value >= 0):
+        if not 0 <= number("depth", self.value) < math.inf:
             raise ValueError(
                 f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
             )
@@ -80,6 +91,9 @@ class Terms:
         return None if isinstance(self.control, Force) else self.control.value
 
 
+# A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
+# `separation_of` two fields of eight bytes are alive, and the mask of missing cells; all three are written throughout.
+LEAST_BYTES = 17
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -121,7 +135,7 @@ class ContactProblem:
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
         checked_tolerance(self.tolerance)
-        if not self.hardness > 0:
+        if not number("hardness", self.hardness) > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
             strongest = self.hardness * self._measure.total(self.measured)
@@ -222,6 +236,21 @@ def checked_tolerance(tolerance: Any) -> float:
     if not 1e-14 < value < 1e-2:
         raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
     return value
+
+
+def require_memory_for(surface: Body) -> None:
+    """Refuse what cannot be pressed in the memory of this machine, whatever the load.
+
+    Raises
+    ------
+    ValueError
+        If less memory is left than every press takes.
+    """
+    if is_numpy(surface.heights):
+        shape = " x ".join(map(str, surface.grid.shape))
+        require_memory(
+            LEAST_BYTES * surface.grid.size, f"pressing {shape} cells", "press a part, or average cells"
+        )
 
 
 def separation_of(surface: Body) -> Array:

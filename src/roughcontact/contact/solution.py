@@ -31,6 +31,7 @@ from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.operator import exact_of, is_positive
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -260,6 +261,7 @@ class Solution:
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
+    @numeric
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa].
 
@@ -267,6 +269,7 @@ class Solution:
         """
         return _density(*self._of_cells(self.pressure, self.contact), bins)
 
+    @numeric
     def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
         """Return the probability density [1/m] of the gap over the cells not in contact, and the edges [m]."""
         return _density(*self._of_cells(self.gap, ~self.contact & self.problem.measured), bins)
@@ -335,7 +338,7 @@ def _density(values: Array, areas: Array, bins: int) -> tuple[Array, Array]:
         raise ValueError(f"a histogram needs at least one bin, not {bins}")
     values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
     if not values.size:
-        return np.zeros(bins), np.linspace(0.0, 1.0, bins + 1)
+        return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
     end = float(values.max()) or 1.0
-    density, edges = np.histogram(values, bins=bins, range=(0.0, end), weights=areas, density=True)
+    density, edges = np.histogram(values, bins=int(bins), range=(0.0, end), weights=areas, density=True)
     return density, edges

@@ -18,6 +18,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.build import body_on
 from roughcontact.halfspace.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "CELLS",
@@ -83,6 +84,7 @@ def frozen_contact(
     return FrozenContact(answer.work, answer.residual, answer.pressure)  # work per square of displacement
 
 
+@numeric
 def contact_stiffness(
     mask: Mask,
     grid: AnyGrid,

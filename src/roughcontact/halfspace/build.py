@@ -15,7 +15,7 @@ from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 from roughcontact.halfspace.sums import Sum, summed
 from roughcontact.material import Solid, as_modulus
 
-__all__ = ["body_on", "half_space", "memory_needed"]
+__all__ = ["body_on", "half_space"]
 
 
 def half_space(
@@ -82,11 +82,3 @@ def body_on(
             f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: make both one"
         )
     return operator
-
-
-def memory_needed(grid: Grid) -> int:
-    """Return an upper estimate of the memory that a solve on `grid` takes beyond its surface [bytes]."""
-    # Fields of the solver and the kernel with its transform, plus the libraries: benchmarks/memory.py finds
-    # up to 230 bytes a cell on free and up to 180 on periodic grids, in the worst of its cases.
-    per_cell = 200 if all(grid.periodic) else 260
-    return per_cell * grid.size + 100 * 2**20

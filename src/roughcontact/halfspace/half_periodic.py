@@ -19,6 +19,7 @@ from roughcontact.halfspace.half_periodic_kernel import repeated_love
 from roughcontact.halfspace.influence import Love, Tables
 from roughcontact.halfspace.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["HalfPeriodicOperator", "Row", "half_periodic"]
 
@@ -169,6 +170,7 @@ class HalfPeriodicOperator:
         return HalfPeriodicOperator(grid, Tables(row, grid.shape))
 
 
+@numeric
 def half_periodic(
     grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
 ) -> HalfPeriodicOperator:

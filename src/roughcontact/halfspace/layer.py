@@ -18,6 +18,8 @@ from roughcontact.halfspace.layer_bases import Base, Bonded, Frictionless, OnHal
 from roughcontact.halfspace.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
 from roughcontact.halfspace.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.theory.tools.domain import moderate
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["LayerOperator", "layer"]
 
@@ -96,6 +98,7 @@ class LayerOperator:
         return LayerOperator(grid, LayerWaves(grid, self.influence.stack))
 
 
+@numeric
 def layer(
     grid: Grid,
     modulus: float | Solid,
@@ -152,6 +155,7 @@ def layer(
         raise ValueError("a layer is free or periodic along both axes; one periodic axis is not offered")
     if not (math.isfinite(thickness) and thickness > 0):
         raise ValueError(f"the thickness must be positive and finite [m], not {thickness}")
+    moderate(thickness, "the thickness [m]")
     partner = 0.0 if against is None else 1 / as_modulus(against)
     stack = Stack(value, float(thickness), _base(modulus, base), partner)
     if all(grid.periodic):

@@ -17,6 +17,7 @@ from roughcontact.halfspace.operator import keeps_precision
 from roughcontact.halfspace.spectral import FreeOperator, PeriodicOperator
 from roughcontact.halfspace.sums import Sum, Summed, summed
 from roughcontact.material import Solid, as_modulus
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["LineOperator", "line"]
 
@@ -98,6 +99,7 @@ class LineOperator:
         return self.plane.approximate_inverse(displacement[None, ...])[0, ...]
 
 
+@numeric
 def line(
     grid: Grid,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -25,6 +25,7 @@ from roughcontact.mdr.indentation import Indentation
 from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.recovery import spring_energy
 from roughcontact.mdr.roots import bisect
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["Adhesion", "Control", "PullOff", "jkr"]
 
@@ -60,35 +61,42 @@ class Adhesion:
     modulus: float
     work: float
 
+    @numeric
     def elongation(self, radius: float | Array) -> Array:
         """Return l(a) = sqrt(2 pi a w/E*), that of the outermost springs [m], at contact radii [m]."""
         return np.asarray(np.sqrt(2 * np.pi * self.work / self.modulus * np.asarray(radius)))
 
+    @numeric
     def depth(self, radius: float | Array) -> Array:
         """Return the depth of the equilibria [m] at contact radii [m]."""
         return self.profile.transform(radius) - self.elongation(radius)
 
+    @numeric
     def force(self, radius: float | Array) -> Array:
         """Return the force of the equilibria [N], tension negative, at contact radii [m]."""
         integral = self.profile.transform_integral(radius)
-        return 2 * self.modulus * (np.asarray(radius) * self.depth(radius) - integral)
+        return np.asarray(2 * self.modulus * (np.asarray(radius) * self.depth(radius) - integral))
 
+    @numeric
     def depth_slope(self, radius: float | Array) -> Array:
         """Return dd/da along the equilibria [-]; positive where they are stable under a given depth."""
         return np.asarray(
             self.profile.transform_slope(radius) - self.elongation(radius) / (2 * np.asarray(radius))
         )
 
+    @numeric
     def force_slope(self, radius: float | Array) -> Array:
         """Return dF/da along the equilibria [N/m]; positive where they are stable under a given force."""
         a = np.asarray(radius, dtype=np.float64)
         return 2 * self.modulus * (a * self.profile.transform_slope(a) - 1.5 * self.elongation(a))
 
+    @numeric
     def energy(self, radius: float, depth: float) -> float:
         """Return the elastic energy less that of adhesion [J] of a contact held at a radius and a depth [m]."""
         elastic = self.modulus * spring_energy(self.profile, radius, depth)
         return elastic - math.pi * self.work * radius**2
 
+    @numeric
     def at(self, radius: float) -> Indentation:
         """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap."""
         if not 0 < number("contact radius", radius) <= self.profile.radius:
@@ -97,6 +105,7 @@ class Adhesion:
             )
         return Indentation(self.profile, self.modulus, float(self.depth(radius)), float(radius))
 
+    @numeric
     def pull_off(self, machine_stiffness: float = 0.0) -> PullOff:
         """Return where the contact snaps off for good when it is unloaded.
 

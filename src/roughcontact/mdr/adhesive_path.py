@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
 from roughcontact.theory.tools.domain import number, shown
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["AdhesivePath", "adhesive_path"]
 
@@ -52,6 +53,7 @@ class AdhesivePath:
         return len(self.force)
 
 
+@numeric
 def adhesive_path(
     adhesion: Adhesion,
     *,

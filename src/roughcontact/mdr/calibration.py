@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.material import number
 from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.theory.tools.domain import moderate
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
@@ -55,6 +56,7 @@ def calibrated_lambda(
         number(name, value)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")
+        moderate(value, name)
     steepness = 2 * min(hurst + 1, 3)
     return lambda_rms(hurst, modes) * math.pow(line_prefactor / surface_prefactor, steepness)
 

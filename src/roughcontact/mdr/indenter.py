@@ -18,6 +18,7 @@ from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.tables import from_function, from_samples, from_two_functions
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.theory import rough_sphere
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "cone",
@@ -141,6 +142,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     )
 
 
+@numeric
 def equivalent_roughness(
     hurst: float, *, rms: float, length: float, prefactor: float | None = None
 ) -> Profile:

@@ -10,6 +10,7 @@ from scipy.special import hyp2f1, zeta
 
 from roughcontact.material import number
 from roughcontact.theory.tools.domain import count
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
 
@@ -60,11 +61,13 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     return 2 * float(zeta(1 + above) / zeta(1 + 2 * above)) * _dirichlet_beta(exponent)
 
 
+@numeric
 def line_sum(exponent: float, modes: int) -> float:
     """Return the sum of ``|n|^-exponent`` over n from -`modes` to `modes` without 0."""
     return 2 * float(np.sum(_rings(1, modes) ** -exponent))
 
 
+@numeric
 def square_sum(exponent: float, modes: int) -> float:
     """Return the sum of ``(n^2 + m^2)^-exponent`` over n and m from -`modes` to `modes` without the origin.
 

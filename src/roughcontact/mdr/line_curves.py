@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
 from roughcontact.contact.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.theory.tools.domain import pair
 
 __all__ = ["LineCurves", "Mean"]
 
@@ -170,7 +171,8 @@ class LineCurves:
         if window is None:
             inside = self.resolved(mean) & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
         else:
-            low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
+            low, high = pair(window, "window [N]")
+            low, high = low * (1 - ROUNDING), high * (1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high)
         if inside.sum() < 3:
             raise ValueError(

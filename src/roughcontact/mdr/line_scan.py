@@ -20,12 +20,14 @@ from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 from roughcontact.theory.tools.domain import shown
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["scan_curves", "scan_spectrum"]
 
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def scan_spectrum(
     scan: Surface,
     *,
@@ -82,6 +84,7 @@ def scan_spectrum(
     return line_spectrum(surface_spectrum(profile, method=method, hurst=hurst).within(low, high), factor)
 
 
+@numeric
 def scan_curves(
     scan: Surface,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -14,6 +14,7 @@ from roughcontact.grid import Grid
 from roughcontact.surface.waves import Spectrum, multiplicity, wave_powers
 from roughcontact.theory.tools.domain import count as whole
 from roughcontact.theory.tools.domain import shown
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
@@ -67,6 +68,7 @@ def rough_lines(
     return (_lines(grid, amplitude, random_waves(grid, rng, size, amplitudes=amplitudes)) for size in sizes)
 
 
+@numeric
 def random_waves(
     grid: Grid,
     rng: np.random.Generator,
@@ -87,6 +89,7 @@ def random_waves(
     return np.asarray(waves / math.sqrt(grid.size))
 
 
+@numeric
 def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | None = None) -> Array:
     """Return the heights [m] of lines with a `spectrum` from their unit `waves`, a line a row.
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.material import Solid, as_modulus, number
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.theory.tools.domain import number as real
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["checked_lines", "loading_curves"]
 
@@ -22,6 +23,7 @@ Counts = npt.NDArray[np.int32]
 BLOCK = 2**15
 
 
+@numeric
 def loading_curves(
     heights: Array,
     spacing: float,

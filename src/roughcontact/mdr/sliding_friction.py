@@ -13,6 +13,7 @@ from roughcontact.material import Solid, as_modulus, number
 from roughcontact.mdr.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.sliding_state import SlidingState, sliding_state
 from roughcontact.theory.tools.domain import number as real
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SlidingCurves", "sliding_friction"]
 
@@ -57,6 +58,7 @@ class SlidingCurves:
         return self.friction_force * self.speed
 
 
+@numeric
 def sliding_friction(
     heights: Array,
     spacing: float,

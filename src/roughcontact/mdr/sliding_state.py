@@ -87,7 +87,7 @@ def sliding_state(separation: Array, spacing: float, relaxation_length: float, d
 def _peaks(w: Array, slope: Array, spacing: float, length: float) -> Array:
     """Return where in each stretch ``ln w + x/l`` is largest [m]: where a spring may let go."""
     falling = slope < 0
-    peak = np.full(w.shape, spacing)
+    peak = np.full(w.shape, float(spacing))
     # Force w + l w' = 0 on a falling flank.
     np.divide(w + length * slope, -slope, out=peak, where=falling)
     return np.clip(peak, 0.0, spacing, out=peak)

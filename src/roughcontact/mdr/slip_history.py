@@ -20,6 +20,7 @@ from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.roots import bisect
 from roughcontact.theory.tools.domain import count
 from roughcontact.theory.tools.domain import number as real
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SlipHistory", "slip_history"]
 
@@ -51,6 +52,7 @@ class SlipHistory:
         return len(self.force)
 
 
+@numeric
 def slip_history(
     profile: Profile,
     modulus: float | Solid | tuple[Solid, Solid],

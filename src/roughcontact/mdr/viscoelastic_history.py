@@ -20,6 +20,7 @@ from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
 from roughcontact.theory.tools.domain import count, number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
 
@@ -51,6 +52,7 @@ class ViscoelasticHistory:
         return len(self.time)
 
 
+@numeric
 def depth_history(
     profile: Profile,
     material: Viscoelastic,
@@ -102,6 +104,7 @@ def depth_history(
     return ViscoelasticHistory(t, *np.array(states).T)
 
 
+@numeric
 def force_history(
     profile: Profile,
     material: Viscoelastic,

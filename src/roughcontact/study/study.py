@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 import tomllib
 from collections.abc import Callable, Iterator
@@ -33,6 +34,9 @@ from roughcontact.study.task import Task
 from roughcontact.study.toml import toml_of
 
 __all__ = ["Study"]
+
+MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
+_TOO_DEEP = "its values are nested too deeply to be read: no parameter needs more than a list or two"
 
 
 class Study(BaseModel):
@@ -76,6 +80,8 @@ class Study(BaseModel):
             super().__init__(**values)
         except ValidationError as error:
             raise StudyError(explained(error, type(self).model_fields)) from None
+        except RecursionError:
+            raise StudyError(_TOO_DEEP) from None
 
     @model_validator(mode="after")
     def _sound(self) -> Study:
@@ -100,6 +106,8 @@ class Study(BaseModel):
             ) from error
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise StudyError(f"{path}: it is no TOML file: {error}") from error
+        except RecursionError:
+            raise StudyError(f"{path}: {_TOO_DEEP}") from None
         except StudyError as error:
             raise StudyError(f"{path}: {error}") from None
 
@@ -134,11 +142,17 @@ class Study(BaseModel):
         Raises
         ------
         StudyError
-            If the case does not take them, or if two of them are the same.
+            If the case does not take them, if two of them are the same, or if there are more than `MOST_CASES` cases.
         """
         model = find_case(self.case).parameters
         self._require_names(model)
         values = [self._values(model, name) for name in self.table]
+        cases = self.samples * max(len(self.rows), 1) * math.prod(map(len, values))
+        if cases > MOST_CASES:
+            raise StudyError(
+                f"samples, rows and table make {cases:,} cases, and a study has {MOST_CASES:,} at most: take fewer "
+                "samples or values, or several studies"
+            )
         found: dict[str, Parameters] = {}
         for row in self.rows or ({},):
             for chosen in itertools.product(*values):

@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.theory.tools.numeric import numeric
+
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
@@ -25,6 +27,7 @@ _REACH = math.sqrt(53 * math.log(2) / math.pi)
 _CELLS = 4
 
 
+@numeric
 def filtered(
     surface: Surface, *, short_cutoff: float | None = None, long_cutoff: float | None = None
 ) -> Surface:

@@ -13,12 +13,15 @@ from roughcontact.grid import Grid
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.waves import Spectrum, Support, multiplicity, wave_powers, wavenumbers
+from roughcontact.theory.tools.domain import number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def self_affine(
     grid: Grid,
     hurst: float,
@@ -76,11 +79,16 @@ def self_affine(
     if not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
     law = SelfAffineSpectrum(hurst, rolloff_wavelength, cutoff_wavelength, short_wavelength, grid.ndim)
-    spectrum: Spectrum = law if anisotropy is None else StretchedSpectrum(law, *anisotropy)
+    spectrum: Spectrum = law
+    if anisotropy is not None:
+        if np.shape(number(anisotropy, "anisotropy")) != (2,):
+            raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
+        spectrum = StretchedSpectrum(law, *anisotropy)
     heights = _heights(grid, spectrum, rng, rms, support, amplitudes, nodal)
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}, rms = {rms:g} m, inverse FFT",))
 
 
+@numeric
 def synthesise(
     grid: Grid,
     spectrum: Spectrum,

@@ -9,12 +9,15 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.domain import moderate
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["box_counting_dimension", "fractal_dimension", "magnify"]
 
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def magnify(surface: Surface, factor: float, hurst: float) -> Surface:
     """Return b^H z(x/b): lengths times `factor` b, heights times b^H (thesis, eq. 2.1).
 
@@ -31,18 +34,20 @@ def magnify(surface: Surface, factor: float, hurst: float) -> Surface:
     Raises
     ------
     ValueError
-        If `factor` is not positive or `hurst` not finite.
+        If `factor` is not positive, or `hurst` not between -1 and 3.
     """
     if not (math.isfinite(factor) and factor > 0):
         raise ValueError(f"a magnification must be positive and finite, not {factor}")
-    if not math.isfinite(hurst):
-        raise ValueError(f"hurst must be finite, not {hurst}")
+    moderate(factor, "a magnification")
+    if not -1 <= hurst <= 3:
+        raise ValueError(f"hurst must lie between -1 and 3, not {hurst}")
     grid = surface.grid
     wider = Grid(grid.shape, tuple(factor * step for step in grid.spacing), grid.periodic)
     line = f"magnified by {factor:g} with H = {hurst:g}"
     return Surface(surface.heights * factor**hurst, wider, (*surface.provenance, line))
 
 
+@numeric
 def fractal_dimension(hurst: float, dimension: int = 2) -> float:
     """Return the fractal dimension 3 - H of a surface, 2 - H of a line (thesis, eq. 2.2).
 

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["midpoint_line", "midpoint_surface"]
 
@@ -17,6 +18,7 @@ Array = npt.NDArray[np.float64]
 Distribution: TypeAlias = Literal["uniform", "gaussian"]
 
 
+@numeric
 def midpoint_line(
     grid: Grid,
     hurst: float,
@@ -74,6 +76,7 @@ def midpoint_line(
     return _finished(heights, grid, rms, f"random midpoint line, H = {hurst:g}, {distribution}")
 
 
+@numeric
 def midpoint_surface(
     grid: Grid,
     hurst: float,

@@ -19,6 +19,7 @@ from roughcontact.surface.waves import (
     wave_powers,
     wavenumbers,
 )
+from roughcontact.theory.tools.numeric import require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
 
@@ -56,6 +57,7 @@ class Moments:
     dimension: int = 2
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         for name in ("m0", "m2", "m4"):
             if not getattr(self, name) >= 0:
                 raise ValueError(f"{name} must not be negative, not {getattr(self, name)}")

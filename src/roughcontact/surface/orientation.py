@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from roughcontact.grid import Grid
+from roughcontact.theory.tools.numeric import numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -34,6 +35,7 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
     return replace(surface, heights=heights, provenance=(*surface.provenance, f"flipped along {axis}"))
 
 
+@numeric
 def rotated(surface: Surface, quarters: int = 1) -> Surface:
     """Return the surface turned counter-clockwise, as the picture shows it, by `quarters` of a turn."""
     if surface.grid.ndim != 2:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import gaussian_mean
+from roughcontact.theory.tools.domain import number
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -129,8 +130,9 @@ def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
 
 
 def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
-    factors = (factor,) * grid.ndim if isinstance(factor, int) else tuple(factor)
-    if len(factors) != grid.ndim or any(int(k) != k or k < 1 for k in factors):
+    given = number(factor, "factor")
+    factors = np.broadcast_to(given, grid.ndim).tolist() if given.shape in ((), (grid.ndim,)) else []
+    if not factors or any(k % 1 != 0 or k < 1 for k in factors):
         raise ValueError(f"factor must be one whole number from 1 up, or {grid.ndim}, not {factor}")
     for k, n, repeats in zip(factors, grid.shape, grid.periodic, strict=True):
         if 2 * k > n:

@@ -19,6 +19,8 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.domain import moderate, number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
     "cone",
@@ -40,6 +42,7 @@ _RIM = 1e-9
 Centre = Sequence[float] | float | None
 
 
+@numeric
 def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return ``z = -r^2 / (2 R)``.
 
@@ -60,6 +63,7 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return Surface(-_squared(grid, centre) / (2 * radius), grid, (f"paraboloid, radius {radius:g} m",))
 
 
+@numeric
 def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return ``z = sqrt(R^2 - r^2) - R``, absent beyond the equator.
 
@@ -80,6 +84,7 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return _placed(_round(_squared(grid, centre), radius), grid, f"sphere, radius {radius:g} m")
 
 
+@numeric
 def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: Centre = None) -> Surface:
     """Return a lying circular cylinder, ``z = sqrt(R^2 - s^2) - R`` at the distance s from its crest.
 
@@ -108,6 +113,7 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     return _placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
 
 
+@numeric
 def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     """Return ``z = -slope * r``.
 
@@ -128,6 +134,7 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     return Surface(-slope * np.sqrt(_squared(grid, centre)), grid, (f"cone, slope {slope:g}",))
 
 
+@numeric
 def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = None) -> Surface:
     """Return ``z = -Q r^n`` (thesis, section 5.1).
 
@@ -152,6 +159,7 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
     return Surface(heights, grid, (line,))
 
 
+@numeric
 def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return a flat round punch: 0 in the cells whose centre lies in the disc, absent elsewhere.
 
@@ -172,6 +180,7 @@ def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return flat_ring(grid, 0.0, radius, centre)
 
 
+@numeric
 def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> Surface:
     """Return a flat ring punch: 0 in the cells whose centre lies between two radii, absent elsewhere.
 
@@ -194,11 +203,12 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
         raise ValueError(f"the inner radius must lie between 0 and the outer one {outer} m, not {inner}")
     y, x = _plane(grid, centre)
     squared = y**2 + x**2
-    inside = (squared >= inner**2 * (1 - _RIM)) & (squared <= outer**2 * (1 + _RIM))
+    inside = (squared >= inner * inner * (1 - _RIM)) & (squared <= outer * outer * (1 + _RIM))
     name = f"flat ring, radii {inner:g} m and {outer:g} m" if inner else f"flat disc, radius {outer:g} m"
     return _placed(np.where(inside, 0.0, np.nan), grid, name)
 
 
+@numeric
 def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     """Return a flat square punch with sides along x and y: 0 in the cells whose centre lies in it, absent elsewhere.
 
@@ -224,6 +234,7 @@ def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     return _placed(np.where(inside, 0.0, np.nan), grid, f"flat square, side {side:g} m")
 
 
+@numeric
 def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
     """Return a flat equilateral punch: 0 in the cells whose centre lies in the triangle, absent elsewhere.
 
@@ -251,6 +262,7 @@ def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
     return _placed(np.where(inside, 0.0, np.nan), grid, f"flat equilateral triangle, side {side:g} m")
 
 
+@numeric
 def wave(
     grid: Grid,
     amplitude: float,
@@ -278,7 +290,7 @@ def wave(
     ValueError
         If `amplitude` or `wavelength` is not positive, or the waves do not fit a periodic grid.
     """
-    _positive(amplitude=amplitude, wavelength=wavelength)
+    _positive(amplitude=amplitude, wavelength=moderate(wavelength, "wavelength [m]"))
     wanted = {"x": (-1,), "y": (-2,), "both": (-2, -1)}.get(axis)
     if wanted is None or (grid.ndim == 1 and axis != "x"):
         raise ValueError(f"axis must be 'x', 'y' or 'both', on a line 'x', not {axis!r}")
@@ -299,8 +311,8 @@ def _from_centre(grid: Grid, centre: Centre) -> tuple[Array, ...]:
     """Return the coordinates of the cells less those of the centre [m], an open mesh ``(y, x)`` or ``(x,)``."""
     if centre is None:
         centre = [length / 2 for length in grid.lengths]
-    given = tuple(float(c) for c in centre) if isinstance(centre, Sequence) else (float(centre),)
-    if len(given) != grid.ndim or not all(math.isfinite(c) for c in given):
+    given = np.atleast_1d(number(centre, "centre [m]"))
+    if given.shape != (grid.ndim,) or not np.isfinite(given).all():
         raise ValueError(f"centre needs {grid.ndim} finite coordinates [m], not {centre}")
     parts = []
     for n, step, c, periodic in zip(grid.shape, grid.spacing, given, grid.periodic, strict=True):
@@ -329,8 +341,9 @@ def _squared(grid: Grid, centre: Centre) -> Array:
 
 def _round(squared: Array, radius: float) -> Array:
     """Return sqrt(R^2 - r^2) - R without its cancellation at the apex; NaN beyond R."""
-    inside = np.where(squared <= radius**2 * (1 + _RIM), np.minimum(squared, radius**2), np.nan)
-    return np.asarray(-inside / (radius + np.sqrt(radius**2 - inside)))
+    square = radius * radius  # infinite where a power would overflow
+    inside = np.where(squared <= square * (1 + _RIM), np.minimum(squared, square), np.nan)
+    return np.asarray(-inside / (radius + np.sqrt(square - inside)))
 
 
 def _placed(heights: Array, grid: Grid, name: str) -> Surface:

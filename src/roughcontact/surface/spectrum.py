@@ -13,6 +13,8 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.waves import Support
+from roughcontact.theory.tools.domain import moderate
+from roughcontact.theory.tools.numeric import numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
@@ -72,6 +74,7 @@ class SelfAffineSpectrum:
     scale: float = 1.0
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         if not -1 <= self.hurst <= 3:
             raise ValueError(f"hurst must lie between -1 and 3, not {self.hurst}")
         for name in ("rolloff_wavelength", "cutoff_wavelength", "short_wavelength"):
@@ -125,6 +128,7 @@ class SelfAffineSpectrum:
         m0, m2, m4 = (factor * self._integral(n) for n, factor in zip((0, 2, 4), factors, strict=True))
         return Moments(m0, m2, m4, self.dimension)
 
+    @numeric
     def scaled(self, rms: float, grid: Grid | None = None, support: Support = "square") -> SelfAffineSpectrum:
         """Return the spectrum with the scale that belongs to an rms height.
 
@@ -145,6 +149,7 @@ class SelfAffineSpectrum:
         """
         if not (math.isfinite(rms) and rms > 0):
             raise ValueError(f"rms must be positive and finite [m], not {rms}")
+        moderate(rms, "rms [m]")
         m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
         if not 0 < m0 < math.inf:
             raise ValueError(
@@ -191,6 +196,7 @@ class StretchedSpectrum:
     angle: float = 0.0
 
     def __post_init__(self) -> None:
+        require_numbers(self)
         if not (math.isfinite(self.ratio) and self.ratio > 0):
             raise ValueError(f"the ratio of an anisotropy must be positive and finite, not {self.ratio}")
         if not math.isfinite(self.angle):

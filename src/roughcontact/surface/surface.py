@@ -17,6 +17,7 @@ from roughcontact.surface.filters import filtered
 from roughcontact.surface.levelling import levelled, without_form
 from roughcontact.surface.missing import filled
 from roughcontact.surface.orientation import flipped, rotated, transposed
+from roughcontact.surface.relief import check_relief
 from roughcontact.surface.sampling import averaged, cropped, downsampled
 from roughcontact.surface.taper import tapered
 from roughcontact.surface.tip import scanned
@@ -63,7 +64,8 @@ class Surface:
     Raises
     ------
     ValueError
-        If the heights do not fit the grid, are infinite, or hold no measured point.
+        If the heights do not fit the grid, are infinite, hold no measured point, or have a range below 1e-50 m (but
+        for 0) or above 1e50 m, where products lose digits.
     """
 
     heights: Array
@@ -95,6 +97,7 @@ class Surface:
             )
         if np.isnan(heights).all():
             raise ValueError("all heights are NaN: the surface holds no measured point")
+        check_relief(heights)
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))
@@ -115,6 +118,7 @@ class Surface:
             )
         if bool(xp.any(xp.isinf(heights))) or bool(xp.all(xp.isnan(heights))):
             raise ValueError("heights must be finite [m], NaN where nothing was measured, and not all NaN")
+        check_relief(heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     def __add__(self, other: Surface) -> Surface:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.numeric import numeric
+
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
@@ -18,6 +20,7 @@ Array = npt.NDArray[np.float64]
 Window = Literal["hann", "welch", "tukey"]
 
 
+@numeric
 def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> Surface:
     """Return the heights above their mean times a window along every free axis.
 

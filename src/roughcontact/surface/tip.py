@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.domain import moderate
+from roughcontact.theory.tools.numeric import numeric
+
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
@@ -17,6 +20,7 @@ __all__ = ["scanned"]
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
     """Return the surface as a tip records it that follows without force: the heights of its lowest point.
 
@@ -43,6 +47,7 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     """
     if not (math.isfinite(tip_radius) and tip_radius > 0):
         raise ValueError(f"tip_radius must be positive and finite [m], not {tip_radius}")
+    moderate(tip_radius, "tip_radius [m]")
     if tip not in ("sphere", "paraboloid"):
         raise ValueError(f"tip must be 'sphere' or 'paraboloid', not {tip!r}")
     heights, grid = surface.heights, surface.grid
@@ -89,12 +94,12 @@ def _dilated(
     for shift in np.ndindex(*(2 * n + 1 for n in far)):
         offset = [k - n for k, n in zip(shift, far, strict=True)]
         square = sum((k * step) ** 2 for k, step in zip(offset, spacing, strict=True))
-        if square > reach**2 * (1 + 1e-12):
+        if square > reach * reach * (1 + 1e-12):
             continue
         drop = (
             square / (2 * radius)
             if tip == "paraboloid"
-            else square / (radius + math.sqrt(max(radius**2 - square, 0)))
+            else square / (radius + math.sqrt(max(radius * radius - square, 0)))
         )
         window = tuple(slice(k, k + n) for k, n in zip(shift, heights.shape, strict=True))
         np.subtract(wide[window], drop, out=scratch)

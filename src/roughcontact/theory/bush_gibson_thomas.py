@@ -157,11 +157,13 @@ class Summits:
 
     def _plane(self, separation: float | Array) -> Array:
         """Return the height of the flat above the mean plane of the surface, in sqrt(m0)."""
-        s = number(separation, "the separation [m]")
-        require(
-            s >= 0, "a separation must not be negative: the flat would pass the mean plane of the surface", s
-        )
-        return np.asarray(np.minimum(s / self.scale, INFINITY))
+        return np.asarray(np.minimum(_above_the_mean(separation) / self.scale, INFINITY))
+
+
+def _above_the_mean(separation: float | Array) -> Array:
+    s = number(separation, "the separation [m]")
+    require(s >= 0, "a separation must not be negative: the flat would pass the mean plane of the surface", s)
+    return s
 
 
 def _force_factor(ratio: Array) -> Array:
@@ -197,7 +199,7 @@ def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modu
     parameter is near 2, much later for wide spectra.
     """
     m0, m2 = moment(moments, "m0"), moment(moments, "m2")
-    height = np.asarray(separation, dtype=np.float64) / math.sqrt(2 * m0)
+    height = _above_the_mean(separation) / math.sqrt(2 * m0)
     return np.asarray(
         float(positive(modulus, "the reduced modulus [Pa]")) * math.sqrt(m2 / math.pi) * erfc(height) / 4
     )

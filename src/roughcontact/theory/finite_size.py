@@ -25,7 +25,7 @@ import numpy as np
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, moderate, positive, require
 from roughcontact.theory.tools.numeric import numeric, require_numbers
 from roughcontact.theory.waves import Spectrum, Waves
 
@@ -95,7 +95,8 @@ class Cell:
             u0 [m], see `persson_separation.decay_length`.
         """
         scale = float(positive(modulus, "the modulus [Pa]")) * self.length * self.rms
-        meeting = self.zeta * float(positive(decay, "the decay length [m]")) / self.rms
+        length = moderate(float(positive(decay, "the decay length [m]")), "the decay length [m]")
+        meeting = self.zeta * length / self.rms
         return scale * math.pow(meeting, (self.hurst + 1) / self.hurst)
 
 

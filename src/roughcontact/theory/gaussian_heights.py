@@ -18,7 +18,7 @@ import numpy.typing as npt
 from scipy.special import ndtr
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive
+from roughcontact.theory.tools.domain import Array, number, positive, require
 from roughcontact.theory.tools.inverse import bisect
 from roughcontact.theory.tools.numeric import numeric
 
@@ -26,6 +26,7 @@ __all__ = ["exponent", "force", "law", "stiffness"]
 
 # Higher than the highest of any number of points.
 HIGHEST = 38.0
+BEYOND = 40.0  # where density and share of the heights above are 0 in floating-point numbers
 
 
 @numeric
@@ -43,7 +44,8 @@ def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modul
     modulus : float or array
         Reduced modulus E* [Pa].
     """
-    t = np.asarray(level, dtype=np.float64)[()]
+    t = number(level, "level")
+    require(t > -np.inf, "level must be finite, or infinite above all heights, where nothing touches", t)
     return _scale(length, modulus) * positive(rms, "rms [m]") * _force(t)
 
 
@@ -100,6 +102,7 @@ def law(rms: float, length: float, modulus: float) -> LoadingLaw:
 
 def _force(t: Array) -> Array:
     """Return F/(E* h L)."""
+    t = np.minimum(t, BEYOND)
     value: Array = _density(t) - t * ndtr(-t)
     return value
 

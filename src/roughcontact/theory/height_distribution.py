@@ -20,7 +20,7 @@ from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, finite, positive, require
 from roughcontact.theory.tools.inverse import bisect
 from roughcontact.theory.tools.numeric import numeric
 
@@ -174,7 +174,7 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     density_exponent : float or array
         beta, above -1: below, the density has no integral.
     """
-    beta = np.asarray(density_exponent, dtype=np.float64)[()]
+    beta = finite(density_exponent, "density_exponent")
     require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
     value: Array = (beta + 1) / (beta + 2)
     return value

@@ -17,7 +17,7 @@ from typing import Literal, Protocol
 
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, positive, require, scalar, shown
+from roughcontact.theory.tools.domain import Array, moderate, number, positive, require, scalar, shown
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
@@ -203,4 +203,4 @@ def _exponent(hurst: float) -> float:
         0 < h <= pohrt_popov.SMOOTH,
         f"a Hurst exponent above 0 and at most 2 is wanted, where k ~ F^(1/(H+1)), not {h}",
     )
-    return 1 / (h + 1)
+    return 1 / (moderate(h, "hurst") + 1)

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from scipy.special import log_ndtr
 
 from roughcontact.theory.moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import require
+from roughcontact.theory.tools.domain import finite, require
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
@@ -115,7 +115,7 @@ def summit_density(
     ``(t^2 - r^2) N(t; 0, 2/3) N(s; 3t/(2 sqrt(alpha)), 1 - 3/(2 alpha)) 3 r exp(-3 r^2/2)``, N(x; mean, variance) the
     normal density: the determinant of the curvatures counts the points where both slopes vanish.
     """
-    s, t, r = (np.asarray(x, dtype=np.float64) for x in (height, mean, deviator))
+    s, t, r = finite(height, "height"), finite(mean, "mean"), finite(deviator, "deviator")
     variance = free_variance(alpha)
     exponent = 0.75 * t**2 + (s - 1.5 * t / math.sqrt(alpha)) ** 2 / (2 * variance) + 1.5 * r**2
     scale = 3 / (2 * math.pi * math.sqrt(2 / 3 * variance))
@@ -140,7 +140,7 @@ def geometric_density(height: float | Array, curvature: float | Array, alpha: fl
     `summit_density` integrated at fixed g (Greenwood, Wear 261, 191 (2006)). In logarithms, since its two
     exponentials and the error function leave the range of floats one by one where their product does not.
     """
-    s, g = np.asarray(height, dtype=np.float64), np.asarray(curvature, dtype=np.float64)
+    s, g = finite(height, "height"), finite(curvature, "curvature")
     rest = 2 * alpha * free_variance(alpha)  # 2 alpha - 3
     w = 3 * math.sqrt((alpha - 1) / (2 * rest)) * (g - s * math.sqrt(alpha) / (3 * (alpha - 1)))
     # erfc(w) = 2 Phi(-sqrt(2) w)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import special
 
+from roughcontact.theory.tools.domain import number, require
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
@@ -50,7 +51,8 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     the parabolic cylinder function, but that of the library underflows at t = 37 and keeps nine digits at t = 6.
     """
     n = _checked(order)
-    t = np.asarray(plane, dtype=np.float64)
+    t = np.asarray(number(plane, "plane"))
+    require(t > -np.inf, "plane must not be infinitely low: nothing would be left out", t)
     value = np.empty(t.shape)
     low = t < LOW
     value[low] = _by_kummer(n, t[low])

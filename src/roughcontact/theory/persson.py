@@ -23,7 +23,7 @@ from scipy.special import erf, erfc, erfinv
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.moments import ProfileMoments
-from roughcontact.theory.tools.domain import Array, positive, require
+from roughcontact.theory.tools.domain import Array, moderate, positive, require
 from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
 
@@ -89,7 +89,7 @@ def pressure_spread(modulus: float, surface: ProfileMoments | Spectrum) -> float
     require(slope > 0, "a surface without slope has no waves: contact is full at any load")
     finite = slope < math.inf
     require(finite, "with an infinite rms slope the contact area is zero: give the surface a shortest wave")
-    return float(positive(modulus, "the modulus [Pa]")) * slope / 2
+    return moderate(float(positive(modulus, "the modulus [Pa]")), "the modulus [Pa]") * slope / 2
 
 
 @numeric

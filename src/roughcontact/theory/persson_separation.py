@@ -120,7 +120,9 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
     logs = np.log(waves.slope / math.sqrt(2)) - np.euler_gamma / 2
     level = share * logs + 3 * (1 - share) * ERF_SQUARED_TAIL
     weighted = float(_over_waves(0.0, modulus, waves, lambda _: level))
-    return modulus * math.exp(weighted / decay_length(waves, gamma=gamma))
+    exponent = float(weighted) / max(decay_length(waves, gamma=gamma), 1e-300)
+    require(abs(exponent) < 700, f"gamma is too small for a reference pressure, ln(p_c/E*) = {exponent:g}")
+    return modulus * math.exp(exponent)
 
 
 @numeric
@@ -135,7 +137,7 @@ def self_affine_decay(hurst: float) -> float:
         If H is not positive: then the short waves carry the height, and there is no such limit.
     """
     reason = f"without a shortest wave only a positive Hurst exponent has an rms height, not {hurst}"
-    require(hurst > 0, reason)
+    require(0 < hurst < np.inf, reason)
     # u0/gamma = sqrt(2/pi) int dg/q, and g^2 = h^2 q0^2 H/(1-H) [(q/q0)^(2-2H) - 1] makes it a Beta function.
     rest = abs(1 - hurst)
     if rest < 1e-9:

@@ -145,7 +145,7 @@ def test_a_cycle_of_loads():
     np.testing.assert_array_equal(load_cycle((3.0, 4.0), cycles=0, steps=1), [[3, 4]])
     assert len(load_cycle(1.0, cycles=3, steps=5)) == 65
     for wrong in ({"steps": 0}, {"cycles": -1}, {"steps": 1.5}):
-        with pytest.raises(ValueError, match="whole numbers"):
+        with pytest.raises(ValueError, match="whole number"):
             load_cycle(1.0, **wrong)
     with pytest.raises(ValueError, match="an amplitude is"):
         load_cycle([1.0, 2.0, 3.0])

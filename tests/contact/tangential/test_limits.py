@@ -26,8 +26,8 @@ def solution():
     ("more", "message"),
     [
         ({"friction": 0.0}, "friction coefficient must be positive and finite, not 0.0"),
-        ({"friction": -0.3}, "friction coefficient"),
-        ({"friction": np.nan}, "friction coefficient"),
+        ({"friction": -0.3}, "friction"),
+        ({"friction": np.nan}, "friction must be a number"),
         ({"friction": np.inf}, "friction coefficient"),
         ({"force": 0.31}, "holds at most mu P = 0.3 N, and 0.31 N makes the bodies slide away"),
         ({"force": (0.25, 0.25)}, "slide away"),

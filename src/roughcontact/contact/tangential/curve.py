@@ -15,6 +15,7 @@ from roughcontact.contact.tangential.path import Loads, slide_path
 from roughcontact.contact.tangential.problem import Bodies
 from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.halfspace.shear import ShearOperator
+from roughcontact.theory.tools.numeric import numeric
 
 if TYPE_CHECKING:
     import xarray
@@ -84,6 +85,7 @@ class SlipCurve:
         return slip_curve_record(self)
 
 
+@numeric
 def slide_curve(
     solution: Solution,
     bodies: Bodies,

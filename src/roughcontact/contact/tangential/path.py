@@ -20,6 +20,8 @@ from roughcontact.contact.tangential.problem import (
 from roughcontact.contact.tangential.slide import advance
 from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.halfspace.shear import ShearOperator
+from roughcontact.theory.tools.domain import number
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["Loads", "load_cycle", "slide_path"]
 
@@ -29,6 +31,7 @@ Loads = Sequence[Load] | Array
 """Loads in the order of time: numbers along one direction, or pairs (x, y), one a row."""
 
 
+@numeric
 def slide_path(
     solution: Solution,
     bodies: Bodies,
@@ -84,6 +87,7 @@ def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[Tangent
         yield state
 
 
+@numeric
 def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     """Return loads from zero to an amplitude, and from there back and forth between it and its opposite.
 
@@ -103,7 +107,7 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     """
     if int(steps) != steps or steps < 1 or int(cycles) != cycles or cycles < 0:
         raise ValueError(f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}")
-    largest = np.asarray(amplitude, dtype=np.float64)
+    largest = np.asarray(number(amplitude, "amplitude"))
     if largest.shape not in ((), (2,)) or not np.isfinite(largest).all():
         raise ValueError(f"an amplitude is one finite number, or two (x, y), not {amplitude}")
     turned = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper turn

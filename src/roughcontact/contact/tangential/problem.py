@@ -17,6 +17,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.halfspace.shear import ShearOperator, shear_half_space
 from roughcontact.material import Solid, reduced_modulus
+from roughcontact.theory.tools.domain import number
 
 __all__ = [
     "Bodies",
@@ -192,9 +193,8 @@ def load_of(
     if (force is None) == (displacement is None):
         raise ValueError("give exactly one of force and displacement")
     given = force if force is not None else displacement
-    value = np.asarray(given)
-    if value.dtype.kind not in "iuf":  # the command line reads units, this does not
-        raise ValueError(f"a tangential load must be numbers in SI units, not {given!r}")
+    assert given is not None
+    value = np.asarray(number(given, "a tangential load"))
     if value.ndim == 0:
         value = value * np.asarray(along or (1.0, 0.0))
     if value.shape != (2,) or not np.isfinite(value).all():
@@ -229,7 +229,7 @@ def _pair(bodies: Bodies) -> tuple[Solid, Solid | None]:
 
 
 def _unit(along: Sequence[float]) -> tuple[float, float]:
-    direction = np.asarray(along, dtype=np.float64)
+    direction = np.asarray(number(along, "along"))
     size = float(np.hypot(*direction)) if direction.shape == (2,) else math.nan
     if not (math.isfinite(size) and size > 0):
         raise ValueError(f"`along` is a direction (x, y), not {along}")

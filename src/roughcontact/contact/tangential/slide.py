@@ -26,6 +26,7 @@ from roughcontact.contact.tangential.problem import (
 from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.contact.tangential.step import Slipped, Step
 from roughcontact.halfspace.shear import ShearOperator
+from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["advance", "slide"]
@@ -33,6 +34,7 @@ __all__ = ["advance", "slide"]
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def slide(
     solution: Solution,
     bodies: Bodies,

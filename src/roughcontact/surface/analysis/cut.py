@@ -12,18 +12,20 @@ from scipy.special import gammaln
 
 from roughcontact.surface.analysis.hurst import fit_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
 
 Array = npt.NDArray[np.float64]
 
 
+@numeric
 def cut_factor(hurst: float) -> float:
     """Return C1D/(q C2D) of straight cuts through an unlimited self-affine surface.
 
     ``sqrt(pi) Gamma(H + 1/2)/Gamma(H + 1)``, for H above -1/2.
     """
-    if not hurst > -0.5:
+    if not -0.5 < hurst < math.inf:
         raise ValueError(f"a cut has a finite spectrum for a Hurst exponent above -1/2, not {hurst}")
     return math.sqrt(math.pi) * math.exp(gammaln(hurst + 0.5) - gammaln(hurst + 1))
 
@@ -53,6 +55,7 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     return _like(spectrum, ln_q, density, "C1D")
 
 
+@numeric
 def surface_spectrum(
     profile: PowerSpectrum, *, method: Literal["law", "abel"] = "law", hurst: float | None = None
 ) -> PowerSpectrum:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["HeightHistogram", "height_histogram"]
 
@@ -50,6 +51,7 @@ class HeightHistogram:
         return np.asarray(np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * self.rms))
 
 
+@numeric
 def height_histogram(surface: Surface, bins: int = 100) -> HeightHistogram:
     """Return the histogram of the heights above their mean, missing points ignored.
 

@@ -15,6 +15,7 @@ from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
@@ -70,6 +71,7 @@ class HurstFit:
         """How steeply the density falls: 2(H + 1) for C2D, 2H + 1 for C1D (thesis, eqs 2.8 and 2.10)."""
         return 2 * self.hurst + (2 if self.kind == "C2D" else 1)
 
+    @numeric
     def __call__(self, wavenumber: npt.ArrayLike) -> Array:
         """Return the density of the law at the `wavenumber` [rad/m], zero outside its limits."""
         q = np.asarray(wavenumber, dtype=np.float64)
@@ -82,6 +84,7 @@ class HurstFit:
         return np.asarray(law)
 
 
+@numeric
 def hurst_exponent(
     surface: Surface,
     *,
@@ -117,6 +120,7 @@ def hurst_exponent(
     return fit_spectrum(spectrum, limit=limit, q_min=q_min, q_max=q_max)
 
 
+@numeric
 def fit_spectrum(
     spectrum: PowerSpectrum,
     *,

@@ -8,10 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["merge_spectra", "spectra_ratio"]
 
 
+@numeric
 def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -> PowerSpectrum:
     """Return one spectrum over the reliable bands of all `spectra`.
 

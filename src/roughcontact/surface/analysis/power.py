@@ -9,6 +9,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.tools.domain import number
+from roughcontact.theory.tools.numeric import numeric, require_numbers
+
 __all__ = ["PowerSpectrum"]
 
 Array = npt.NDArray[np.float64]
@@ -54,8 +57,9 @@ class PowerSpectrum:
     def __post_init__(self) -> None:
         if self.kind not in ("C2D", "C1D"):
             raise ValueError(f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
+        require_numbers(self)
         for name in ("wavenumber", "density", "count", "freedom"):
-            value = np.array(getattr(self, name), dtype=np.float64)
+            value = np.array(number(getattr(self, name), name))
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
                 raise ValueError(f"{name} must have one value for each wavenumber, not shape {value.shape}")
             value.flags.writeable = False
@@ -77,6 +81,7 @@ class PowerSpectrum:
         """Standard error of each density, for a Gaussian surface."""
         return self.density / np.sqrt(self.freedom)
 
+    @numeric
     def within(self, q_min: float | None = None, q_max: float | None = None) -> PowerSpectrum:
         """Return the bins from `q_min` to `q_max` [rad/m]; by default those to be relied upon.
 
@@ -103,6 +108,7 @@ class PowerSpectrum:
             q_max=high,
         )
 
+    @numeric
     def rebinned(self, per_decade: float) -> PowerSpectrum:
         """Return the spectrum in coarser bins, `per_decade` of them to a factor of ten in wavenumber.
 

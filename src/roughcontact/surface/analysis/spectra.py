@@ -14,6 +14,7 @@ from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.prepare import Level, tapered, tapers
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["power_spectrum"]
 
@@ -21,8 +22,10 @@ Array = npt.NDArray[np.float64]
 # A windowed spectrum of a free surface is relied upon from this many waves to its length: the longer ones
 # suffer from levelling and from the width of the window's kernel.
 LONGEST = 3.0
+FINEST = 1e5  # bins to a factor of ten: no surface has waves for more
 
 
+@numeric
 def power_spectrum(
     surface: Surface,
     direction: Literal["auto", "ring", "x", "y"] = "auto",
@@ -66,8 +69,8 @@ def power_spectrum(
         raise ValueError(f"direction must be 'ring', 'x' or 'y', not {direction!r}")
     if ndim == 1 and direction != "x":
         raise ValueError(f"a line has profiles along 'x' only, not {direction!r}")
-    if per_decade is not None and not per_decade > 0:
-        raise ValueError(f"per_decade must be positive, not {per_decade}")
+    if per_decade is not None and not 0 < per_decade <= FINEST:
+        raise ValueError(f"per_decade must be positive and at most {FINEST:g}, not {per_decade}")
     if direction == "ring":
         windows = tapers(surface, window)
         spectrum = _rings(power_map(surface, window=window, level=level), surface, per_decade)

@@ -8,10 +8,12 @@ import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["spectrum_moments"]
 
 
+@numeric
 def spectrum_moments(
     spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
 ) -> Moments:

@@ -9,6 +9,7 @@ from roughcontact.surface.parameters.decay import decay_lengths
 from roughcontact.surface.parameters.facets import gradient_and_area
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["ArealParameters", "areal_parameters"]
 
@@ -58,6 +59,7 @@ class ArealParameters:
     Sdr: float
 
 
+@numeric
 def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters:
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["MaterialRatio", "StratifiedParameters", "material_ratio", "stratified_parameters"]
 
@@ -93,6 +94,7 @@ def material_ratio(surface: Surface) -> MaterialRatio:
     return MaterialRatio(ratio, heights)
 
 
+@numeric
 def stratified_parameters(
     surface: Surface, *, peak_ratio: float = 0.1, dale_ratio: float = 0.8
 ) -> StratifiedParameters:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
+from roughcontact.theory.tools.numeric import numeric
 
 __all__ = ["ProfileParameters", "profile_parameters"]
 
@@ -63,6 +65,7 @@ class ProfileParameters:
     evaluation_length: float
 
 
+@numeric
 def profile_parameters(line: Surface, *, section_length: float | None = None) -> ProfileParameters:
     """Return the height and gradient parameters of ISO 21920-2:2021 of a profile.
 
@@ -97,6 +100,8 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
             f"{line.missing} points are missing, and sections need all of theirs: fill them first"
         )
     spacing = grid.spacing[0]
+    if section_length is not None and not 0 < section_length < math.inf:
+        raise ValueError(f"section_length must be positive and finite [m], not {section_length}")
     cells = grid.shape[0] // 5 if section_length is None else round(section_length / spacing)
     sections = grid.shape[0] // max(cells, 1)
     if cells < 2 or sections * cells < GRADIENT.size:

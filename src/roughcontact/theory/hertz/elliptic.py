@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
-from roughcontact.theory.tools.domain import Array, number, pair
+from roughcontact.theory.tools.domain import Array, finite, number, pair
 from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
 
@@ -71,7 +71,7 @@ class EllipticContact:
     @numeric
     def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a point [m], inside and outside."""
-        xx, yy = number(x, "x [m]") ** 2, number(y, "y [m]") ** 2
+        xx, yy = finite(x, "x [m]") ** 2, finite(y, "y [m]") ** 2
         aa, bb = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
         # The ellipse through the point that has the foci of the contact: x^2/(a^2+s) + y^2/(b^2+s) = 1.
         half, rest = (xx + yy - aa - bb) / 2, xx * bb + yy * aa - aa * bb

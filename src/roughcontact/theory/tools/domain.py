@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Array", "count", "number", "pair", "positive", "require", "scalar", "shown"]
+__all__ = ["Array", "count", "finite", "moderate", "number", "pair", "positive", "require", "scalar", "shown"]
 
 Array = npt.NDArray[np.float64]
 
 LONGEST = 60  # text of a value in a message
+# Of sizes in between, whatever their unit, products of six are numbers of full precision.
+SMALLEST, LARGEST = 1e-50, 1e50
 
 
 def number(value: npt.ArrayLike, what: str) -> Array:
@@ -32,7 +34,7 @@ def number(value: npt.ArrayLike, what: str) -> Array:
         if isinstance(given, np.ndarray) and given.dtype.kind not in "biuf":
             raise TypeError(f"numbers of kind {given.dtype}")
         plain: Array = np.asarray(given, dtype=np.float64)[()]
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         parts = value if isinstance(value, tuple) else (value,)
         remedy = (
             "; of a material give the reduced modulus as a number: rc.reduced_modulus(...)"
@@ -50,6 +52,29 @@ def scalar(value: npt.ArrayLike, what: str) -> float:
     x = number(value, what)
     require(np.ndim(x) == 0, f"{what} must be one number, not an array of shape {np.shape(x)}")
     return float(x)
+
+
+def finite(value: npt.ArrayLike, what: str) -> Array:
+    """Return `value` as `number` does, if all of it is finite."""
+    x = number(value, what)
+    require(np.isfinite(x), f"{what} must be finite", x)
+    return x
+
+
+def moderate(value: float, what: str) -> float:
+    """Return a positive size, of which products can be taken without overflow and without loss of digits.
+
+    Raises
+    ------
+    ValueError
+        If it is too small or too large for that.
+    """
+    if not SMALLEST <= value <= LARGEST:
+        raise ValueError(
+            f"{what} must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, "
+            f"not at {value:g}: give it in other units"
+        )
+    return value
 
 
 def positive(value: npt.ArrayLike, what: str, *, zero: bool = False) -> Array:

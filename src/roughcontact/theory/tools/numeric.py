@@ -1,4 +1,7 @@
-"""The border of a theory: what is no number, or no arrays of one shape, is refused by the name of its parameter."""
+"""The border of functions of numbers: what is no number, or does not fit, is refused by the name of its parameter.
+
+Theories use it, and so do all other rooms.
+"""
 
 from __future__ import annotations
 
@@ -17,19 +20,20 @@ __all__ = ["fitting", "numeric", "require_numbers"]
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# Annotations as they are written, every module of the theories postponing them: of arrays that are broadcast, and of
-# single numbers.
+# Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
+# whole ones.
 ARRAYS = {"npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
+WHOLE = {"int"}
 OPTIONAL = " | None"
 
 
 def numeric(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
-    ``float`` wants one number, ``npt.ArrayLike`` and ``float | Array`` numbers or arrays that can be broadcast; neither
-    takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all values as given:
-    their range is the function's own affair.
+    ``float`` wants one number, ``int`` a whole one, ``npt.ArrayLike`` and ``float | Array`` numbers or arrays that can
+    be broadcast; none takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all
+    values as given: their range is the function's own affair.
 
     Raises
     ------
@@ -40,9 +44,7 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
     names = tuple(parameters)
     kinds = {name: str(parameter.annotation) for name, parameter in parameters.items()}
     wanted = {
-        name: (kind.removesuffix(OPTIONAL) in ARRAYS, kind.endswith(OPTIONAL))
-        for name, kind in kinds.items()
-        if kind.removesuffix(OPTIONAL) in ARRAYS | NUMBERS
+        name: kind for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) in ARRAYS | NUMBERS | WHOLE
     }
 
     @wraps(function)
@@ -50,10 +52,8 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
         given = dict(zip(names, args, strict=False)) | kwargs
         shapes = {}
         for name, value in given.items():
-            if name in wanted:
-                array, optional = wanted[name]
-                if value is not None or not optional:
-                    shapes[name] = _shape(value, name, array)
+            if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
+                shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
         fitting(shapes)
         return function(*args, **kwargs)
 
@@ -61,7 +61,7 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def require_numbers(body: Any) -> None:
-    """Refuse a dataclass one of whose fields of type ``float`` holds anything else than one number.
+    """Refuse a dataclass one of whose fields of type ``float`` or ``int`` holds anything else than one such number.
 
     Raises
     ------
@@ -69,11 +69,9 @@ def require_numbers(body: Any) -> None:
         Naming the field.
     """
     for field in fields(body):
-        value = getattr(body, field.name)
-        if str(field.type).removesuffix(OPTIONAL) in NUMBERS and not (
-            value is None and str(field.type).endswith(OPTIONAL)
-        ):
-            _shape(value, field.name, array=False)
+        value, kind = getattr(body, field.name), str(field.type)
+        if kind.removesuffix(OPTIONAL) in NUMBERS | WHOLE and not (value is None and kind.endswith(OPTIONAL)):
+            _shape(value, field.name, kind.removesuffix(OPTIONAL))
 
 
 def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
@@ -91,8 +89,10 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
         raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
 
 
-def _shape(value: Any, name: str, array: bool) -> tuple[int, ...]:
+def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
     """Return the shape of a value, which must be numbers."""
-    x = number(value, name) if array else np.asarray(scalar(value, name))
+    x = number(value, name) if kind in ARRAYS else np.asarray(scalar(value, name))
+    if kind in WHOLE:
+        require(np.isfinite(x) and x % 1 == 0, f"{name} must be a whole number, not {value}")
     require(~np.isnan(x), f"{name} must be a number, not nan")
     return np.shape(x)
