@@ -143,7 +143,7 @@ def test_back_on_the_host_it_is_a_solution_like_any(library, rough):
     [
         (np.zeros((3, 3)), "do not fit"),
         (np.full((2, 2), np.inf), "finite"),
-        (np.full((2, 2), np.nan), "not all NaN"),
+        (np.full((2, 2), np.nan), "all heights are NaN"),
     ],
 )
 def test_bad_heights_are_refused_there_too(library, heights, message):

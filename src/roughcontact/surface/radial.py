@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy
 from roughcontact.grid import RadialGrid
-from roughcontact.surface.relief import check_relief
+from roughcontact.surface.height_range import check_heights
 
 __all__ = ["RadialProfile"]
 
@@ -57,9 +57,7 @@ class RadialProfile:
         heights = np.array(given, dtype=np.float64)  # a copy: a profile never changes
         if heights.shape != self.grid.shape:
             raise ValueError(f"heights of shape {heights.shape} do not fit {self.grid.size} rings")
-        if np.isinf(heights).any() or np.isnan(heights).all():
-            raise ValueError("heights must be finite [m], NaN where there is no ring, and not all NaN")
-        check_relief(heights)
+        check_heights(heights)
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))

@@ -14,10 +14,10 @@ import numpy.typing as npt
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import filtered
+from roughcontact.surface.height_range import check_heights
 from roughcontact.surface.levelling import levelled, without_form
 from roughcontact.surface.missing import filled
 from roughcontact.surface.orientation import flipped, rotated, transposed
-from roughcontact.surface.relief import check_relief
 from roughcontact.surface.sampling import averaged, cropped, downsampled
 from roughcontact.surface.taper import tapered
 from roughcontact.surface.tip import scanned
@@ -91,13 +91,7 @@ class Surface:
             raise ValueError(
                 f"heights of shape {heights.shape} do not fit the grid of shape {self.grid.shape}"
             )
-        if np.isinf(heights).any():
-            raise ValueError(
-                f"{int(np.isinf(heights).sum())} heights are infinite; mark points without a measurement by NaN"
-            )
-        if np.isnan(heights).all():
-            raise ValueError("all heights are NaN: the surface holds no measured point")
-        check_relief(heights)
+        check_heights(heights)
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))
@@ -116,9 +110,7 @@ class Surface:
             raise ValueError(
                 f"heights of shape {tuple(heights.shape)} do not fit the grid of shape {self.grid.shape}"
             )
-        if bool(xp.any(xp.isinf(heights))) or bool(xp.all(xp.isnan(heights))):
-            raise ValueError("heights must be finite [m], NaN where nothing was measured, and not all NaN")
-        check_relief(heights)
+        check_heights(heights)
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     def __add__(self, other: Surface) -> Surface:
