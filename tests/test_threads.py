@@ -1,6 +1,8 @@
 """How many threads there are, and that answers do not hang on them."""
 
+import ctypes
 import os
+import signal
 import subprocess
 import sys
 import textwrap
@@ -18,7 +20,7 @@ from roughcontact import threads as threads_module
 from roughcontact.contact.problem import ContactProblem, Force
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.status import Status
-from roughcontact.threads import join_in, limit_threads, once, one_blas_thread, spread, threads
+from roughcontact.threads import controller, join_in, limit_threads, once, one_blas_thread, spread, threads
 
 PATIENCE = 120  # [s], of a busy machine
 forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
@@ -277,6 +279,27 @@ def test_what_a_solution_tells_does_not_hang_on_the_threads_of_blas(two_blas_thr
     assert told[0] == told[1]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_ctrl_c_is_not_lost_where_libraries_are_sought(monkeypatch):
+    """As older threadpoolctl does, in a function that C calls."""
+
+    def interrupted():
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.2)
+
+    def seek():
+        ctypes.CFUNCTYPE(None)(interrupted)()
+
+    # A shell that starts a job in the background makes it deaf to Ctrl-C; a person's does not.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    monkeypatch.setattr("threadpoolctl.ThreadpoolController", seek)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            controller()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize("fails", [False, True])
 def test_once_is_once_for_all_threads(fails):
     calls, gate = [], threading.Barrier(4)
@@ -336,7 +359,7 @@ def run_forking(script):
 def test_a_forked_process_has_threads_of_its_own():
     run_forking(
         """
-        from roughcontact.threads import join_in, limit_threads, spread
+        from roughcontact.threads import controller, join_in, limit_threads, spread
         def work():
             done, joined = [], []
             spread(done.append, range(4))

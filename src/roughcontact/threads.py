@@ -15,7 +15,16 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, TypeVarTuple
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
-__all__ = ["join_in", "limit_threads", "no_fork", "once", "one_blas_thread", "spread", "threads"]
+__all__ = [
+    "controller",
+    "join_in",
+    "limit_threads",
+    "no_fork",
+    "once",
+    "one_blas_thread",
+    "spread",
+    "threads",
+]
 
 T = TypeVar("T")
 Ts = TypeVarTuple("Ts")
@@ -176,9 +185,20 @@ def _shared() -> tuple[Any, ...]:
 
 @once
 def _controller() -> ThreadpoolController:
+    return controller().select(user_api="blas")
+
+
+def controller() -> ThreadpoolController:
+    """Return what controls the threads of the libraries that are loaded now.
+
+    Older threadpoolctl looks for them in a function that C calls, from which no exception comes back: Ctrl-C would be
+    lost there. To other threads than the first it does not come.
+    """
     from threadpoolctl import ThreadpoolController
 
-    return ThreadpoolController().select(user_api="blas")
+    with no_fork, suppress(RuntimeError), ThreadPoolExecutor(1) as other:  # there may be no more threads
+        return other.submit(ThreadpoolController).result()
+    return ThreadpoolController()
 
 
 @cache

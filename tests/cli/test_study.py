@@ -31,6 +31,11 @@ size = "1 mm"
 hurst = [0.1, 0.2]
 """
 PATIENCE = 240  # [s], of a busy machine
+# A shell that starts a job in the background makes it deaf to Ctrl-C; a person's does not.
+PROGRAM = (
+    "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    "from roughcontact.cli.main import run; run()"
+)
 
 
 @pytest.fixture
@@ -203,7 +208,7 @@ def started(here):
 
     def start(*options):
         process = subprocess.Popen(
-            [sys.executable, "-m", "roughcontact", "study", "run", "tried.toml", *options],
+            [sys.executable, "-c", PROGRAM, "study", "run", "tried.toml", *options],
             env=os.environ | {"PYTHONPATH": str(TESTS)},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

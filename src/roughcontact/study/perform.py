@@ -8,13 +8,15 @@ import time
 import traceback
 from contextlib import AbstractContextManager
 from functools import lru_cache
-
-from threadpoolctl import ThreadpoolController
+from typing import TYPE_CHECKING
 
 from roughcontact.study.key import generator
 from roughcontact.study.record import require_record
 from roughcontact.study.task import Outcome, Task
-from roughcontact.threads import limit_threads
+from roughcontact.threads import controller, limit_threads
+
+if TYPE_CHECKING:
+    from threadpoolctl import ThreadpoolController
 
 __all__ = ["perform"]
 
@@ -60,4 +62,4 @@ def _one_thread() -> AbstractContextManager[object]:
 
 @lru_cache(maxsize=1)
 def _controller(modules: int) -> ThreadpoolController:
-    return ThreadpoolController()
+    return controller()

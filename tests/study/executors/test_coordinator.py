@@ -12,9 +12,13 @@ import pytest
 TESTS = Path(__file__).parents[2]
 # Deliberately without ``if __name__ == "__main__"``: workers do not run the script again.
 SCRIPT = """
+import signal
+
 from roughcontact.study.executors.processes import Processes
 from study.executors.workload import NUMBERS, perform, tasks
 
+# A shell that starts a job in the background makes it deaf to Ctrl-C; a person's does not.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("started", flush=True)
 given = tasks(NUMBERS, [{"seconds": s} for s in %s])
 for outcome in Processes(2).outcomes(perform, given):
