@@ -8,7 +8,8 @@ surfaces and cells, any units; one of fifty of 512 x 512 cells or more. `certifi
 depth of every load by a product, and the stiffness by a full matrix where that is not too large. Each problem depends
 on its number alone. Prints a row for each kind; ends with 1 if an answer that says it has converged has not.
 
-certified: to 1e-8 and rounding. missed: the status says so. wrong: converged by its status, not by the judge.
+certified: to 1e-8 and rounding. missed: the status says so. wrong: converged by its status, not by the judge; or no
+answer at all.
 """
 
 from __future__ import annotations
@@ -226,7 +227,13 @@ def examine(seed: int, tallies: dict[str, Tally]) -> None:
     grid, tally = one.surface.grid, tallies[one.kind]
     judge = Judge(grid.shape, grid.spacing, grid.periodic, one.modulus)
     tally.problems += 1
-    for load, solution in zip(one.loads, one.solutions(), strict=True):
+    try:
+        solutions = list(one.solutions())
+    except Exception as fault:  # whatever it is, there is no answer
+        tally.loads, tally.wrong = tally.loads + 1, tally.wrong + 1
+        print(f"{seed}: {one.kind}, {grid.shape}: {type(fault).__name__}: {fault}", flush=True)
+        return
+    for load, solution in zip(one.loads, solutions, strict=True):
         tally.loads += 1
         tally.products = max(tally.products, solution.steps)
         where = f"{seed}: {one.kind}, {grid.shape}, {one.control} {load:.3g}, hardness {one.hardness:.3g}"

@@ -101,6 +101,21 @@ def test_a_curve(rough):
     assert curve.stiffness[5] == pytest.approx(one.stiffness, rel=1e-6)
 
 
+def test_a_curve_goes_on_beyond_full_contact():
+    """Full contact of a period is infinitely stiff; where cells then give way, the stiffness begins anew."""
+    grid = rc.Grid((16, 16), 1 / 16, True)
+    wavy = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(0))
+    full = rc.press(wavy, MODULUS, pressure=10.0).pressure - 10.0  # about its mean
+    hardness = np.ptp(full) * 1.5
+    pressures = np.array([1.1 * -full.min(), hardness - 0.5 * full.max()])
+    curve = rc.loading_curve(wavy, MODULUS, pressures=pressures, hardness=hardness)
+    one = rc.press(wavy, MODULUS, pressure=pressures[1], hardness=hardness)
+    assert all(status.converged for status in curve.status)
+    assert curve.stiffness[0] == np.inf
+    assert 0 < curve.stiffness[1] < np.inf
+    assert curve.stiffness[1] == pytest.approx(one.stiffness, rel=1e-6)
+
+
 @pytest.mark.parametrize("kind", ["ring", "line", "foundation"])
 def test_on_other_operators(kind, solver):
     if kind == "ring":

@@ -155,7 +155,8 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
             state.steps,
             FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, place, shape)),
         )
-        last = Tangent(solution.frozen.tangent, math.inf)  # that of another region: where to start
+        # That of another region: where to start. That of a whole period is infinite.
+        last = Tangent(solution.frozen.tangent, math.inf) if solution.stiffness < math.inf else None
         yield solution
         if following is not None:
             advance = _advance(solution, following)
