@@ -153,9 +153,10 @@ class Curve:
             limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
             inside = self.resolved & (self.dimensionless_force <= limit)
         else:
-            if np.shape(number(window, "window [N]")) != (2,) or not 0 <= window[0] < window[1]:
+            ends = np.asarray(number(window, "window [N]"))
+            if ends.shape != (2,) or not 0 <= ends[0] < ends[1]:
                 raise ValueError(f"a window goes from a force to a larger one, not {window}")
-            low, high = window[0] * (1 - ROUNDING), window[1] * (1 + ROUNDING)
+            low, high = ends * (1 - ROUNDING, 1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
         if inside.sum() < 3:
