@@ -243,6 +243,17 @@ def test_what_an_engineer_would_doubt_is_said(surface, force, words):
     assert any(words in note for note in rc.press(surface, 1.0, force=force).notes)
 
 
+@pytest.mark.parametrize(("part", "told"), [(0.49, False), (0.51, True)])
+def test_a_pressure_beyond_half_the_modulus_is_doubted(part, told):
+    """On a single cell, whose pressure is force over area."""
+    surface = rc.Surface(np.eye(1, 64, 27).reshape(8, 8), rc.Grid((8, 8), 0.5))
+    solution = rc.press(surface, 4.0, force=part * 4.0 * 0.25)
+    assert solution.pressure.max() == pytest.approx(part * 4.0, rel=1e-12)
+    words = f"The largest pressure, {part * 4:.3g} Pa, is {part:.2g} of the reduced modulus"
+    assert any(note.startswith(words) for note in solution.notes) == told
+    assert any("small strains" in note for note in solution.notes) == told
+
+
 def test_a_number_is_a_number():
     with pytest.raises(ValueError, match="SI units, not '10N'"):
         rc.press(wave(False), 1.0, force="10N")

@@ -47,7 +47,8 @@ def test_it_marks_the_largest_and_the_cells_in_contact(solution):
     row = int(np.argmax(solution.pressure.max(axis=1)))
     segments = axes.collections[0].get_segments()
     assert len(segments) == solution.contact[row].sum()
-    np.testing.assert_allclose([s[0, 0] for s in segments], np.flatnonzero(solution.contact[row]), atol=1e-6)
+    cells = np.flatnonzero(solution.contact[row])  # of 1 um
+    np.testing.assert_allclose([s[:, 0] for s in segments], np.stack([cells, cells + 1], axis=1), atol=1e-6)
     assert "largest in this section" in axes.get_title()
 
 

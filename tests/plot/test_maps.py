@@ -74,6 +74,35 @@ def test_one_cell_in_a_quarter_of_a_million_is_seen_where_it_is(draw):
     assert np.abs(changed.mean(axis=0) - (before.shape[0] - y, x)).max() < 3  # pixels
 
 
+@pytest.mark.parametrize("window", [None, (slice(80, 336), slice(256, 512))], ids=["map", "window"])
+@pytest.mark.parametrize("draw", [pressure_map, contact_map])
+def test_marks_and_cells_are_drawn_where_they_are(draw, window):
+    """Marks on the centres of their cells, to the last digits; pictures from edge to edge."""
+    cells = [(100, 400), (300, 280)]
+    solution = pressed((512, 512), cells)
+    _, axes = single()
+    draw(axes, solution, window)
+    (marks,) = axes.collections
+    y, x = (np.array(cells).T + 0.5) * [[0.2], [0.1]]  # um
+    expected = np.stack([x, y], axis=1)[np.argsort(y)]
+    found = np.asarray(marks.get_offsets())
+    np.testing.assert_allclose(found[np.argsort(found[:, 1])], expected, rtol=1e-14)
+    edges = (0.0, 51.2, 102.4, 0.0) if window is None else (25.6, 51.2, 67.2, 16.0)
+    for image in axes.images:
+        assert image.get_extent() == pytest.approx(edges, rel=1e-14)
+    rows, columns = np.nonzero(~np.ma.getmaskarray(np.ma.masked_invalid(axes.images[-1].get_array())))
+    first = (0, 0) if window is None else (80, 256)
+    assert [*zip(rows + first[0], columns + first[1], strict=True)] == cells
+
+
+def test_a_frame_lies_on_the_edges_of_its_cells():
+    solution = pressed((512, 512), [(100, 400)])
+    _, axes = single()
+    contact_map(axes, solution, frame=(slice(80, 336), slice(256, 512)))
+    x, y = axes.lines[0].get_data()
+    np.testing.assert_allclose([x.min(), x.max(), y.min(), y.max()], [25.6, 51.2, 16.0, 67.2], rtol=1e-14)
+
+
 def test_contact_that_is_plain_to_see_gets_no_marks():
     surface = rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6))
     solution = rc.press(surface, MODULUS, force=1.0)
