@@ -132,7 +132,7 @@ def test_how_far_pressures_are_out_of_bounds(start):
 def test_the_force_is_kept(start):
     """What keeping to the bounds adds to it is shared by the rest of the cells, as they carry it."""
     stays, step, bounded = start.stays, start.step, start.bounded.astype(np.float64)
-    total = bounded.sum()
+    total = float(bounded.sum())
     p = (start.p + bounded) * stays
     wanted = bounded - total * (p / p.sum() if p.sum() > 0 else stays / max(1, stays.sum()))
     for fields in start.both():
@@ -142,6 +142,7 @@ def test_the_force_is_kept(start):
         fields.share_out(0.25 * total)
         # A share is a ratio of sums, of which one kind rounds each term, times what cells carry.
         size = np.abs(bounded).sum() + np.abs(step).sum() + np.abs(total)
+        assert fields.t.dtype == start.base.dtype
         close(fields.t, wanted, size, fields.t.dtype)
         close(fields.t.sum(dtype=np.float64), 0.0, size, fields.t.dtype)
         np.testing.assert_array_equal(fields.t[~stays], bounded[~stays])

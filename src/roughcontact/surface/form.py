@@ -14,6 +14,7 @@ Array = npt.NDArray[np.float64]
 
 # Points that the fit looks at: five numbers are known well enough from them.
 _POINTS = 40_000
+_STEP = 1e-6  # of central differences: they err by about 1e-10 of numbers of order one
 
 
 def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[Array, str]:
@@ -52,7 +53,13 @@ def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[A
     def misfit(values: Array) -> Array:
         return model(with_free(values), px, py) - pz
 
-    fit = least_squares(misfit, start[free], method="lm", xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    def derivatives(values: Array) -> Array:
+        # All are numbers of order one, and some are zero: the step is the same for each, where older SciPy takes a
+        # share of its value, and finds nothing but rounding for those near zero.
+        columns = [misfit(values + step) - misfit(values - step) for step in _STEP * np.eye(values.size)]
+        return np.stack(columns, axis=1) / (2 * _STEP)
+
+    fit = least_squares(misfit, start[free], derivatives, method="lm", xtol=1e-12, ftol=1e-12, gtol=1e-12)
     parameters = with_free(fit.x)
     trend = model(parameters, x, y) * scale
     if fit.status < 1 or not np.isfinite(trend).all():

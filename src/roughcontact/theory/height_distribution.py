@@ -255,7 +255,7 @@ def _integrals(
     """Return int_0^u Phi(z) (u - z)^order dz at depths u."""
 
     def at(u: float) -> float:
-        ends = [0.0, *(z for z in breaks if z < u), u]
+        ends = [0.0, *(z for z in breaks if z < u), u] if u > 0 else []  # at 0 there may be a singularity
         return math.fsum(_integral(lambda z: density(z) * (u - z) ** order, *part) for part in pairwise(ends))
 
     value: Array = np.vectorize(at, otypes=[np.float64])(depth)[()]
