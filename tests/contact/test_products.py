@@ -25,7 +25,9 @@ def test_counts_are_what_they_were(case, table):
     found, expected = count(CASES[case]()), table[case, products.machine_code()]
     allowed = [max(LEAST, SHARE * number) for number in expected]
     allowed[-1] = max(allowed[-1], LEAST * expected.cells / max(expected.products, 1))  # one product more
-    assert (np.abs(np.subtract(found, expected)) <= allowed).all(), f"{found} instead of {expected}"
+    assert (np.abs(np.subtract(found, expected)) <= allowed).all(), (
+        f"{found}, not {expected}: if meant, store it"
+    )
 
 
 def test_the_table_has_all_cases_and_no_other(table):
