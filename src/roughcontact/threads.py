@@ -131,31 +131,34 @@ def one_blas_thread() -> Iterator[None]:
     Most BLAS has one number of threads for the whole process: it is 1 from the first thread of Python that comes in
     until the last one is out, and others that call BLAS meanwhile have one thread, too.
     """
-    mine = object()
+    me = get_ident()
+    if me in _inside:
+        yield
+        return
     try:
-        _come_in(mine)
+        _come_in(me)
         with _own().limit(limits=1, user_api="blas"):
             yield
     finally:
-        _go_out(mine)
+        _go_out(me)
 
 
-_inside: dict[object, int] = {}  # the threads that want one BLAS thread, as often as they do
+_inside: set[int] = set()  # the threads of Python that want one BLAS thread
 _before: list[tuple[Any, int]] = []  # the libraries that were limited for them, and the threads that each had
 
 
-def _come_in(mine: object) -> None:
+def _come_in(thread: int) -> None:
     with no_fork:
-        _inside[mine] = get_ident()
+        _inside.add(thread)
         if len(_inside) == 1:
             _before[:] = [(library, library.num_threads) for library in _shared()]
             for library, _ in _before:
                 _set(library, 1)
 
 
-def _go_out(mine: object) -> None:
+def _go_out(thread: int) -> None:
     with no_fork:
-        _inside.pop(mine, None)
+        _inside.discard(thread)
         while not _inside and _before:
             library, count = _before.pop()
             if library.num_threads == 1:  # else somebody has set another number meanwhile, which stays
@@ -247,8 +250,8 @@ def _in_child() -> None:
     """Go on in a forked process, which has one thread: the one that forked."""
     global _crew, _pool
     _crew, _pool = _Crew(), ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
-    for mine in [mine for mine, thread in _inside.items() if thread != get_ident()]:
-        _go_out(mine)
+    for thread in _inside - {get_ident()}:
+        _go_out(thread)
     no_fork.release()
 
 

@@ -20,6 +20,7 @@ from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturati
 from roughcontact.contact.variables import unit_of
 from roughcontact.halfspace.geometry import Geometry
 from roughcontact.theory.tools.domain import number
+from roughcontact.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -217,6 +218,7 @@ class Curve:
         return curve_record(self)
 
 
+@one_blas_thread()
 def collect(path: Iterable[Solution]) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
     points: list[tuple[float, ...]] = []
