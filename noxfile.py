@@ -35,7 +35,7 @@ ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_
 PROBE = """
 import json, sys, numpy, scipy.linalg, threadpoolctl
 import roughcontact as rc
-from roughcontact.machine import loader
+from roughcontact.kernels import loader
 try:
     has_code = loader.is_available()
 except ValueError as error:  # this machine lacks what that processor has

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.contact import cascade
-from roughcontact.contact.drivers import Plane
-from roughcontact.contact.pooling import lowest
-from roughcontact.halfspace.patches import PatchOperator
-from roughcontact.machine import loader
+from roughcontact.halfspace.sums.particle_mesh import PatchOperator
+from roughcontact.kernels import loader
+from roughcontact.solver import nested_iteration as cascade
+from roughcontact.solver.inner_operator import Plane
+from roughcontact.solver.restriction import lowest
 
 EXTRAS = (
     "positive",

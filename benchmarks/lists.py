@@ -3,8 +3,8 @@
     python benchmarks/lists.py [cells a side]...
 
 A self-affine surface, H = 0.8, pressed by growing forces; milliseconds, least of some runs, on the cores there are.
-Where direct sums over tiles cost less is what `SUMS` in `roughcontact/halfspace/cells.py` says. See README.md beside
-this file.
+Where direct sums over tiles cost less is what `SUMS` in `roughcontact/halfspace/operators/cell_list.py` says.
+See README.md beside this file.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy as np
 from transforms import best
 
 import roughcontact as rc
-from roughcontact.contact.window import bounding_box
-from roughcontact.halfspace.cells import CellsOperator
-from roughcontact.halfspace.tiles import Tiles
+from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.sums.tiles import Tiles
+from roughcontact.solver.subdomain import bounding_box
 from roughcontact.threads import one_blas_thread
 
 SIZES = (512, 1024, 2048)

@@ -25,9 +25,9 @@ os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THR
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.halfspace import compiled
-from roughcontact.halfspace.dense import DenseOperator
-from roughcontact.halfspace.multilevel import MultilevelOperator
+from roughcontact.halfspace.operators.dense import DenseOperator
+from roughcontact.halfspace.sums import compiled
+from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 
 # For the matrix, and for the moving grid.
 SMALL = {"plane": (16, 32, 64), "shear": (16, 32, 48), "line": (256, 1024, 4096)}

@@ -18,8 +18,8 @@ from typing import Any
 from cases import CASES, Problem
 
 import roughcontact as rc
-from roughcontact.contact.trial import Trial
-from roughcontact.machine import room
+from roughcontact.kernels import buffers as room
+from roughcontact.solver.trial import Trial
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {

@@ -14,11 +14,11 @@ from collections.abc import Callable
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.contact.conjugate_gradient import relax
-from roughcontact.contact.drivers import Driver, SinglePlane
-from roughcontact.contact.fields import fields_on
-from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.tiles import SIDE, Tiles
+from roughcontact.halfspace.sums.tiles import SIDE, Tiles
+from roughcontact.solver.conjugate_gradients import relax
+from roughcontact.solver.inner_operator import Driver, SinglePlane
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.vectors import fields_on
 from roughcontact.threads import one_blas_thread
 
 SIZES = (128, 256, 512, 1024, 2048)

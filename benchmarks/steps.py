@@ -16,7 +16,9 @@ from cases import CASES
 from pairs import without
 
 import roughcontact as rc
-from roughcontact.contact import compiled_fields, iterative, projected
+from roughcontact.solver import bound_constrained_cg as projected
+from roughcontact.solver import compiled_vectors as compiled_fields
+from roughcontact.solver import iterative
 
 CHANGES: tuple[tuple[Any, str, Any], ...] = (
     (projected, "CAREFUL", 0.8),

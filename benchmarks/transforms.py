@@ -11,8 +11,8 @@ import scipy.fft
 import roughcontact.arrays as arrays
 from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
-from roughcontact.halfspace.cells import CellsOperator
-from roughcontact.halfspace.influence import Love, Tables
+from roughcontact.halfspace.influence.tables import Love, Tables
+from roughcontact.halfspace.operators.cell_list import CellsOperator
 
 
 def best(function, *arguments, repeats=7):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from regions import generic, on, plane
-from roughcontact.contact.drivers import Driver, Plane
-from roughcontact.contact.projected import LEFT, Stride, descend
+from roughcontact.solver.bound_constrained_cg import LEFT, Stride, descend
+from roughcontact.solver.inner_operator import Driver, Plane
 
 SHAPE = (20, 24)
 KINDS = {"compiled": on, "generic": generic}

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughcontact.halfspace.kernels import love
+from roughcontact.halfspace.influence.love import love
 
 
 def displacement(grid, modulus, pressure):

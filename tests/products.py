@@ -20,7 +20,7 @@ import pytest
 
 import roughcontact as rc
 from references import rough
-from roughcontact.machine import loader
+from roughcontact.kernels import loader
 
 STORE = Path(__file__).with_suffix(".csv")
 ITERATED = {"solver": rc.ActiveSet(dense_limit=0)}

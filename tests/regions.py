@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact import fields as fields_module
-from roughcontact.contact.compiled_fields import CompiledFields
-from roughcontact.contact.fields import fields_on
-from roughcontact.contact.measure import Measure
-from roughcontact.halfspace.operator import Operator
-from roughcontact.machine import loader
+from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.kernels import loader
+from roughcontact.solver import vectors as fields_module
+from roughcontact.solver.compiled_vectors import CompiledFields
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.vectors import fields_on
 
 PRECISIONS = ("float32", "float64")
 

@@ -13,7 +13,7 @@ from libraries import LIBRARIES
 from roughcontact import arrays, convolution
 from roughcontact.arrays import convolve, even_multiplier
 from roughcontact.convolution import ROWS, Convolution, padded_length
-from roughcontact.machine import loader as machine
+from roughcontact.kernels import loader as machine
 
 SIZES = {  # shape and lengths
     "padded": ((20, 33), (40, 64)),
@@ -64,7 +64,7 @@ def by_whom(monkeypatch):
 
     monkeypatch.setattr(convolution, "convolve", plain)
     if machine.is_available():
-        from roughcontact.machine.convolution import Convolution as Ready
+        from roughcontact.kernels.compiled_convolution import Convolution as Ready
 
         compiled = Ready.apply
 

@@ -15,13 +15,17 @@ FILES = sorted(SOURCE.rglob("*.py"))
 # Each room may look into those before it, and into itself.
 ORDER = [
     {"cached", "memory", "threads"},
-    {"machine"},
+    {"kernels"},
     {"arrays"},
     {"convolution"},
     {"grid", "material"},
+    {"statistics"},
     {"surface"},
     {"halfspace"},
+    {"labels"},
+    {"solver"},
     {"contact"},
+    {"friction"},
     {"mdr"},
     {"files"},
     {"study"},
@@ -33,7 +37,7 @@ RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 # `theory` stands beside the house; the two top files open doors and do nothing else.
 BESIDE = {"theory", "__init__", "__main__"}
 AT_THE_RIM = RANK["files"]
-KEEPS_CODE = SOURCE / "machine" / "disk.py"  # what is translated once is kept on disk
+KEEPS_CODE = SOURCE / "kernels" / "disk.py"  # what is translated once is kept on disk
 ASKS_LINUX = SOURCE / "memory.py"  # which tells the limit of a container in files
 DISK_AND_SCREEN = {
     *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),

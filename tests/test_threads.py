@@ -17,9 +17,10 @@ import pytest
 import roughcontact as rc
 from roughcontact import arrays
 from roughcontact import threads as threads_module
-from roughcontact.contact.problem import ContactProblem, Force
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.status import Status
+from roughcontact.solver.control import Force
+from roughcontact.solver.status import Status
 from roughcontact.threads import controller, join_in, limit_threads, once, one_blas_thread, spread, threads
 
 PATIENCE = 120  # [s], of a busy machine

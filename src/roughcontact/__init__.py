@@ -57,47 +57,47 @@ _ROOMS = {
     "profile_parameters": "surface.parameters.profile",
     "material_ratio": "surface.parameters.material_ratio",
     "stratified_parameters": "surface.parameters.material_ratio",
-    "half_space": "halfspace.build",
-    "ring": "halfspace.ring",
-    "half_periodic": "halfspace.half_periodic",
-    "layer": "halfspace.layer",
-    "Stress": "halfspace.subsurface",
-    "Displacement": "halfspace.subsurface",
+    "half_space": "halfspace.operators.build",
+    "ring": "halfspace.operators.ring",
+    "half_periodic": "halfspace.operators.singly_periodic",
+    "layer": "halfspace.operators.layer",
+    "Stress": "halfspace.subsurface.fields_below",
+    "Displacement": "halfspace.subsurface.fields_below",
     "below": "contact.below",
     "displacement_below": "contact.below",
     "largest_von_mises": "contact.below",
     "StressPeak": "contact.below",
-    "line": "halfspace.line",
+    "line": "halfspace.operators.line_contact",
     "foundation": "mdr.foundation",
-    "ShearOperator": "halfspace.shear",
-    "shear_half_space": "halfspace.shear",
-    "TangentialSolution": "contact.tangential.solution",
-    "TangentialStiffness": "contact.tangential.stiffness",
-    "tangential_stiffness": "contact.tangential.stiffness",
-    "slide": "contact.tangential.slide",
-    "slide_path": "contact.tangential.path",
-    "load_cycle": "contact.tangential.path",
-    "SlipCurve": "contact.tangential.curve",
-    "slide_curve": "contact.tangential.curve",
-    "Geometry": "halfspace.geometry",
-    "Operator": "halfspace.operator",
-    "Force": "contact.problem",
-    "Depth": "contact.problem",
+    "ShearOperator": "halfspace.shear.shear_operator",
+    "shear_half_space": "halfspace.shear.shear_operator",
+    "TangentialSolution": "friction.slip_solution",
+    "TangentialStiffness": "friction.tangential_stiffness",
+    "tangential_stiffness": "friction.tangential_stiffness",
+    "slide": "friction.slide",
+    "slide_path": "friction.slide_path",
+    "load_cycle": "friction.slide_path",
+    "SlipCurve": "friction.slip_curve",
+    "slide_curve": "friction.slip_curve",
+    "Geometry": "halfspace.operators.geometry",
+    "Operator": "halfspace.operators.operator",
+    "Force": "solver.control",
+    "Depth": "solver.control",
     "ContactProblem": "contact.problem",
     "Solution": "contact.solution",
-    "Status": "contact.status",
-    "ConvergenceError": "contact.status",
-    "ActiveSet": "contact.active_set",
-    "PolonskyKeer": "contact.polonsky_keer",
+    "Status": "solver.status",
+    "ConvergenceError": "contact.convergence",
+    "ActiveSet": "solver.active_set",
+    "PolonskyKeer": "solver.polonsky_keer",
     "press": "contact.press",
     "contact_stiffness": "contact.stiffness",
-    "prescribed_displacement": "contact.prescribed",
+    "prescribed_displacement": "solver.prescribed",
     "loading_path": "contact.loading",
     "loading_curve": "contact.loading",
     "suggested_forces": "contact.loading",
     "Curve": "contact.curve",
     "Comparison": "contact.compare",
-    "conductance": "contact.conductance",
+    "conductance": "contact.conduction",
     "loading_laws": "contact.theories",
     "PowerLaw": "contact.curve",
     "read": "files.read",
@@ -105,8 +105,8 @@ _ROOMS = {
     "read_curve": "files.read_curve",
     "write": "files.save",
     "WriteError": "files.aside",
-    "SurfaceWarning": "files.errors",
-    "ReadError": "files.errors",
+    "SurfaceWarning": "files.file_errors",
+    "ReadError": "files.file_errors",
 }
 
 # Public names that are modules themselves.
@@ -118,61 +118,61 @@ if TYPE_CHECKING:
     from roughcontact import mdr as mdr
     from roughcontact import study as study
     from roughcontact import theory as theory
-    from roughcontact.contact.active_set import ActiveSet as ActiveSet
     from roughcontact.contact.below import StressPeak as StressPeak
     from roughcontact.contact.below import below as below
     from roughcontact.contact.below import displacement_below as displacement_below
     from roughcontact.contact.below import largest_von_mises as largest_von_mises
     from roughcontact.contact.compare import Comparison as Comparison
-    from roughcontact.contact.conductance import conductance as conductance
+    from roughcontact.contact.conduction import conductance as conductance
+    from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.curve import PowerLaw as PowerLaw
     from roughcontact.contact.loading import loading_curve as loading_curve
     from roughcontact.contact.loading import loading_path as loading_path
     from roughcontact.contact.loading import suggested_forces as suggested_forces
-    from roughcontact.contact.polonsky_keer import PolonskyKeer as PolonskyKeer
-    from roughcontact.contact.prescribed import prescribed_displacement as prescribed_displacement
     from roughcontact.contact.press import press as press
     from roughcontact.contact.problem import ContactProblem as ContactProblem
-    from roughcontact.contact.problem import Depth as Depth
-    from roughcontact.contact.problem import Force as Force
     from roughcontact.contact.solution import Solution as Solution
-    from roughcontact.contact.status import ConvergenceError as ConvergenceError
-    from roughcontact.contact.status import Status as Status
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
-    from roughcontact.contact.tangential.curve import SlipCurve as SlipCurve
-    from roughcontact.contact.tangential.curve import slide_curve as slide_curve
-    from roughcontact.contact.tangential.path import load_cycle as load_cycle
-    from roughcontact.contact.tangential.path import slide_path as slide_path
-    from roughcontact.contact.tangential.slide import slide as slide
-    from roughcontact.contact.tangential.solution import TangentialSolution as TangentialSolution
-    from roughcontact.contact.tangential.stiffness import TangentialStiffness as TangentialStiffness
-    from roughcontact.contact.tangential.stiffness import tangential_stiffness as tangential_stiffness
     from roughcontact.contact.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError
-    from roughcontact.files.errors import ReadError as ReadError
-    from roughcontact.files.errors import SurfaceWarning as SurfaceWarning
+    from roughcontact.files.file_errors import ReadError as ReadError
+    from roughcontact.files.file_errors import SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read
     from roughcontact.files.read import read_line as read_line
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
+    from roughcontact.friction.slide import slide as slide
+    from roughcontact.friction.slide_path import load_cycle as load_cycle
+    from roughcontact.friction.slide_path import slide_path as slide_path
+    from roughcontact.friction.slip_curve import SlipCurve as SlipCurve
+    from roughcontact.friction.slip_curve import slide_curve as slide_curve
+    from roughcontact.friction.slip_solution import TangentialSolution as TangentialSolution
+    from roughcontact.friction.tangential_stiffness import TangentialStiffness as TangentialStiffness
+    from roughcontact.friction.tangential_stiffness import tangential_stiffness as tangential_stiffness
     from roughcontact.grid import Grid as Grid
     from roughcontact.grid import RadialGrid as RadialGrid
-    from roughcontact.halfspace.build import half_space as half_space
-    from roughcontact.halfspace.geometry import Geometry as Geometry
-    from roughcontact.halfspace.half_periodic import half_periodic as half_periodic
-    from roughcontact.halfspace.layer import layer as layer
-    from roughcontact.halfspace.line import line as line
-    from roughcontact.halfspace.operator import Operator as Operator
-    from roughcontact.halfspace.ring import ring as ring
-    from roughcontact.halfspace.shear import ShearOperator as ShearOperator
-    from roughcontact.halfspace.shear import shear_half_space as shear_half_space
-    from roughcontact.halfspace.subsurface import Displacement as Displacement
-    from roughcontact.halfspace.subsurface import Stress as Stress
+    from roughcontact.halfspace.operators.build import half_space as half_space
+    from roughcontact.halfspace.operators.geometry import Geometry as Geometry
+    from roughcontact.halfspace.operators.layer import layer as layer
+    from roughcontact.halfspace.operators.line_contact import line as line
+    from roughcontact.halfspace.operators.operator import Operator as Operator
+    from roughcontact.halfspace.operators.ring import ring as ring
+    from roughcontact.halfspace.operators.singly_periodic import half_periodic as half_periodic
+    from roughcontact.halfspace.shear.shear_operator import ShearOperator as ShearOperator
+    from roughcontact.halfspace.shear.shear_operator import shear_half_space as shear_half_space
+    from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement
+    from roughcontact.halfspace.subsurface.fields_below import Stress as Stress
     from roughcontact.material import Solid as Solid
     from roughcontact.material import reduced_modulus as reduced_modulus
     from roughcontact.material import reduced_shear_modulus as reduced_shear_modulus
     from roughcontact.mdr.foundation import foundation as foundation
+    from roughcontact.solver.active_set import ActiveSet as ActiveSet
+    from roughcontact.solver.control import Depth as Depth
+    from roughcontact.solver.control import Force as Force
+    from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
+    from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
+    from roughcontact.solver.status import Status as Status
     from roughcontact.surface import shapes as shapes
     from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
     from roughcontact.surface.analysis.correlation import structure_function as structure_function

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.machine import room
+from roughcontact.kernels import buffers as room
 from roughcontact.threads import limit_threads, spread, threads
 
 __all__ = [

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, convolve, fast_even_length, is_numpy
-from roughcontact.machine import convolution as machine
-from roughcontact.machine import loader
+from roughcontact.kernels import compiled_convolution as machine
+from roughcontact.kernels import loader
 
 __all__ = ["Convolution", "padded_length"]
 

@@ -10,7 +10,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact.dataset import curve_dataset, curve_record, solution_dataset, solution_record
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.labels.variables import VARIABLES
 
 MODULUS = 1e11
 GRID = rc.Grid((24, 32), (2e-7, 1e-7))

@@ -9,10 +9,10 @@ import pytest
 import roughcontact as rc
 from descents import SHAPE, STRIDES, Counted, Start, both_controls, both_kinds, both_planes, within_bounds
 from regions import both_of, close, plane, region
-from roughcontact.contact.conjugate_gradient import relax
-from roughcontact.contact.drivers import Plane, SinglePlane
-from roughcontact.contact.projected import BOUND, CAREFUL, FREE, LEFT, Descent, Stride, descend
-from roughcontact.machine import loader
+from roughcontact.kernels import loader
+from roughcontact.solver.bound_constrained_cg import BOUND, CAREFUL, FREE, LEFT, Descent, Stride, descend
+from roughcontact.solver.conjugate_gradients import relax
+from roughcontact.solver.inner_operator import Plane, SinglePlane
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 

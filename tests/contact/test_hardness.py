@@ -5,12 +5,12 @@ import oracles
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact import hard
-from roughcontact.contact.cascade import coarse_guess
-from roughcontact.contact.polonsky_keer import PolonskyKeer
-from roughcontact.contact.problem import Depth, Force, Terms
-from roughcontact.contact.state import State
-from roughcontact.contact.status import Status
+from roughcontact.solver import plastic as hard
+from roughcontact.solver.control import Depth, Force, Terms
+from roughcontact.solver.nested_iteration import coarse_guess
+from roughcontact.solver.polonsky_keer import PolonskyKeer
+from roughcontact.solver.state import State
+from roughcontact.solver.status import Status
 
 MODULUS = 2.0
 SOLVERS = {"active set": rc.ActiveSet(), "Polonsky-Keer": rc.PolonskyKeer()}

@@ -8,15 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regions import close, plane, region
-from roughcontact.contact import fields as fields_module
-from roughcontact.contact.compiled_fields import CompiledFields
-from roughcontact.contact.drivers import Plane, SinglePlane
-from roughcontact.contact.fields import scaled_fields
-from roughcontact.contact.measure import Measure
-from roughcontact.contact.problem import Depth, Force, Terms
-from roughcontact.contact.trial import Trial
-from roughcontact.machine import loader
-from roughcontact.machine.layout import NEVER
+from roughcontact.kernels import loader
+from roughcontact.kernels.constants import NEVER
+from roughcontact.solver import vectors as fields_module
+from roughcontact.solver.compiled_vectors import CompiledFields
+from roughcontact.solver.control import Depth, Force, Terms
+from roughcontact.solver.inner_operator import Plane, SinglePlane
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.trial import Trial
+from roughcontact.solver.vectors import scaled_fields
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 

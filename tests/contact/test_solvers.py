@@ -118,8 +118,8 @@ def test_the_residual_belongs_to_the_returned_pressure():
 
 def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     """A run without progress is handed over, and the answer still certified."""
-    import roughcontact.contact.active_set as module
-    from roughcontact.contact.iterative import RegionPressed
+    import roughcontact.solver.active_set as module
+    from roughcontact.solver.iterative import RegionPressed
 
     def stuck(driver, separation, terms, region, pressure, displacement, **settings):
         return RegionPressed(pressure, 1)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact import window
-from roughcontact.contact.window import Windows
-from roughcontact.halfspace import cells as lists
-from roughcontact.halfspace.cells import CellsOperator
-from roughcontact.halfspace.spectral import FreeOperator
-from roughcontact.machine import loader
+from roughcontact.halfspace.operators import cell_list as lists
+from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.sums.spectral import FreeOperator
+from roughcontact.kernels import loader
+from roughcontact.solver import subdomain as window
+from roughcontact.solver.subdomain import Windows
 
 MODULUS = 1e9
 SOLVERS = {"default": rc.ActiveSet(), "iterative": rc.ActiveSet(dense_limit=0)}

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.halfspace.kernels import love
+from roughcontact.halfspace.influence.love import love
 from roughcontact.theory import conductance, pohrt_popov
 
 PAIR = (1.0, 1 / 9)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 
 RNG = np.random.default_rng(11)
 HEIGHTS = RNG.standard_normal((23, 31))

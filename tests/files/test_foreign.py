@@ -14,7 +14,7 @@ import pytest
 from scipy.io import savemat
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.inspect import channels
 
 pytest.importorskip("SurfaceTopography")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.inspect import channels
 from roughcontact.files.read import read_either, read_line
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line
 
 LINES = {"dektak-1.csv"}

@@ -149,7 +149,7 @@ def test_what_is_no_map_is_refused(tmp_path, put):
         rc.read(put("b.nc", b"neither"))
 
 
-@pytest.mark.filterwarnings("ignore::roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.filterwarnings("ignore::roughcontact.files.file_errors.SurfaceWarning")
 @pytest.mark.parametrize("modern", [False, True])
 def test_any_flipped_byte_of_a_small_file_is_survived(tmp_path, put, modern):
     """Numbers carry no checksum; whatever happens, nothing but a ReadError or a surface comes out."""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.inspect import channels
 
 TEXT = "1 2 3 4\n5 6 7 8\n"
@@ -126,7 +126,7 @@ def test_absurd_sizes_and_heights_are_doubted_not_refused(put, unit, size, messa
     assert any(message in line for line in surface.provenance)
 
 
-@pytest.mark.filterwarnings("ignore::roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.filterwarnings("ignore::roughcontact.files.file_errors.SurfaceWarning")
 def test_heights_beyond_all_measure_are_doubted_or_refused_without_noise(put):
     assert rc.read(put("a.txt", "1e5 2\n3 4\n"), unit="m", size=1e-3).grid.shape == (2, 2)
     with pytest.raises(rc.ReadError, match=r"a\.txt: it holds heights up to 1e\+300 m.*unit="):

@@ -17,7 +17,7 @@ from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line
 from roughcontact.files.save import require_surface_file, write
 

@@ -113,7 +113,7 @@ def test_a_header_that_cannot_be_is_refused(put, field, message):
         rc.read(put("a.sur", sur(field=field)))
 
 
-@pytest.mark.filterwarnings("ignore:.*unusual:roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.filterwarnings("ignore:.*unusual:roughcontact.files.file_errors.SurfaceWarning")
 @pytest.mark.parametrize("packed", [0, 2])
 def test_damage_is_refused_or_named(put, packed):
     whole = sur(packed=packed)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line
 
 GIVEN = {"unit": "mm", "size": 1e-2}
@@ -216,7 +216,7 @@ MAPS = hnp.arrays(
 
 @settings(max_examples=60, deadline=None)
 @given(heights=MAPS, separator=st.sampled_from([" ", "\t", ",", ";", ", "]), binary=st.booleans())
-@pytest.mark.filterwarnings("ignore::roughcontact.files.errors.SurfaceWarning")
+@pytest.mark.filterwarnings("ignore::roughcontact.files.file_errors.SurfaceWarning")
 def test_what_is_written_is_read(heights, separator, binary):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / ("a.npy" if binary else "a.txt")

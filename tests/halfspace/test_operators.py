@@ -8,11 +8,11 @@ import oracles
 import pytest
 
 import roughcontact as rc
-from roughcontact.halfspace.half_periodic import half_periodic
-from roughcontact.halfspace.layer import layer
-from roughcontact.halfspace.line import LineOperator
-from roughcontact.halfspace.multilevel import MultilevelOperator
-from roughcontact.halfspace.operator import Operator, is_positive, is_semidefinite, self_influence
+from roughcontact.halfspace.operators.layer import layer
+from roughcontact.halfspace.operators.line_contact import LineOperator
+from roughcontact.halfspace.operators.operator import Operator, is_positive, is_semidefinite, self_influence
+from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
 PLANES = [

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.ensemble_fit import fit_ensemble
-from roughcontact.contact.power_law import fit_power_law
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.statistics.ensemble_fit import fit_ensemble
+from roughcontact.statistics.power_law import fit_power_law
 
 GRID = rc.Grid(1024, 1 / 1024)
 FORCES = np.geomspace(1e-4, 0.07, 12)

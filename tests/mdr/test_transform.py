@@ -6,7 +6,7 @@ from scipy.integrate import quad
 from scipy.special import gamma, struve
 
 from roughcontact.mdr import indenter
-from roughcontact.mdr.panels import Panels, fit, interpolate
+from roughcontact.mdr.chebyshev import Panels, fit, interpolate
 from roughcontact.mdr.transform import abel, height_of, transform_of
 
 

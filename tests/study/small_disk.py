@@ -5,10 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from roughcontact.study.errors import StoreError
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
+from roughcontact.study.study_errors import StoreError
 
 DISK, LARGE = map(Path, sys.argv[1:])
 STUDY = Study(name="a", case="study.trial:CASE", samples=20, parameters={"hurst": 0.5, "points": 300})

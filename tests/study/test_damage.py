@@ -8,10 +8,10 @@ from contextlib import closing
 import numpy as np
 import pytest
 
-from roughcontact.study.errors import StoreError
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
+from roughcontact.study.study_errors import StoreError
 from study.trial import NAME
 
 STUDY = Study(name="a", case=NAME, samples=10, parameters={"points": 20}, table={"hurst": [0.1, 0.2, 0.3]})

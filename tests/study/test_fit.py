@@ -5,9 +5,9 @@ import pytest
 import xarray
 from scipy import stats
 
-from roughcontact.contact.ensemble_fit import fit_ensemble
+from roughcontact.statistics.ensemble_fit import fit_ensemble
 from roughcontact.study.fit import fit_power_laws, law_at
-from roughcontact.study.window import Window, force_window, resolved_window, window_of
+from roughcontact.study.fit_window import Window, force_window, resolved_window, window_of
 
 FORCE = np.geomspace(1e-4, 0.3, 24)
 HURST = np.array([0.2, 0.6, 1.0])

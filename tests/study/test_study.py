@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.study.errors import StudyError
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
+from roughcontact.study.study_errors import StudyError
 from study.trial import CASE, NAME
 
 TEXT = """

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from roughcontact.study.fit_window import force_window
 from roughcontact.study.study import Study
-from roughcontact.study.window import force_window
 from roughcontact.thesis.ensembles import (
     coarse_square_study,
     curve_averages,

@@ -7,7 +7,14 @@ from typing import Annotated
 import typer
 
 from roughcontact import __version__
-from roughcontact.cli import conductance, curve, prepare, press, spectrum, study, surface, thesis
+from roughcontact.cli import conductance_command as conductance
+from roughcontact.cli import curve_command as curve
+from roughcontact.cli import prepare_command as prepare
+from roughcontact.cli import press_command as press
+from roughcontact.cli import spectrum_command as spectrum
+from roughcontact.cli import study_command as study
+from roughcontact.cli import surface_command as surface
+from roughcontact.cli import thesis_command as thesis
 
 __all__ = ["app"]
 

@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
-from roughcontact.cli.conductance import COLUMNS
-from roughcontact.cli.errors import note, plain
+from roughcontact.cli.conductance_command import COLUMNS
+from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, size_of
-from roughcontact.cli.theory import deviations
+from roughcontact.cli.theory_options import deviations
 
 if TYPE_CHECKING:
     import xarray
 
     from roughcontact.contact.compare import Comparison
-    from roughcontact.contact.conductance import Conductors
+    from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve, PowerLaw
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
@@ -86,7 +86,7 @@ class CurveAnswer:
     def record(self) -> dict[str, Any]:
         """The answer as plain values."""
         from roughcontact.contact.dataset import curve_record
-        from roughcontact.contact.labelled import plain_values
+        from roughcontact.labels.labelled import plain_values
 
         conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
         record = {
@@ -108,7 +108,7 @@ class CurveAnswer:
         """Write NetCDF, CSV, picture and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
-        from roughcontact.plot.figures import curve_figure, save
+        from roughcontact.plot.canvas import curve_figure, save
 
         source = provenance(
             self.surface,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from roughcontact.cli.errors import UsageError, as_typed, note, plain
-from roughcontact.cli.quantity import PRESSURE, parse, parse_number, parse_size
+from roughcontact.cli.messages import UsageError, as_typed, note, plain
+from roughcontact.cli.unit_options import PRESSURE, parse, parse_number, parse_size
 
 if TYPE_CHECKING:
     from roughcontact.material import Solid

@@ -11,7 +11,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.errors import UsageError, plain
+from roughcontact.cli.messages import UsageError, plain
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager

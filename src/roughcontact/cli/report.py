@@ -10,9 +10,9 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from roughcontact.cli.errors import note
-from roughcontact.contact.variables import VARIABLES
-from roughcontact.plot.units import pretty, scale, written
+from roughcontact.cli.messages import note
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import pretty, scale, written
 
 if TYPE_CHECKING:
     from pathlib import Path

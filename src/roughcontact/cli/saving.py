@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.errors import UsageError, note
+from roughcontact.cli.messages import UsageError, note
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

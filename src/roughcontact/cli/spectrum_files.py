@@ -27,8 +27,8 @@ def write_spectrum(found: _Found, record: Mapping[str, Any], surface: Surface, f
 
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv
-    from roughcontact.plot.figures import save
-    from roughcontact.plot.spectrum import spectrum_curve
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.spectrum_plot import spectrum_curve
 
     spectrum, law, isotropic = found
     figure = Figure(figsize=(6.0 if isotropic is None else 10.0, 4.6), layout="constrained")

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.cli.errors import UsageError
-from roughcontact.cli.quantity import LENGTH, parse
+from roughcontact.cli.messages import UsageError
 from roughcontact.cli.report import quantity
+from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.errors import UsageError
+from roughcontact.cli.messages import UsageError
 
 if TYPE_CHECKING:
     from roughcontact.study.task import Executor

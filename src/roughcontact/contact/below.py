@@ -10,13 +10,13 @@ from scipy.optimize import minimize_scalar
 
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
-from roughcontact.contact.window import bounding_box
 from roughcontact.grid import Grid
-from roughcontact.halfspace import subsurface
-from roughcontact.halfspace.build import half_space
-from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.subsurface import Displacement, Stress
+from roughcontact.halfspace.operators.build import half_space
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.subsurface import fields_below as subsurface
+from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid, number
+from roughcontact.solver.subdomain import bounding_box
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [

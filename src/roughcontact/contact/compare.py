@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve

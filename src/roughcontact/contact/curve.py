@@ -12,13 +12,13 @@ import numpy.typing as npt
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law, compared
-from roughcontact.contact.power_law import PowerLaw, fit_power_law
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
-from roughcontact.contact.variables import unit_of
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import unit_of
+from roughcontact.solver.status import Status
+from roughcontact.statistics.power_law import PowerLaw, fit_power_law
 from roughcontact.theory.tools.domain import number
 from roughcontact.threads import one_blas_thread
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.labelled import dataset_of, plain_values, sizes, units_of, variable, word, words
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_of, variable, word, words
 
 if TYPE_CHECKING:
     import xarray
 
     from roughcontact.contact.compare import Comparison
-    from roughcontact.contact.conductance import Conductors
+    from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
 

@@ -8,19 +8,20 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.active_set import ActiveSet
 from roughcontact.contact.curve import SUGGESTED, SUGGESTED_ON_LINES, Curve, collect, length_scale
 from roughcontact.contact.press import control_of, grid_of, make_problem
-from roughcontact.contact.problem import Body, ContactProblem, Control, Force
+from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import lock, solve_state
-from roughcontact.contact.state import Solver, Tangent
 from roughcontact.contact.stiffness import FrozenContact, frozen_contact, yields_not
-from roughcontact.contact.window import Windows, embed, take
 from roughcontact.grid import AnyGrid
-from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.operator import Operator, geometry_of
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
+from roughcontact.solver.active_set import ActiveSet
+from roughcontact.solver.control import Control, Force
+from roughcontact.solver.state import Solver, Tangent
+from roughcontact.solver.subdomain import Windows, embed, take
 from roughcontact.theory.tools.domain import number
 from roughcontact.theory.tools.numeric import numeric
 

@@ -4,23 +4,16 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.contact.problem import (
-    Body,
-    ContactProblem,
-    Control,
-    Depth,
-    Force,
-    require_memory_for,
-    separation_of,
-)
+from roughcontact.contact.convergence import ConvergenceError
+from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import solve
-from roughcontact.contact.state import Solver
-from roughcontact.contact.status import ConvergenceError
 from roughcontact.grid import AnyGrid
-from roughcontact.halfspace.build import body_on
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operators.build import body_on
+from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid, as_modulus, number
+from roughcontact.solver.control import Control, Depth, Force
+from roughcontact.solver.state import Solver
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 

@@ -11,23 +11,19 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.measure import Measure
 from roughcontact.grid import AnyGrid
-from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.operator import Operator, exact_of, geometry_of, is_semidefinite
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.material import number
 from roughcontact.memory import require_memory
+from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
+from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 
 __all__ = [
     "Body",
     "ContactProblem",
-    "Control",
-    "Depth",
-    "Force",
-    "Terms",
-    "checked_tolerance",
     "require_memory_for",
     "separation_of",
 ]
@@ -38,57 +34,6 @@ T = TypeVar("T")
 
 Body = Surface | RadialProfile
 """What is pressed: heights on a grid."""
-
-
-@dataclass(frozen=True, slots=True)
-class Force:
-    """Press until the contact carries `value` [N] (per unit length on a line [N/m])."""
-
-    value: float
-
-    def __post_init__(self) -> None:
-        if not 0 < number("force", self.value) < math.inf:
-            raise ValueError(f"the force must be positive and finite [N], not {self.value}")
-
-
-@dataclass(frozen=True, slots=True)
-class Depth:
-    """Press until the bodies have approached by `value` [m] since first touch."""
-
-    value: float
-
-    def __post_init__(self) -> None:
-        if not 0 <= number("depth", self.value) < math.inf:
-            raise ValueError(
-                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
-            )
-
-
-Control = Force | Depth
-
-
-@dataclass(frozen=True, slots=True)
-class Terms:
-    """What is asked of a solver, whatever the bodies.
-
-    Parameters
-    ----------
-    control : Force or Depth
-        What is prescribed.
-    tolerance : float
-        Largest residual of a solution, see `roughcontact.contact.optimality`.
-    hardness : float
-        Pressure that no cell exceeds [Pa]; a cell that reaches it gives way instead.
-    """
-
-    control: Control
-    tolerance: float = 1e-8
-    hardness: float = math.inf
-
-    @property
-    def depth(self) -> float | None:
-        """The prescribed depth [m]; None under a prescribed force."""
-        return None if isinstance(self.control, Force) else self.control.value
 
 
 # A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
@@ -111,7 +56,7 @@ class ContactProblem:
     control : Force or Depth
         What is prescribed.
     tolerance : float
-        Largest residual of a solution, see `roughcontact.contact.optimality`.
+        Largest residual of a solution, see `roughcontact.solver.optimality`.
     surface : Surface or RadialProfile, optional
         Where the separation comes from.
     modulus : float
@@ -222,20 +167,6 @@ class ContactProblem:
             self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
         value: T = self._memo[name]
         return value
-
-
-def checked_tolerance(tolerance: Any) -> float:
-    """Return a tolerance that double precision can meet and that still says something.
-
-    Raises
-    ------
-    ValueError
-        If it is none.
-    """
-    value = number("tolerance", tolerance)
-    if not 1e-14 < value < 1e-2:
-        raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
-    return value
 
 
 def require_memory_for(surface: Body) -> None:

@@ -10,14 +10,9 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, namespace, on_host
 from roughcontact.cached import cached_property
-from roughcontact.contact.complementarity import weakly_active
-from roughcontact.contact.measure import Measure
 from roughcontact.contact.notes import notes_on
-from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
-from roughcontact.contact.optimality import UNITS
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
-from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import (
     CELLS,
     FrozenContact,
@@ -27,9 +22,14 @@ from roughcontact.contact.stiffness import (
     saturation,
     yields_not,
 )
-from roughcontact.contact.variables import unit_of
-from roughcontact.halfspace.geometry import Geometry
-from roughcontact.halfspace.operator import exact_of, is_positive
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import exact_of, is_positive
+from roughcontact.labels.variables import unit_of
+from roughcontact.solver.complementarity import weakly_active
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.open_cells import ACCURACY, ROUNDING, mean_opening
+from roughcontact.solver.optimality import UNITS
+from roughcontact.solver.status import Status
 from roughcontact.surface.surface import Surface
 from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread

@@ -6,13 +6,14 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.contact.active_set import ActiveSet
-from roughcontact.contact.cascade import coarse_guess
-from roughcontact.contact.problem import ContactProblem, Depth
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.state import Solver, State
-from roughcontact.contact.status import Status
-from roughcontact.contact.window import Place, Windows, embed
+from roughcontact.solver.active_set import ActiveSet
+from roughcontact.solver.control import Depth
+from roughcontact.solver.nested_iteration import coarse_guess
+from roughcontact.solver.state import Solver, State
+from roughcontact.solver.status import Status
+from roughcontact.solver.subdomain import Place, Windows, embed
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["lock", "solve", "solve_state"]

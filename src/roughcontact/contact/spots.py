@@ -11,9 +11,9 @@ import scipy.ndimage
 import scipy.sparse
 
 from roughcontact.arrays import namespace
-from roughcontact.contact.measure import Measure
-from roughcontact.contact.window import bounding_box
 from roughcontact.grid import AnyGrid
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.subdomain import bounding_box
 
 __all__ = ["Spots", "count_spots", "find_spots"]
 

@@ -9,15 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
-from roughcontact.contact.measure import Measure
-from roughcontact.contact.prescribed import prescribe
-from roughcontact.contact.problem import ContactProblem, checked_tolerance
-from roughcontact.contact.region import checked_region
-from roughcontact.contact.state import Tangent
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.grid import AnyGrid
-from roughcontact.halfspace.build import body_on
-from roughcontact.halfspace.operator import Operator, exact_of, is_semidefinite, self_influence
+from roughcontact.halfspace.operators.build import body_on
+from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
+from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.prescribed import prescribe
+from roughcontact.solver.region import checked_region
+from roughcontact.solver.state import Tangent
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [

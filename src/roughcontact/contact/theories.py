@@ -14,7 +14,7 @@ import numpy.typing as npt
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import Grid
-from roughcontact.halfspace.build import half_space
+from roughcontact.halfspace.operators.build import half_space
 from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum

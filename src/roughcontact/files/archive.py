@@ -6,8 +6,8 @@ import zipfile
 from collections.abc import Callable
 from io import BytesIO
 
-from roughcontact.files.errors import ReadError
-from roughcontact.files.memory import require_memory
+from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_memory import require_memory
 
 __all__ = ["unzip"]
 

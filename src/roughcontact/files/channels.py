@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 
 __all__ = ["Channel", "describe", "names_a_height", "names_something_else", "pick"]
 

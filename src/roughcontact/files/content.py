@@ -7,8 +7,8 @@ import stat
 from pathlib import Path
 from typing import BinaryIO
 
-from roughcontact.files.errors import ReadError
-from roughcontact.files.memory import needed, require_memory
+from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_memory import needed, require_memory
 
 __all__ = ["content"]
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from roughcontact.files.arrays import list_npz, read_npy, read_npz
 from roughcontact.files.channels import Channel, pick
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.foreign import list_foreign, read_foreign
 from roughcontact.files.heightmap import HeightMap, require_line, require_map
 from roughcontact.files.netcdf import list_netcdf, read_netcdf
-from roughcontact.files.profile import read_profile
+from roughcontact.files.numpy_files import list_npz, read_npy, read_npz
+from roughcontact.files.profile_text import read_profile
 from roughcontact.files.sur import read_sur
 from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 
 __all__ = ["Array", "HeightMap", "as_heights", "require_line", "require_map"]
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array
 
 __all__ = ["Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]

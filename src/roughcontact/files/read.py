@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
 from roughcontact.files.content import content
 from roughcontact.files.dispatch import either, height_map, line_scan
-from roughcontact.files.errors import SurfaceWarning
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.heightmap import HeightMap
-from roughcontact.files.units import length_factor
+from roughcontact.files.length_units import length_factor
 from roughcontact.surface.surface import Surface
 
 __all__ = ["read", "read_either", "read_line"]

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
-from roughcontact.contact.status import Status
 from roughcontact.files.content import content
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.netcdf import Variable, opened
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.solver.status import Status
 
 __all__ = ["read_curve"]
 

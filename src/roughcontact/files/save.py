@@ -13,13 +13,13 @@ import numpy.typing as npt
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.tangential.curve import SlipCurve
-from roughcontact.contact.tangential.solution import TangentialSolution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.vti import vti_bytes
 from roughcontact.files.write import write_csv, write_netcdf
 from roughcontact.files.write_text import text_of
 from roughcontact.files.write_x3p import x3p_bytes
+from roughcontact.friction.slip_curve import SlipCurve
+from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.surface.surface import Surface
 
 __all__ = ["require_surface_file", "write"]
@@ -127,9 +127,9 @@ def _npz(surface: Surface, aside: Path) -> None:
 def _netcdf(surface: Surface, aside: Path) -> None:
     import xarray
 
-    from roughcontact.contact.variables import VARIABLES
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_netcdf
+    from roughcontact.labels.variables import VARIABLES
 
     grid = surface.grid
     axes = ("y", "x")[-grid.ndim :]

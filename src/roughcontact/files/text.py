@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.length_units import parse_length
 from roughcontact.files.numbers import last_digit, parse_table, stated_rows
-from roughcontact.files.units import parse_length
 
 __all__ = ["read_text"]
 

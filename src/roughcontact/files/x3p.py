@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.archive import unzip
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.xmlnode import Node, local_name, parse_xml
 

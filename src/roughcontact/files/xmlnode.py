@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 
 __all__ = ["Node", "local_name", "parse_xml"]
 

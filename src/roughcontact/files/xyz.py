@@ -8,10 +8,10 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.errors import ReadError
+from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.numbers import parse_table
-from roughcontact.files.units import is_length, length_factor
 
 __all__ = ["read_xyz"]
 

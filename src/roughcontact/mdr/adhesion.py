@@ -20,9 +20,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus, number
+from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import sample_radii
 from roughcontact.mdr.indentation import Indentation
-from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.recovery import spring_energy
 from roughcontact.mdr.roots import bisect
 from roughcontact.theory.tools.numeric import numeric

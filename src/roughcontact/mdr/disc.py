@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.recovery import pressure, surface_displacement
 from roughcontact.mdr.roots import bisect
 

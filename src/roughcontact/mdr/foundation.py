@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.material import Solid, as_modulus
 
 __all__ = ["Foundation", "foundation"]

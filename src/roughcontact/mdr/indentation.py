@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
+from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import disc_radius
-from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
 from roughcontact.mdr.roots import last_below
 from roughcontact.theory.tools.domain import number

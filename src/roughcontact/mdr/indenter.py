@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.material import number
-from roughcontact.mdr.profile import Profile
-from roughcontact.mdr.tables import from_function, from_samples, from_two_functions
+from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
+from roughcontact.mdr.transform_tables import from_function, from_samples, from_two_functions
 from roughcontact.theory import rough_sphere
 from roughcontact.theory.tools.numeric import numeric
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.surface.waves import Spectrum, multiplicity, wave_powers
+from roughcontact.surface.wave_grid import Spectrum, multiplicity, wave_powers
 from roughcontact.theory.tools.domain import count as whole
 from roughcontact.theory.tools.domain import shown
 from roughcontact.theory.tools.numeric import numeric

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.mdr.profile import Profile
+from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.quadrature import double_exponential, gauss
 
 __all__ = ["pressure", "spring_energy", "surface_displacement"]

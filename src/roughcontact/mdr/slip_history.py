@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus, number
+from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
-from roughcontact.mdr.profile import Profile
 from roughcontact.mdr.roots import bisect
 from roughcontact.theory.tools.domain import count
 from roughcontact.theory.tools.domain import number as real

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import special
 
-from roughcontact.mdr.panels import Panels
+from roughcontact.mdr.chebyshev import Panels
 from roughcontact.theory.power_law_indenter import kappa
 
 __all__ = ["PowerTerm", "SphereTerm", "TableTerm", "ripple_transform"]

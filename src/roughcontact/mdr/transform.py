@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.mdr.panels import Function, Panels, fit, interpolate
+from roughcontact.mdr.chebyshev import Function, Panels, fit, interpolate
 from roughcontact.mdr.quadrature import gauss
 
 __all__ = ["abel", "height_of", "transform_of"]

@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.profile import Profile, checked_profile
 from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation

@@ -10,13 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.stiffness import CELLS
-from roughcontact.contact.variables import VARIABLES, unit_of
-from roughcontact.halfspace.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.engineering_units import Scale
 from roughcontact.plot.points import Column, draw_points
 from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.theories import draw_laws
+from roughcontact.plot.theory_lines import draw_laws
 from roughcontact.plot.ticks import readable_ticks
-from roughcontact.plot.units import Scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import pretty
 from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.units import pretty
 
 if TYPE_CHECKING:
     import xarray

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.marks import faint_spots
 from roughcontact.plot.raster import Window, colour_bar, extent, heights_image, length_scale, part, show
-from roughcontact.plot.units import scale, written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

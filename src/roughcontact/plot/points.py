@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.ticks import readable_ticks
-from roughcontact.plot.units import Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,7 +29,7 @@ class Column:
     values : array, shape (n,)
         In the SI unit `unit`.
     label, unit : str
-        As in `roughcontact.contact.variables`.
+        As in `roughcontact.labels.variables`.
     """
 
     values: Array

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
-from roughcontact.contact.variables import VARIABLES, unit_of
+from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.units import scale, written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.variables import VARIABLES
-from roughcontact.plot.units import Scale, scale
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

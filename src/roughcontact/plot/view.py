@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.variables import VARIABLES
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.raster import LABEL, TICK, length_scale
-from roughcontact.plot.units import scale
 
 if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]

@@ -52,14 +52,14 @@ if TYPE_CHECKING:
     from roughcontact.study.case import Parameters as Parameters
     from roughcontact.study.cases import find_case as find_case
     from roughcontact.study.common import on_common as on_common
-    from roughcontact.study.errors import StoreError as StoreError
-    from roughcontact.study.errors import StudyError as StudyError
     from roughcontact.study.executors.dask import Dask as Dask
     from roughcontact.study.executors.processes import Processes as Processes
     from roughcontact.study.executors.serial import Serial as Serial
     from roughcontact.study.executors.slurm import Slurm as Slurm
     from roughcontact.study.fit import fit_power_laws as fit_power_laws
     from roughcontact.study.fit import law_at as law_at
+    from roughcontact.study.fit_window import force_window as force_window
+    from roughcontact.study.fit_window import resolved_window as resolved_window
     from roughcontact.study.parameters import Area as Area
     from roughcontact.study.parameters import Energy as Energy
     from roughcontact.study.parameters import Force as Force
@@ -71,12 +71,12 @@ if TYPE_CHECKING:
     from roughcontact.study.row import Row as Row
     from roughcontact.study.store import Store as Store
     from roughcontact.study.study import Study as Study
+    from roughcontact.study.study_errors import StoreError as StoreError
+    from roughcontact.study.study_errors import StudyError as StudyError
     from roughcontact.study.summary import Summary as Summary
     from roughcontact.study.task import Executor as Executor
     from roughcontact.study.task import Outcome as Outcome
     from roughcontact.study.task import Task as Task
-    from roughcontact.study.window import force_window as force_window
-    from roughcontact.study.window import resolved_window as resolved_window
 
 
 def __getattr__(name: str) -> Any:

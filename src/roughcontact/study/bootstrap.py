@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtr, stdtrit
 
-from roughcontact.contact.ensemble_mean import Mean, mean_over_samples
+from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 
 __all__ = ["counts_of", "interval", "resampled_laws"]
 

@@ -11,12 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import ROUNDING
-from roughcontact.contact.ensemble_fit import fit_ensemble, law_error
-from roughcontact.contact.ensemble_mean import Mean, mean_over_samples
-from roughcontact.contact.status import Status
+from roughcontact.solver.status import Status
+from roughcontact.statistics.ensemble_fit import fit_ensemble, law_error
+from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.study.bootstrap import counts_of, interval, resampled_laws
+from roughcontact.study.fit_window import Window, window_of
 from roughcontact.study.statistics import dimensions
-from roughcontact.study.window import Window, window_of
 
 if TYPE_CHECKING:
     import xarray
@@ -77,7 +77,7 @@ def fit_power_laws(
         the samples and ``load`` (or, from `on_common`, ``dimensionless_force``); ``status`` of each point where there
         is one. All other dimensions tell ensembles apart.
     window : Window, optional
-        See `roughcontact.study.window`. Without, that of the thesis, for which loading curves bring along what it
+        See `roughcontact.study.fit_window`. Without, that of the thesis, for which loading curves bring along what it
         takes: mean stiffness above 20 cells and below 90 % of saturation, force up to 0.07. A law that is not quite a
         power law has another exponent in another window.
     rng : Generator

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from roughcontact.study.cases import find_case
-from roughcontact.study.errors import StoreError
 from roughcontact.study.key import canonical
 from roughcontact.study.study import Study
+from roughcontact.study.study_errors import StoreError
 
 __all__ = ["require_growth"]
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from roughcontact.study.errors import StudyError
 from roughcontact.study.parameters import Area, Energy, Force, Length, Pressure, Stiffness
+from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:
     from roughcontact.study.case import Parameters

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from roughcontact.study.errors import StoreError, disk_trouble
+from roughcontact.study.study_errors import StoreError, disk_trouble
 
 __all__ = ["locked"]
 

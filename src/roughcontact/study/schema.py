@@ -10,7 +10,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.study.errors import SAFE, StoreError, disk_trouble
+from roughcontact.study.study_errors import SAFE, StoreError, disk_trouble
 
 __all__ = ["DATABASE", "connected", "guarded", "made", "patiently"]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.ensemble_mean import mean_over_samples
+from roughcontact.statistics.ensemble_mean import mean_over_samples
 
 if TYPE_CHECKING:
     import xarray

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact import __version__
 from roughcontact.files.aside import WriteError
-from roughcontact.study.errors import StoreError, StudyError, computed_again, disk_trouble
-from roughcontact.study.fields import parted, read_fields, tidied, write_fields
+from roughcontact.study.field_files import parted, read_fields, tidied, write_fields
 from roughcontact.study.growth import require_growth
 from roughcontact.study.lock import locked
 from roughcontact.study.record import encode, residual_of
 from roughcontact.study.row import COLUMNS, Row, checksum
 from roughcontact.study.schema import DATABASE, connected, guarded, made, patiently
 from roughcontact.study.study import Study
+from roughcontact.study.study_errors import StoreError, StudyError, computed_again, disk_trouble
 from roughcontact.study.summary import Summary
 
 if TYPE_CHECKING:

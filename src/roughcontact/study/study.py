@@ -25,11 +25,11 @@ from pydantic import (
 from roughcontact.files.aside import written_aside
 from roughcontact.study.case import Parameters
 from roughcontact.study.cases import find_case
-from roughcontact.study.errors import StudyError
 from roughcontact.study.explain import explained, meant
 from roughcontact.study.given import case_name, entry, plain, study_name
 from roughcontact.study.key import canonical, key_of
 from roughcontact.study.ranges import Range
+from roughcontact.study.study_errors import StudyError
 from roughcontact.study.task import Task
 from roughcontact.study.toml import toml_of
 

@@ -12,7 +12,7 @@ import scipy.fft
 from roughcontact.grid import Grid
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.waves import Spectrum, Support, multiplicity, wave_powers, wavenumbers
+from roughcontact.surface.wave_grid import Spectrum, Support, multiplicity, wave_powers, wavenumbers
 from roughcontact.theory.tools.domain import number
 from roughcontact.theory.tools.numeric import numeric
 

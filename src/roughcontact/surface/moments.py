@@ -12,7 +12,7 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.waves import (
+from roughcontact.surface.wave_grid import (
     Spectrum,
     Support,
     multiplicity,

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
-from roughcontact.surface.waves import Support
+from roughcontact.surface.wave_grid import Support
 from roughcontact.theory.tools.domain import moderate
 from roughcontact.theory.tools.numeric import numeric, require_numbers
 

@@ -21,8 +21,8 @@ from scipy.special import erfc, ndtri_exp
 from roughcontact.theory.hertz.elliptic import elliptic as hertz
 from roughcontact.theory.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.nayak import bandwidth, free_variance
+from roughcontact.theory.profile_moments import ProfileMoments, moment
 from roughcontact.theory.summit_integrals import log_integrals
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import number, positive, require

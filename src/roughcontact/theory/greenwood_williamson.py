@@ -16,9 +16,9 @@ from scipy.special import gammaln
 
 from roughcontact.theory.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
+from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import number, positive, require, scalar, shown
 from roughcontact.theory.tools.numeric import numeric, require_numbers

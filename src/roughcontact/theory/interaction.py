@@ -23,8 +23,8 @@ import numpy.typing as npt
 from roughcontact.theory import greenwood_williamson
 from roughcontact.theory.interface import Interface
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments
 from roughcontact.theory.partial_moments import Distribution
+from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.tools.concave_root import concave_root
 from roughcontact.theory.tools.domain import positive, require
 from roughcontact.theory.tools.numeric import numeric

@@ -20,7 +20,7 @@ from roughcontact.theory import (
     rough_sphere,
 )
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.moments import ProfileMoments
+from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.waves import Spectrum, Waves
 
 __all__ = ["LAWS", "NamedLaw", "SurfaceFacts", "named"]

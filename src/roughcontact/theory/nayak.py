@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import log_ndtr
 
-from roughcontact.theory.moments import ProfileMoments, moment
+from roughcontact.theory.profile_moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import finite, require
 from roughcontact.theory.tools.numeric import numeric
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.theory.moments import ProfileMoments, moment
 from roughcontact.theory.nayak import summits
+from roughcontact.theory.profile_moments import ProfileMoments, moment
 from roughcontact.theory.tools.domain import positive
 from roughcontact.theory.tools.numeric import numeric
 

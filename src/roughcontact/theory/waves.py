@@ -10,9 +10,9 @@ from typing import TypeAlias, cast
 import numpy as np
 import scipy.fft
 
-from roughcontact.theory.spectra import MeasuredSpectrum, RadialSpectrum
+from roughcontact.theory.spectrum_protocol import MeasuredSpectrum, RadialSpectrum
 from roughcontact.theory.tools.domain import Array, number, pair, shown
-from roughcontact.theory.tools.panels import gauss, graded, running
+from roughcontact.theory.tools.graded_quadrature import gauss, graded, running
 
 __all__ = ["Spectrum", "Waves"]
 

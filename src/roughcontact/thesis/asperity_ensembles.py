@@ -13,8 +13,8 @@ import numpy as np
 from roughcontact.grid import Grid
 from roughcontact.study import statistics
 from roughcontact.study.fit import fit_power_laws
+from roughcontact.study.fit_window import force_window
 from roughcontact.study.study import Study
-from roughcontact.study.window import force_window
 from roughcontact.surface.moments import grid_moments
 from roughcontact.surface.spectrum import SelfAffineSpectrum
 from roughcontact.theory import greenwood_williamson
@@ -42,7 +42,7 @@ def asperity_study(scale: Scale) -> Study:
     """Return the study: 25 surfaces of each of seven fractal dimensions."""
     return Study(
         name={"small": "asperities-small", "thesis": "asperities"}[scale],
-        case="roughcontact.study.cases.asperities:CASE",
+        case="roughcontact.study.cases.asperities_case:CASE",
         samples={"small": 8, "thesis": 25}[scale],
         parameters={
             "points": POINTS[scale],

@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.solver.status import Status
 from roughcontact.study.common import on_common
 from roughcontact.study.fit import fit_power_laws
+from roughcontact.study.fit_window import Window, window_of
 from roughcontact.study.ranges import Range
 from roughcontact.study.statistics import count, mean, scatter, standard_error
 from roughcontact.study.study import Study
-from roughcontact.study.window import Window, window_of
 from roughcontact.thesis.line_ensembles import line_averages, line_fits
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.ensemble_mean import Mean
+    from roughcontact.statistics.ensemble_mean import Mean
     from roughcontact.thesis.figures import Scale
 
 __all__ = [

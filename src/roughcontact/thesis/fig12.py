@@ -11,10 +11,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from roughcontact.contact.prescribed import prescribed_displacement
 from roughcontact.grid import Grid
-from roughcontact.halfspace.build import half_space
+from roughcontact.halfspace.operators.build import half_space
 from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.solver.prescribed import prescribed_displacement
 from roughcontact.surface import shapes
 from roughcontact.theory import punch
 from roughcontact.thesis.verdict import Verdict

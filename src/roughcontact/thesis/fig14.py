@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from roughcontact.grid import Grid
 from roughcontact.plot.raster import TICK
-from roughcontact.plot.spectrum import SpectrumScales, spectrum_axes
+from roughcontact.plot.spectrum_plot import SpectrumScales, spectrum_axes
 from roughcontact.surface.analysis.hurst import HurstFit, fit_spectrum
 from roughcontact.surface.analysis.merge import merge_spectra
 from roughcontact.surface.analysis.power import PowerSpectrum

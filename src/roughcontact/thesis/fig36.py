@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.mdr import indenter
+from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.profile import Profile
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.theory import pohrt_popov, rough_sphere
 from roughcontact.thesis.verdict import Verdict

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.line import line
+from roughcontact.halfspace.operators.line_contact import line
 from roughcontact.thesis.matrix_view import matrix_view
 from roughcontact.thesis.verdict import Verdict
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.ensemble_mean import Mean
+from roughcontact.statistics.ensemble_mean import Mean
 from roughcontact.study import statistics
 from roughcontact.study.fit import fit_power_laws
+from roughcontact.study.fit_window import Window, resolved_window
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.study.window import Window, resolved_window
 from roughcontact.theory import gaussian_heights
 
 if TYPE_CHECKING:

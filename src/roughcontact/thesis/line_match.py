@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.ensemble_mean import mean_over_samples
-from roughcontact.contact.status import Status
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.mdr.calibration import force_ratio
+from roughcontact.solver.status import Status
+from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.study.bootstrap import counts_of
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from roughcontact.contact.press import press
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import RadialGrid
-from roughcontact.halfspace.operator import Operator
+from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.theory.stepped import SteppedIndenter
 

@@ -8,7 +8,7 @@ import roughcontact as rc
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.study.cases import find_case
-from roughcontact.study.cases.lines import CASE, LineParameters
+from roughcontact.study.cases.lines_case import CASE, LineParameters
 from roughcontact.study.record import decode, encode
 
 

@@ -6,9 +6,9 @@ from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
-from roughcontact.study.cases.curve import CASE as CURVE
-from roughcontact.study.cases.curve import CurveParameters
-from roughcontact.study.cases.refined import CASE, RefinedParameters
+from roughcontact.study.cases.curve_case import CASE as CURVE
+from roughcontact.study.cases.curve_case import CurveParameters
+from roughcontact.study.cases.refined_case import CASE, RefinedParameters
 
 GIVEN = {
     "points": 16,

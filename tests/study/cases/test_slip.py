@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
-from roughcontact.study.cases.slip import CASE, SlipParameters
+from roughcontact.study.cases.slip_case import CASE, SlipParameters
 from roughcontact.study.record import decode, encode, require_record
 
 ROUGH = {"points": 32, "size": 2e-3, "modulus": 1e11, "hurst": 0.7, "rms": 1e-6, "loads": 3, "pulls": 4}

@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
-from roughcontact.study.cases.yielding import CASE, YieldingParameters
+from roughcontact.study.cases.yielding_case import CASE, YieldingParameters
 from roughcontact.study.record import decode, encode, require_record
 
 GIVEN = {"points": 32, "size": 2e-3, "modulus": 1e11, "hurst": 0.7, "rms": 1e-6, "loads": 4}

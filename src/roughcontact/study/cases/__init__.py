@@ -9,17 +9,25 @@ from types import MappingProxyType, ModuleType
 from typing import TYPE_CHECKING
 
 from roughcontact.study.case import Case
-from roughcontact.study.errors import StudyError
 from roughcontact.study.explain import meant
+from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:  # bundlers of programs read this
-    from roughcontact.study.cases import asperities, cells, curve, lines, refined, slip, yielding  # noqa: F401
+    from roughcontact.study.cases import (
+        asperities_case,  # noqa: F401
+        cells_case,  # noqa: F401
+        curve_case,  # noqa: F401
+        lines_case,  # noqa: F401
+        refined_case,  # noqa: F401
+        slip_case,  # noqa: F401
+        yielding_case,  # noqa: F401
+    )
 
 __all__ = ["CASES", "find_case"]
 
 # A case is opened when it is first asked for.
 _NAMES = ("asperities", "cells", "curve", "lines", "refined", "slip", "yielding")
-CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}:CASE" for name in _NAMES})
+CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "a case of your own is named as module:attribute"
 
 

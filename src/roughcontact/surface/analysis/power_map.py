@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.surface.analysis.prepare import Level, power_left, tapered, tapers
+from roughcontact.surface.analysis.preprocess import Level, power_left, tapered, tapers
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 

@@ -11,7 +11,7 @@ import scipy.fft
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
-from roughcontact.surface.analysis.prepare import Level, tapered, tapers
+from roughcontact.surface.analysis.preprocess import Level, tapered, tapers
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 from roughcontact.theory.tools.numeric import numeric

@@ -1,0 +1,153 @@
+"""The verb ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli import options
+from roughcontact.cli.messages import UsageError, plain, reported
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.report import dataset_table, emit, note_files, print_table
+from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY, parse_pair
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.contact.conduction import Conductors
+
+__all__ = ["COLUMNS", "EXAMPLES", "ConductivityOption", "Materials", "ResistivityOption", "conductance"]
+
+EXAMPLES = """Examples:
+
+roughcontact curve part.x3p --modulus 110GPa --out result
+
+roughcontact conductance result/curve.nc --resistivity 17nohm*m
+
+roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
+"""
+
+COLUMNS = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
+_BODIES = "The two bodies"
+
+ResistivityOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="17nohm*m[,...]",
+        help="Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
+        rich_help_panel=_BODIES,
+    ),
+]
+ConductivityOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="400W/m/K[,...]",
+        help="Thermal conductivity of both bodies, likewise.",
+        rich_help_panel=_BODIES,
+    ),
+]
+
+
+class Share(StrEnum):
+    """Which resistance: that of the whole contact, or of the interface alone."""
+
+    WHOLE = "whole"
+    INTERFACE = "interface"
+
+
+@dataclass(frozen=True, slots=True)
+class Materials:
+    """The conducting bodies, as the user gave them."""
+
+    resistivity: str | None
+    conductivity: str | None
+
+    def conductors(self) -> Conductors | None:
+        """Return the bodies; None where nothing was said."""
+        from roughcontact.contact.conduction import Conductors
+
+        if self.resistivity is None and self.conductivity is None:
+            return None
+        pairs = [
+            None if text is None else parse_pair(text, kind, option)
+            for text, kind, option in (
+                (self.resistivity, RESISTIVITY, "--resistivity"),
+                (self.conductivity, CONDUCTIVITY, "--conductivity"),
+            )
+        ]
+        return Conductors(*pairs)
+
+
+def conductance(
+    file: Annotated[
+        Path, typer.Argument(metavar="CURVE", help="curve.nc that the verb curve wrote, or its folder.")
+    ],
+    *,
+    resistivity: ResistivityOption = None,
+    conductivity: ConductivityOption = None,
+    of: Annotated[
+        Share,
+        typer.Option(
+            help="Resistance of the whole contact, the constriction towards it included, or of the interface alone."
+        ),
+    ] = Share.WHOLE,
+    out: options.OutOption = None,
+    json: options.JsonOption = False,
+) -> None:
+    """Tell what a contact conducts: electrical and thermal resistance against force."""
+    from roughcontact.contact.dataset import with_conductance
+
+    with reported(file, out):
+        conductors = Materials(resistivity, conductivity).conductors()
+        if conductors is None:
+            raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")
+        path = file / "curve.nc" if file.is_dir() else file
+        with output(out) as folder:
+            curve = _read(path)
+            stiffness = "stiffness" if of is Share.WHOLE else "interfacial_stiffness"
+            answer = with_conductance(curve, conductors, stiffness)
+            names = ["force", *(name for name in COLUMNS if name in answer)]
+            if folder is not None:
+                _write(answer, names, folder)
+        if json:
+            emit(_record(answer, names, path))
+        else:
+            print_table(*dataset_table(answer, names))
+        note_files(folder, ("conductance.csv", "conductance.nc", "conductance.png"))
+
+
+def _read(path: Path) -> xarray.Dataset:
+    """Return the dataset of a curve from its file."""
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+            return dataset.load()
+    except FileNotFoundError as error:
+        raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
+    except (OSError, ValueError) as error:
+        raise UsageError(f"{path} is not a curve.nc that the verb curve wrote: {error}") from error
+
+
+def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:
+    from roughcontact.labels.labelled import plain_values
+
+    columns = {name: plain_values(answer[name].to_numpy()) for name in names}
+    units = {name: answer[name].attrs["units"] for name in names}
+    return {"verb": "conductance", "file": plain(str(path)), **columns, "units": units}
+
+
+def _write(answer: xarray.Dataset, names: list[str], folder: Path) -> None:
+    from roughcontact.files.write import write_csv, write_netcdf
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.resistance import resistance_figure
+
+    source: dict[str, str | float] = {"conductance_command": command_line()}
+    with all_or_none(folder) as aside:
+        write_netcdf(answer, aside / "conductance.nc", source)
+        write_csv(answer, aside / "conductance.csv", source)
+        save(resistance_figure(answer), aside / "conductance.png")

@@ -1,0 +1,140 @@
+"""What the user did becomes one line; what we did wrong shows itself with its traceback."""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from opcode import opmap
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.files.file_errors import ReadError, SurfaceWarning
+
+__all__ = ["UsageError", "as_typed", "note", "plain", "reported"]
+
+# The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
+_OPTIONS = (
+    (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
+    (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
+    (re.compile(r"\b(channel|unit|size)="), r"--\1"),
+)
+_RAISE = opmap["RAISE_VARARGS"]
+_PACKAGE = "roughcontact"
+
+
+class UsageError(ValueError):
+    """An option that makes no sense; the message says what to write instead."""
+
+
+def note(text: str) -> None:
+    """Print one line on standard error."""
+    typer.echo(f"Note: {_line(text)}", err=True)
+
+
+@contextmanager
+def reported(*paths: Path | None) -> Iterator[None]:
+    """Turn errors of ours into one line and an exit status, and our warnings into notes.
+
+    The lines name the `paths` of the command line as they were typed.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", SurfaceWarning)
+            warnings.showwarning = _showwarning(warnings.showwarning)
+            yield
+    except KeyboardInterrupt:
+        typer.echo("Interrupted: no file was left half-written.", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    except SystemExit as end:
+        if end.code == TERMINATED:
+            typer.echo("Terminated: no file was left half-written.", err=True)
+        raise
+    except MemoryError:
+        typer.echo("Error: the memory does not suffice: use fewer points, or another machine", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+    except (ValueError, OSError) as error:
+        if not _is_ours(error):
+            raise
+        message = _message(error)
+        for path in paths:
+            message = message if path is None else message.replace(os.path.realpath(path), str(path))
+        typer.echo(f"Error: {_line(message)}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+
+
+@contextmanager
+def as_typed(file: Path) -> Iterator[None]:
+    """Name a file that cannot be read by its path as the user typed it, not by its bare name.
+
+    What foreign readers print goes to standard error, what they log or warn of nowhere: this process is ours.
+    """
+    threshold = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(sys.stderr):
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", SurfaceWarning)
+            yield
+    except ReadError as error:
+        raise ReadError(plain(str(file)), error.problem, error.remedy) from error
+    finally:
+        logging.disable(threshold)
+
+
+def plain(text: str) -> str:
+    """Return `text` with a question mark for every byte of a file name that is no letter."""
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def _is_ours(error: ValueError | OSError) -> bool:
+    """Return whether `error` speaks to the user: a file's trouble, or an error that our own code raises.
+
+    A ValueError of NumPy or another library, raised inside a call of ours, is a mistake of ours and no
+    bad input. One that comes out of compiled code has our line as its last frame, too, so what counts is
+    whether that line is a ``raise``.
+    """
+    if isinstance(error, BrokenPipeError):
+        return False  # whoever read our output has gone; typer knows how to leave quietly
+    if isinstance(error, OSError) and error.filename is not None:
+        return True
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    if last is None:
+        return False
+    # By its name and not its file, which bundles of programs do not have.
+    ours = str(last.tb_frame.f_globals.get("__name__")).partition(".")[0] == _PACKAGE
+    return ours and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE
+
+
+def _message(error: ValueError | OSError) -> str:
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{os.fsdecode(error.filename)}: {error.strerror or error}"
+    return str(error)
+
+
+def _line(text: str) -> str:
+    """Return `text` in one line, with the library's keywords turned into the options of the same name."""
+    for keyword, option in _OPTIONS:
+        text = keyword.sub(option, text)
+    return " ".join(text.split())
+
+
+def _showwarning(original: Any) -> Any:
+    """Return a way to show warnings that turns ours into notes and leaves the others."""
+
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **named: Any) -> None:
+        if issubclass(category, SurfaceWarning):
+            note(str(message))
+        else:
+            original(message, category, *rest, **named)
+
+    return show

@@ -1,0 +1,259 @@
+"""The verb ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli import options
+from roughcontact.cli.messages import UsageError, note, plain, reported
+from roughcontact.cli.output import output
+from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.run_memory import require_memory
+from roughcontact.cli.spectrum_files import write_spectrum
+from roughcontact.cli.unit_options import LENGTH, parse
+from roughcontact.plot.engineering_units import written
+
+if TYPE_CHECKING:
+    from roughcontact.surface.analysis.hurst import HurstFit
+    from roughcontact.surface.analysis.power import PowerSpectrum
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["EXAMPLES", "spectrum"]
+
+EXAMPLES = """Examples:
+
+roughcontact surface spectrum part.x3p --out result
+
+roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
+
+roughcontact surface spectrum scan.csv --out result
+"""
+_FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
+_COARSE = 20.0  # of the table and the moments
+_BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
+_UNITS = {
+    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", "rolloff", "cutoff", "short_end"), "m"),
+    **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
+    **dict.fromkeys(
+        ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
+    ),
+}
+
+
+class Limit(StrEnum):
+    """How the law may end toward long waves."""
+
+    AUTO = "auto"
+    NONE = "none"
+    ROLLOFF = "rolloff"
+    CUTOFF = "cutoff"
+
+
+class Direction(StrEnum):
+    """Which spectrum: of the surface, or of its profiles."""
+
+    AUTO = "auto"
+    RING = "ring"
+    X = "x"
+    Y = "y"
+
+
+_SPECTRUM = "Spectrum"
+DirectionOption = Annotated[
+    Direction,
+    typer.Option(
+        help="Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+        "auto: ring of a map, x of a line scan.",
+        rich_help_panel=_SPECTRUM,
+    ),
+]
+LimitOption = Annotated[
+    Limit, typer.Option(help="How the power law may end toward long waves.", rich_help_panel=_SPECTRUM)
+]
+LongestOption = Annotated[
+    str | None,
+    typer.Option(metavar="100um", help="Longest wave that counts (default: a third of a free map's length).",
+                 rich_help_panel=_SPECTRUM),
+]  # fmt: skip
+ShortestOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="1um", help="Shortest wave that the instrument follows (default: two cells).",
+        rich_help_panel=_SPECTRUM,
+    ),
+]  # fmt: skip
+FillOption = Annotated[
+    bool, typer.Option("--fill", help="Fill missing points smoothly first.", rich_help_panel=_SPECTRUM)
+]
+
+
+def spectrum(
+    file: options.AnyFileArgument,
+    *,
+    direction: DirectionOption = Direction.AUTO,
+    limit: LimitOption = Limit.AUTO,
+    longest: LongestOption = None,
+    shortest: ShortestOption = None,
+    fill: FillOption = False,
+    channel: options.ChannelOption = None,
+    unit: options.UnitOption = None,
+    size: options.SizeOption = None,
+    periodic: options.PeriodicOption = None,
+    level: options.LevelOption = None,
+    out: options.OutOption = None,
+    json: options.JsonOption = False,
+) -> None:
+    """Power spectrum of a surface or line scan: Hurst exponent with its error, roll-off or cut-off, rms, moments.
+
+    Of a line scan it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    """
+    with reported(file, out):
+        waves = _waves(longest, shortest)
+        with output(out) as folder:
+            surface = _surface(options.Reading(file, channel, unit, size, level, periodic), fill)
+            found, law = _analysed(surface, direction, limit, waves, level)
+            record = _record(surface, found, law, file)
+            if folder is not None:
+                isotropic = _isotropic(surface, found, law)
+                write_spectrum((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
+        if json:
+            emit(record)
+        else:
+            print_facts(_facts(surface, record))
+        note_files(folder, ("spectrum.csv", "spectrum.png"))
+
+
+def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
+    """Return the band that was asked for as wavenumbers [rad/m]."""
+    band = {}
+    for name, text, option in (("q_min", longest, "--longest"), ("q_max", shortest, "--shortest")):
+        if text is not None:
+            wavelength = parse(text, LENGTH, option)
+            if not wavelength > 0:
+                raise UsageError(f"{option}: a wavelength must be positive, not {text!r}")
+            band[name] = 2 * math.pi / wavelength
+    if len(band) == 2 and not band["q_min"] < band["q_max"]:
+        raise UsageError(f"--longest {longest} must be longer than --shortest {shortest}")
+    return band
+
+
+def _surface(reading: options.Reading, fill: bool) -> Surface:
+    """Return the surface without missing points; its tilt goes when the spectrum is taken."""
+    surface = reading.map_or_line()
+    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
+    if surface.missing and not fill:
+        raise UsageError(
+            f"{reading.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
+            "or crop them away by 'roughcontact surface prepare'"
+        )
+    if surface.missing:
+        note(f"{surface.missing} missing points are filled smoothly: the shortest waves are too weak there")
+        surface = surface.filled()
+    return surface
+
+
+def _analysed(
+    surface: Surface, direction: Direction, limit: Limit, band: dict[str, float], level: options.Level | None
+) -> tuple[PowerSpectrum, HurstFit]:
+    """Return the spectrum in fine bins, its band set, and the law that fits it."""
+    from dataclasses import replace
+
+    import roughcontact as rc
+
+    taken: Any = "auto" if level is None else level.value
+    if level is None and not all(surface.grid.periodic):
+        trend = "plane" if surface.grid.ndim == 2 else "slope"
+        note(f"the heights are levelled by their {trend} (--level mean or none for another choice)")
+    whole = rc.power_spectrum(surface, direction.value, level=taken, per_decade=_FINE)
+    whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
+    return whole, rc.fit_spectrum(whole, limit=limit.value)
+
+
+def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
+    from dataclasses import replace
+
+    import roughcontact as rc
+
+    moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), spectrum.q_min, spectrum.q_max)
+    values = {
+        "hurst": law.hurst,
+        "standard_error": law.standard_error,
+        "misfit": law.misfit,
+        "longest": 2 * math.pi / spectrum.q_min,
+        "shortest": 2 * math.pi / spectrum.q_max,
+        "rolloff": law.rolloff_wavelength,
+        "cutoff": law.cutoff_wavelength,
+        "short_end": law.short_wavelength,
+        "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
+        "rms_in_band": moments.rms_height,
+        "rms_slope": moments.rms_slope,
+        "rms_curvature": moments.rms_curvature,
+        "m0": moments.m0,
+        "m2": moments.m2,
+        "m4": moments.m4,
+        "nayak": moments.nayak,
+    }
+    if surface.grid.ndim == 1:
+        values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
+    return {
+        "verb": "surface spectrum",
+        "file": plain(str(file)),
+        "kind": spectrum.kind,
+        # JSON has no word for what is infinite or unknown.
+        **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
+        "provenance": list(surface.provenance),
+        "units": {name: unit for name, unit in _UNITS.items() if name in values},
+    }
+
+
+def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    ends = [
+        (name.replace("_", " "), quantity("lengths", record[key]))
+        for name, key in (("roll-off", "rolloff"), ("cut-off", "cutoff"), ("short end", "short_end"))
+        if record[key] is not None
+    ]
+    band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"
+    nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
+    return [
+        ("file", record["file"]),
+        ("surface" if surface.grid.ndim == 2 else "line scan", size_of(surface.grid)),
+        ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
+        ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
+        ("waves", band),
+        *(ends or [("limits", "none found: the law holds over the whole band")]),
+        (
+            "rms height",
+            f"{quantity('rms', record['rms'])}; {quantity('rms', record['rms_in_band'])} in the band",
+        ),
+        ("rms slope in the band", f"{record['rms_slope']:.4g}"),
+        ("rms curvature in the band", written(record["rms_curvature"] * 1e-3, "", 4) + " 1/mm"),
+        (
+            "moments of the band",
+            f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
+        ),
+        ("Nayak's parameter", nayak),
+        *(
+            [("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band")]
+            if surface.grid.ndim == 1
+            else []
+        ),
+    ]
+
+
+def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
+    """Return C2D of the isotropic surface that has the profile of a line scan, where there is one."""
+    import roughcontact as rc
+
+    if surface.grid.ndim == 2:
+        return None
+    try:
+        return rc.surface_spectrum(spectrum.rebinned(_COARSE), hurst=law.hurst)
+    except ValueError as error:
+        note(f"no C2D: {error}")
+        return None

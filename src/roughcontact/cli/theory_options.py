@@ -1,0 +1,120 @@
+"""The options that lay theories over a computed curve."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughcontact.cli.messages import UsageError
+from roughcontact.cli.unit_options import LENGTH, parse, parse_number
+
+if TYPE_CHECKING:
+    from roughcontact.contact.compare import Comparison
+    from roughcontact.surface.surface import Surface
+    from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["HurstOption", "RadiusOption", "RolloffOption", "Theories", "TheoryOption", "deviations"]
+
+_PANEL = "Theories"
+
+TheoryOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="persson,gw,...",
+        help="Theories to lay over the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
+        "rough-sphere. They take spectrum and moments from the surface.",
+        rich_help_panel=_PANEL,
+    ),
+]
+HurstOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="0.8", help="Hurst exponent, for theories (default: fitted).", rich_help_panel=_PANEL
+    ),
+]
+RolloffOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="20um", help="Length of the longest waves, for finite-size.", rich_help_panel=_PANEL
+    ),
+]
+RadiusOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="5mm", help="Radius of curvature, for hertz and rough-sphere.", rich_help_panel=_PANEL
+    ),
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Theories:
+    """What to lay over a curve, as the user gave it."""
+
+    names: str | None
+    hurst: str | None
+    rolloff: str | None
+    radius: str | None
+
+    def check(self) -> None:
+        """Raise a `UsageError` for what makes no sense, before anything is computed."""
+        self.checked()
+        self.knowns()
+
+    def checked(self) -> tuple[str, ...]:
+        """Return the names of the theories.
+
+        Raises
+        ------
+        UsageError
+            If one is none, or named twice, or something is said about theories and none is named.
+        """
+        from roughcontact.theory.laws import LAWS
+
+        if self.names is None:
+            said = {"--hurst": self.hurst, "--rolloff": self.rolloff, "--radius": self.radius}
+            for option, value in said.items():
+                if value is not None:
+                    raise UsageError(f"{option} is for theories: name them, such as --theory persson,gw")
+            return ()
+        names = tuple(part.strip() for part in self.names.split(",") if part.strip())
+        for name in names:
+            if name not in LAWS:
+                raise UsageError(f"--theory: there is no {name!r}; there are {', '.join(LAWS)}")
+        if not names or len(set(names)) < len(names):
+            raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.names!r}")
+        return names
+
+    def knowns(self) -> dict[str, Any]:
+        """Return what the user knows better than the surface."""
+        known: dict[str, Any] = {}
+        if self.hurst is not None:
+            known["hurst"] = parse_number(self.hurst, "--hurst", "0.8")
+        if self.rolloff is not None:
+            known["rolloff"] = parse(self.rolloff, LENGTH, "--rolloff")
+        if self.radius is not None:
+            known["radius"] = parse(self.radius, LENGTH, "--radius")
+        return known
+
+    def laws(self, surface: Surface, modulus: float) -> dict[str, LoadingLaw]:
+        """Return the theories of a surface by the names they were asked for."""
+        import roughcontact as rc
+        from roughcontact.theory.laws import LAWS
+
+        names = self.checked()
+        if not names:
+            return {}
+        for name in names:
+            if "radius" in LAWS[name].needs and self.radius is None:
+                raise UsageError(
+                    f"--theory {name}: give the radius of curvature by --radius, such as --radius 5mm"
+                )
+        return dict(zip(names, rc.loading_laws(surface, modulus, names, **self.knowns()), strict=True))
+
+
+def deviations(comparisons: Mapping[str, Comparison]) -> list[tuple[str, str]]:
+    """Return one line for each theory: by what factor it lies off where the curve is resolved."""
+    lines = [(comparison.name, comparison.words()) for comparison in comparisons.values()]
+    return [("theories", "root mean square of ln(predicted/computed) over the resolved loads"), *lines]

@@ -1,0 +1,155 @@
+"""The verb ``thesis``: a figure of the thesis, computed."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, cast
+
+import typer
+
+from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.report import print_facts, screen
+from roughcontact.cli.resumable import resumable
+from roughcontact.cli.unit_options import parse_seed
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.study.study import Study
+    from roughcontact.thesis.figures import EnsembleFigure, FigureModule, Scale, SimpleFigure
+
+__all__ = ["EXAMPLES", "thesis"]
+
+EXAMPLES = """Examples:
+
+roughcontact thesis list
+
+roughcontact thesis fig6 --out figures --seed 2
+
+roughcontact thesis fig27 --out figures --workers 2
+
+roughcontact thesis all --scale thesis --out figures
+"""
+
+_SCALES = ("small", "thesis")
+
+NameArgument = Annotated[str, typer.Argument(metavar="NAME", help="A figure, such as fig6; all; or list.")]
+FolderOption = Annotated[
+    Path,
+    typer.Option(metavar="DIR", help="Folder for pictures, averages and stores (default: this one)."),
+]
+ScaleOption = Annotated[
+    str,
+    typer.Option(metavar="SCALE", help="Ensembles: small, or with the thesis' own counts: thesis."),
+]
+SeedOption = Annotated[
+    str | None, typer.Option(metavar="1", help="Seed of the random numbers (default: the figure's own).")
+]
+WorkersOption = Annotated[
+    int | None,
+    typer.Option(metavar="N", min=1, help="Processes for an ensemble (default: one a core)."),
+]
+AsIsOption = Annotated[
+    bool, typer.Option("--as-is", help="Compute nothing: average what the stores hold so far.")
+]
+
+
+def thesis(
+    name: NameArgument,
+    *,
+    out: FolderOption = Path(),
+    scale: ScaleOption = "small",
+    seed: SeedOption = None,
+    workers: WorkersOption = None,
+    as_is: AsIsOption = False,
+) -> None:
+    """Compute a figure of the thesis, and say what the thesis leaves open and whether it holds.
+
+    A figure of an ensemble keeps its cases in DIR/studies: stopped at any time, the same command goes on from there.
+    """
+    with reported(out):
+        from roughcontact.thesis.figures import FIGURES, module
+
+        if name == "list":
+            print_facts([(each, module(each).TITLE) for each in FIGURES])
+            return
+        if name != "all" and name not in FIGURES:
+            raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
+        if scale not in _SCALES:
+            raise UsageError(f"--scale: {scale!r} is no scale; write {' or '.join(_SCALES)}")
+        chosen = None if seed is None else parse_seed(seed, "--seed")
+        with output(out):
+            for each in FIGURES if name == "all" else (name,):
+                _compute(each, out, cast("Scale", scale), chosen, None if as_is else workers or 0)
+
+
+def _compute(name: str, folder: Path, scale: Scale, seed: int | None, workers: int | None) -> None:
+    """Compute and draw a figure, and print what is to be said about it; `workers` is 0 for one a core."""
+    from roughcontact.thesis.figures import is_ensemble, module, verdicts
+
+    found = module(name)
+    if is_ensemble(found):
+        data, more = _ensemble(name, found, folder, (scale, seed, workers))
+    else:
+        simple = cast("SimpleFigure", found)
+        first = simple.SEED if seed is None else seed
+        with screen().status(f"Computing {name} ..."):
+            data = simple.case(first)
+        more = [("seed", str(first))]
+    _draw(name, found, data, folder)
+    facts = [("file", str(folder / f"{name}.png")), ("figure", found.TITLE)]
+    facts += [("chosen", line) for line in found.CHOSEN] + more
+    for verdict in verdicts(found, data):
+        facts.append((verdict.word, f"{verdict.claim}: thesis {verdict.thesis}, here {verdict.found}"))
+    print_facts(facts)
+
+
+def _draw(name: str, found: FigureModule, data: Any, folder: Path) -> None:
+    from roughcontact.plot.canvas import save
+    from roughcontact.thesis.figures import drawn
+
+    with screen().status(f"Drawing {name} ..."), all_or_none(folder) as aside:
+        save(drawn(found, data), aside / f"{name}.png")
+
+
+def _ensemble(
+    name: str, found: EnsembleFigure, folder: Path, options: tuple[Scale, int | None, int | None]
+) -> tuple[xarray.Dataset, list[tuple[str, str]]]:
+    """Run the studies of a figure, write their averages beside its picture, and return them."""
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_netcdf
+    from roughcontact.thesis.reproduce import averages_of, planned
+
+    scale, seed, workers = options
+    studies = planned(found, scale, seed)
+    if workers is not None:
+        _run(name, studies, folder, workers)
+    data = averages_of(found, studies, folder)
+    write_netcdf(data, folder / f"{name}.nc", provenance(command=command_line()))
+    lines = [("averages", str(folder / f"{name}.nc"))]
+    counts = zip(studies, data.attrs["cases_done"], data.attrs["cases_missing"], strict=True)
+    lines += [
+        ("study", f"{each.name}: {done} of {done + missing} cases, seed {each.seed}")
+        for each, done, missing in counts
+    ]
+    return data, lines
+
+
+def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> None:
+    """Run studies and show how far they are."""
+    from roughcontact.cli.study_progress import progress
+    from roughcontact.study import Processes, Serial
+    from roughcontact.thesis.reproduce import run_study, store_of
+
+    executor = Serial() if workers == 1 else Processes(workers or None)
+    for study in studies:
+        with resumable(command_line()), progress(f"{name}, {study.name}") as show:
+            summary = run_study(study, folder, executor, show)
+        if summary.failed:
+            cases = f"{summary.failed} case{'s' if summary.failed > 1 else ''}"
+            command = shlex.join(
+                ["roughcontact", "study", "status", str(store_of(folder, study)), "--failed"]
+            )
+            note(f"{cases} of {study.name} failed; why says: {command}")

@@ -1,0 +1,195 @@
+"""Options of the command line with units to plain SI numbers: "10 N", "110GPa", "1e-6 m", "1mN:1N:100"."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.cli.messages import UsageError
+from roughcontact.files import quantity
+from roughcontact.files.quantity import CONDUCTIVITY, FORCE, LENGTH, PRESSURE, RESISTIVITY, Kind
+
+__all__ = [
+    "CONDUCTIVITY",
+    "FORCE",
+    "LENGTH",
+    "PRESSURE",
+    "RESISTIVITY",
+    "Kind",
+    "parse",
+    "parse_load",
+    "parse_loads",
+    "parse_number",
+    "parse_pair",
+    "parse_points",
+    "parse_seed",
+    "parse_size",
+    "parse_tolerance",
+]
+
+_MOST_LOADS = 100_000
+
+
+def parse(text: str, kind: Kind, option: str) -> float:
+    """Return the quantity in `text` in the SI unit of its `kind`; a bare number is SI already.
+
+    Raises
+    ------
+    UsageError
+        If the text is no finite number with a unit of that kind; the message names the `option`.
+    """
+    try:
+        return quantity.parse(text, kind)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from error
+
+
+def parse_load(text: str, kind: Kind, option: str) -> float:
+    """Return one load in the SI unit of its `kind`: a force or pressure above 0, a depth not below it.
+
+    Raises
+    ------
+    UsageError
+        If it is none.
+    """
+    value = parse(text, kind, option)
+    if kind is LENGTH and value < 0:
+        raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
+    if kind is not LENGTH and not value > 0:
+        raise UsageError(f"{option}: the {kind.name.split()[-1]} must be positive, not {text!r}")
+    return value
+
+
+def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:
+    """Return a quantity of both bodies in SI, from "17nohm*m,26nohm*m" or one value for both.
+
+    Raises
+    ------
+    UsageError
+        If the text holds none or more than two, or a negative one.
+    """
+    parts = [part for part in text.split(",") if part.strip()]
+    if len(parts) not in (1, 2):
+        raise UsageError(
+            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}"
+        )
+    values = [parse(part, kind, option) for part in parts]
+    if min(values) < 0:
+        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
+    return values[0], values[-1]
+
+
+def parse_number(text: str, option: str, example: str) -> float:
+    """Return a number without a unit.
+
+    Raises
+    ------
+    UsageError
+        If the text is no finite number.
+    """
+    try:
+        return quantity.parse_number(text, example)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from error
+
+
+def parse_tolerance(text: str, option: str) -> float:
+    """Return a tolerance that a certificate can meet.
+
+    Raises
+    ------
+    UsageError
+        If it is none, or too small or large to mean anything.
+    """
+    value = parse_number(text, option, "1e-8")
+    if not 1e-14 < value < 1e-2:
+        raise UsageError(f"{option}: the tolerance must lie between 1e-14 and 1e-2, not {text!r}")
+    return value
+
+
+def parse_seed(text: str, option: str) -> int:
+    """Return the seed of a generator of random numbers.
+
+    Raises
+    ------
+    UsageError
+        If it is no whole number from 0 up.
+    """
+    if re.fullmatch(r"\s*\d{1,30}\s*", text, re.ASCII) is None:
+        raise UsageError(f"{option}: {text!r} is no seed; write a whole number such as 1")
+    return int(text)
+
+
+def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    """Return the loads in `text`, ``from:to:count`` (log-spaced) or a comma list, in SI, shape (n,).
+
+    Raises
+    ------
+    UsageError
+        If the text holds no load, or loads that are not positive and increasing.
+    """
+    if ":" in text:
+        loads = _log_spaced(text, kind, option)
+    else:
+        parts = [part for part in text.split(",") if part.strip()]
+        loads = np.array([parse(part, kind, option) for part in parts])
+    if loads.size == 0:
+        raise UsageError(f"{option}: no load given; write {_range_example(kind)} or a comma list")
+    if not (loads > 0).all():
+        raise UsageError(f"{option}: every load must be positive, not {loads.min():g} {kind.unit}")
+    if not (np.diff(loads) > 0).all():
+        raise UsageError(f"{option}: the loads must increase from one to the next, not as in {text!r}")
+    return loads
+
+
+def parse_size(text: str, option: str) -> tuple[float, ...]:
+    """Return one length or two, "1mm" or "1mm x 2mm" (down the rows, then along them), in [m].
+
+    Raises
+    ------
+    UsageError
+        If a part is no positive length or there are more than two.
+    """
+    parts = re.split(r"[x*]", text)
+    if len(parts) > 2:
+        raise UsageError(f"{option}: {text!r} holds {len(parts)} lengths; write '1mm' or '1mm x 2mm'")
+    lengths = tuple(parse(part, LENGTH, option) for part in parts)
+    if not all(length > 0 for length in lengths):
+        raise UsageError(f"{option}: a side length must be positive, not {text!r}")
+    return lengths
+
+
+def parse_points(text: str, option: str) -> tuple[int, int]:
+    """Return the number of points ``(ny, nx)`` of "512" (a square) or "512x256" (rows x columns).
+
+    Raises
+    ------
+    UsageError
+        If the text is not one or two positive whole numbers.
+    """
+    match = re.fullmatch(r"\s*(\d+)\s*(?:[x*]\s*(\d+)\s*)?", text)
+    if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
+        raise UsageError(f"{option}: {text!r} is no number of points; write 512 or 512x256 (rows x columns)")
+    return int(match[1]), int(match[2] or match[1])
+
+
+def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    parts = text.split(":")
+    example = _range_example(kind)
+    if len(parts) != 3 or re.fullmatch(r"\s*\d+\s*", parts[2]) is None:
+        raise UsageError(f"{option}: {text!r} is no range; write from:to:count, such as {example}")
+    low, high = (parse(part, kind, option) for part in parts[:2])
+    count = int(parts[2])
+    if not 0 < low < high:
+        raise UsageError(
+            f"{option}: a range is log-spaced and must rise from a positive load, unlike {text!r}"
+        )
+    if not 2 <= count <= _MOST_LOADS:
+        raise UsageError(f"{option}: a range holds from 2 to {_MOST_LOADS} loads, not {count}")
+    return np.geomspace(low, high, count)
+
+
+def _range_example(kind: Kind) -> str:
+    return f"1m{kind.unit}:1{kind.unit}:100" if kind.unit == "N" else f"1n{kind.unit}:1u{kind.unit}:100"

@@ -1,0 +1,25 @@
+"""A solve that missed its tolerance, as an error that carries the best answer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["ConvergenceError"]
+
+
+class ConvergenceError(RuntimeError):
+    """A solve that missed its tolerance; `solution` is the best that was reached."""
+
+    def __init__(self, solution: Solution) -> None:
+        super().__init__(solution)  # in `args`, so that the error can be pickled
+        self.solution = solution
+
+    def __str__(self) -> str:
+        solution = self.solution
+        return (
+            f"residual {solution.residual:.1e} after {solution.steps} steps, tolerance "
+            f"{solution.problem.tolerance:.1e}: {solution.status.message}"
+        )

@@ -1,0 +1,151 @@
+"""Heights saved by NumPy: ``.npy`` and ``.npz``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.files.archive import unzip
+from roughcontact.files.channels import Channel, pick
+from roughcontact.files.file_errors import ReadError
+from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.npy import read_npy_header
+
+__all__ = ["list_npz", "read_npy", "read_npz"]
+
+# Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
+_MEANINGS = ("spacing", "size", "unit", "periodic", "history")
+
+
+def read_npy(data: bytes, file: str) -> HeightMap:
+    """Return the one array of a ``.npy`` file; it states neither unit nor size."""
+    return HeightMap(as_heights(_array(data, file), file), "npy")
+
+
+def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+    """Return one array of a ``.npz`` file.
+
+    The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
+    name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m], ``periodic`` (one truth value, or
+    one an axis) and ``history`` (lines of text) say what it means, where they are present.
+    """
+    arrays = _arrays(data, file)
+    names = _channels(arrays)
+    if channel is None and "heights" in arrays:
+        channel = "heights"
+    chosen = names[pick(names, channel, file)].name
+    heights = as_heights(arrays[chosen], file)
+    unit = arrays.get("unit")
+    return HeightMap(
+        heights,
+        "npz",
+        channel=chosen,
+        unit=None if unit is None else _unit(unit, file),
+        spacing=_spacing(arrays, heights.shape, file),
+        periodic=_periodic(arrays, heights.ndim, file),
+        history=_history(arrays, file),
+    )
+
+
+def list_npz(data: bytes, file: str) -> tuple[Channel, ...]:
+    """Return the arrays of a ``.npz`` file, the keys with a meaning of their own left out."""
+    arrays = _arrays(data, file)
+    unit = _unit(arrays["unit"], file) if "unit" in arrays else None
+    found = []
+    for channel in _channels(arrays):
+        size = None
+        if channel.is_height and (spacing := _spacing(arrays, channel.shape, file)) is not None:
+            size = tuple(step * n for step, n in zip(spacing, channel.shape, strict=True))
+        found.append(
+            Channel(channel.name, channel.shape, unit if channel.is_height else None, size, channel.is_height)
+        )
+    return tuple(found)
+
+
+def _array(data: bytes, file: str) -> npt.NDArray[Any]:
+    """Return the array in the bytes of a ``.npy`` file; anything missing, left over or pickled is refused."""
+    try:
+        header = read_npy_header(BytesIO(data))
+        if header.size > len(data):
+            raise ValueError(f"{len(data)} of {header.size} bytes are there")
+        values = header.array(data)
+    except (ValueError, OverflowError) as error:
+        raise ReadError(
+            file,
+            f"it is not a whole NumPy array ({error})",
+            "save it again with numpy.save, without objects or names of fields",
+        ) from error
+    if header.size < len(data):
+        raise ReadError(
+            file,
+            f"{len(data) - header.size} bytes follow the array of {values.shape}: its header is damaged",
+            "save it again with numpy.save",
+        )
+    return values
+
+
+def _arrays(data: bytes, file: str) -> dict[str, npt.NDArray[Any]]:
+    members = unzip(data, file, lambda member: member.endswith(".npy"))
+    if not members:
+        raise ReadError(file, "it holds no array", "save it with numpy.savez")
+    return {name.removesuffix(".npy"): _array(content, file) for name, content in members.items()}
+
+
+def _channels(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[Channel, ...]:
+    return tuple(
+        Channel(name, a.shape, None, None, a.ndim == 2 and min(a.shape) >= 2 and a.dtype.kind in "fiu")
+        for name, a in arrays.items()
+        if name not in _MEANINGS
+    )
+
+
+def _unit(value: npt.NDArray[Any], file: str) -> str | float:
+    """Return the unit that the file states: a name, or metres per unit."""
+    if value.size == 1 and value.dtype.kind in "US":
+        text = value.reshape(-1)[0]
+        return text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
+    if value.size == 1 and value.dtype.kind in "fiu":
+        return float(value.reshape(-1)[0])
+    raise ReadError(
+        file, f"its key 'unit' holds {value!r}", "save one name such as 'um', or one number of metres"
+    )
+
+
+def _periodic(arrays: Mapping[str, npt.NDArray[Any]], ndim: int, file: str) -> bool | tuple[bool, ...]:
+    """Return whether the file says that the surface repeats itself: one word, or one for each axis."""
+    value = arrays.get("periodic", np.array(False))
+    if value.size not in (1, ndim) or value.dtype.kind not in "biu":
+        raise ReadError(file, f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
+    words = tuple(bool(word) for word in value.reshape(-1))
+    return words if len(words) == ndim else words[0]
+
+
+def _history(arrays: Mapping[str, npt.NDArray[Any]], file: str) -> tuple[str, ...]:
+    value = arrays.get("history", np.array([], dtype="U1"))
+    if value.dtype.kind != "U":
+        raise ReadError(file, f"its key 'history' is of type {value.dtype}", "save lines of text")
+    return tuple(str(line) for line in value.reshape(-1))
+
+
+def _spacing(
+    arrays: Mapping[str, npt.NDArray[Any]], shape: tuple[int, ...], file: str
+) -> tuple[float, ...] | None:
+    """Return the cell (dy, dx) or (dx,) [m] from the key ``spacing`` or ``size``; one number serves all axes."""
+    for key in ("spacing", "size"):
+        if key in arrays:
+            value = arrays[key]
+            if value.dtype.kind not in "fiu" or value.size not in (1, len(shape)):
+                raise ReadError(
+                    file, f"its key {key!r} holds {value!r}", "save one number of metres, or two (y, x)"
+                )
+            given = tuple(float(v) for v in np.broadcast_to(value.reshape(-1), len(shape)))
+            if key == "spacing":
+                return given
+            # One length is the width of square pixels, as in the keyword `size` of `read`.
+            counts = (shape[-1],) * len(shape) if value.size == 1 else shape
+            return tuple(length / n for length, n in zip(given, counts, strict=True))
+    return None

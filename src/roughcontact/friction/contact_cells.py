@@ -1,0 +1,142 @@
+"""The cells in contact, and how traction on them displaces them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import beside, is_numpy, namespace
+from roughcontact.friction.selection import Selection
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operators.operator import self_influence
+from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.halfspace.shear.shear_sums import DenseShear
+from roughcontact.solver.subdomain import bounding_box
+
+__all__ = ["Interface"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+# Up to so many cells a full matrix is made (32 MB of it) where it holds no more than a few numbers per cell of the
+# padded box, so that a product with it costs no more than the transforms.
+DENSE_LIMIT = 1000
+NUMBERS = 10
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Interface:
+    """A list of cells under traction along given directions; fields on it have shape ``(k, n)``.
+
+    Parameters
+    ----------
+    operator : ShearOperator
+        On the box that holds the cells, or on the cells alone.
+    exact : ShearOperator
+        The same without the error of its sum: what certifies. Most sums are exact themselves.
+    region : Selection
+        The cells on the operator's grid.
+    basis : array, shape (k, 2)
+        Unit vectors (x, y) of the k directions in which traction may act: both axes, or one direction.
+    chosen : Selection
+        The cells on the whole grid.
+    floating : bool
+        Whether they are all cells of a periodic grid, which a constant traction does not displace.
+    self_influence : float
+        Displacement of a cell per traction on itself [m/Pa].
+    """
+
+    operator: ShearOperator
+    exact: ShearOperator
+    region: Selection
+    basis: Array
+    chosen: Selection
+    floating: bool
+    self_influence: float
+
+    @classmethod
+    def of(
+        cls, operator: ShearOperator, contact: Mask, along: tuple[float, float] | None = None
+    ) -> Interface:
+        """Return the interface of the `contact` cells of a grid, at least one; one component `along` a direction."""
+        floating = bool(all(operator.grid.periodic) and namespace(contact).all(contact))
+        basis = np.eye(2) if along is None else np.array([along])
+        part, region = operator, contact
+        if is_numpy(contact):  # elsewhere it would cost a look at every side
+            box = bounding_box(contact)
+            assert box is not None  # who comes here has asked
+            part, region = operator.restrict(box), contact[box]
+            if not floating and _few(region):
+                matrix = part.as_matrix(np.flatnonzero(region))
+                cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
+                part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
+        own = self_influence(part)
+        exact = getattr(part, "exact", None) or part
+        return cls(part, exact, Selection.of(region), basis, Selection.of(contact), floating, own)
+
+    @property
+    def contact(self) -> Mask:
+        """The cells on the whole grid, as a mask."""
+        return self.chosen.mask
+
+    @property
+    def area(self) -> float:
+        """Area of a cell [m^2]."""
+        return self.operator.weights
+
+    def apply(self, traction: Array) -> Array:
+        """Return the displacement [m] of the cells under a traction [Pa] on them."""
+        return self._through(self.exact.apply, traction)
+
+    def estimate(self, traction: Array) -> Array:
+        """Return the displacement by a sum that may be inexact: good enough to find a correction with."""
+        return self._through(self.operator.apply, traction)
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a traction [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
+        return self._through(self.operator.approximate_inverse, displacement)
+
+    def zeros(self) -> Array:
+        """Return nothing on every cell."""
+        xp, mask = namespace(self.contact), self.contact
+        shape = (len(self.basis), self.chosen.count)
+        return xp.zeros(shape, dtype=xp.float64, device=mask.device)  # type: ignore[no-any-return]
+
+    def units(self) -> list[Array]:
+        """Return a unit in each direction, the same on every cell."""
+        return [self.zeros() + beside(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
+
+    def take(self, field: Array) -> Array:
+        """Return the components of a field of shape ``(2, ny, nx)`` on the cells."""
+        return self._components(self.chosen.take(field))
+
+    def embed(self, values: Array) -> Array:
+        """Return values on the cells as a field of shape ``(2, ny, nx)``, zero outside the contact."""
+        return self.chosen.embed(self._vectors(values))
+
+    def _through(self, operation: Callable[[Array], Array], values: Array) -> Array:
+        field = operation(self.region.embed(self._vectors(values)))
+        return self._components(self.region.take(field))
+
+    def _vectors(self, values: Array) -> Array:
+        """Return components as vectors (x, y)."""
+        if len(self.basis) == 2:
+            return values
+        (x, y), xp = self.basis[0], namespace(values)
+        return xp.concat([float(x) * values, float(y) * values])  # type: ignore[no-any-return]
+
+    def _components(self, vectors: Array) -> Array:
+        """Return the components of vectors (x, y)."""
+        if len(self.basis) == 2:
+            return vectors
+        x, y = self.basis[0]
+        return float(x) * vectors[:1, :] + float(y) * vectors[1:, :]
+
+
+def _few(region: Mask) -> bool:
+    count = int(region.sum())
+    padded = 4 * region.size
+    return count <= DENSE_LIMIT and count * count <= NUMBERS * padded

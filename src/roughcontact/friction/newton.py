@@ -1,0 +1,89 @@
+"""Partial slip by Newton's method: guess which cells slip and which way, solve what is free, flip what violates."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.arrays import namespace
+from roughcontact.friction.descent import descended
+from roughcontact.friction.slip_cg import Freedom, corrected
+from roughcontact.friction.slip_step import Slipped, State, Step
+from roughcontact.solver.status import Status
+
+__all__ = ["SlipNewton"]
+
+REDUCTION = 0.1  # of the error by each linear solve: the next guess is another problem
+FALL = 0.9  # of the residual, below its least, that an iteration must bring, lest it goes in circles
+PATIENCE = 20  # descents without a smaller residual or energy, after which rounding has the better of it
+ROUNDING = float(np.finfo(np.float64).eps)
+
+
+@dataclass(frozen=True, slots=True)
+class SlipNewton:
+    """Settings of the method.
+
+    The conditions of a step say that the energy ``q.Aq/2 - q.(slip + shift)`` is as low as tractions within their
+    limits allow. An iteration solves for the traction of the cells that stick and the direction of that of those that
+    slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, just as far as
+    the guess deserves; its end is projected on the limits.
+
+    Where many cells flip at once, each takes the others for what they were, and all go too far together: left alone,
+    they flip back and forth for ever. So an iteration that does not take the residual down counts as no more than a
+    direction, and the energy is made to fall instead: see `descended`. The residual falls but so often until it is
+    within the tolerance, and energy that goes on falling leads to its minimum: this ends at the answer.
+    """
+
+    max_steps: int = 5000
+
+    def run(self, step: Step) -> Slipped:
+        """Solve for the traction at the end of a step."""
+        state, steps = step.state(step.admitted(step.traction)), 1
+        least, lowest, idle = state.residual, math.inf, 0
+        while not state.residual <= step.tolerance and steps < self.max_steps and idle <= PATIENCE:
+            trial, products = _guessed(step, state, self.max_steps - steps)
+            steps += products
+            if trial.residual <= step.tolerance:
+                trial, steps = _certified(step, trial, steps)
+            if trial.residual <= max(step.tolerance, FALL * least):
+                state, lowest, idle = trial, math.inf, 0
+            else:
+                state, steps = _certified(step, state, steps)
+                trial, steps = _certified(step, trial, steps)
+                state, products = descended(step, state, trial)
+                steps += products
+                energy = step.energy(state)
+                idle = 0 if energy < lowest - ROUNDING * abs(energy) or state.residual < least else idle + 1
+                lowest = min(lowest, energy)
+            least = min(least, state.residual)
+        state, steps = _certified(step, state, steps)
+        if state.residual <= step.tolerance:
+            status = Status.CONVERGED
+        else:
+            status = Status.MAX_STEPS if steps >= self.max_steps else Status.STAGNATED
+        return Slipped(state.traction, state.displacement, state.shift, state.residual, steps, status)
+
+
+def _guessed(step: Step, state: State, max_steps: int) -> tuple[State, int]:
+    """Return where the guess leads that a state suggests, and the products it took."""
+    xp, q, interface = namespace(state.traction), state.traction, step.interface
+    forward = xp.sum(state.slipped * state.normal, axis=0)
+    slips = xp.any(state.normal != 0, axis=0) & (forward <= 0)
+    freedom = Freedom(
+        normal=xp.where(slips, state.normal, 0.0),
+        turning=xp.where(slips, -forward / step.limit, 0.0),
+        held=step.force is not None,
+    )
+    change = corrected(interface, freedom, -state.slipped, reduction=REDUCTION, max_steps=max_steps)
+    aim = q + change.traction
+    admitted = step.admitted(aim)
+    if bool(xp.all(admitted == aim)):
+        return step.state(admitted, state.displacement + change.displacement), change.steps
+    return step.state(admitted), change.steps + 1
+
+
+def _certified(step: Step, state: State, steps: int) -> tuple[State, int]:
+    """Return a state on a product of its own, and the products so far."""
+    return (state, steps) if state.exact else (step.state(state.traction), steps + 1)

@@ -1,0 +1,120 @@
+"""Conjugate gradients on what is free: both components where cells stick, turning where they slip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import inner, namespace, numbers
+from roughcontact.friction.contact_cells import Interface
+
+__all__ = ["Correction", "Freedom", "corrected"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Freedom:
+    """What a traction may change, to first order.
+
+    Parameters
+    ----------
+    normal : array, shape (k, n)
+        Unit vectors in which the traction of slipping cells is fixed, zero in cells that stick.
+    turning : array, shape (n,)
+        Slip over traction of slipping cells [m/Pa]: slip turns with the traction that it opposes.
+    held : bool
+        Whether the force is given, so that no change may have a resultant.
+    """
+
+    normal: Array
+    turning: Array
+    held: bool
+
+    def project(self, field: Array) -> Array:
+        """Return the free part of a field."""
+        along = namespace(field).sum(field * self.normal, axis=0)
+        free: Array = field - along * self.normal
+        return free
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Correction:
+    """A change of traction [Pa], its image [m], and the products it took."""
+
+    traction: Array
+    displacement: Array
+    steps: int
+
+
+def corrected(
+    interface: Interface, freedom: Freedom, error: Array, *, reduction: float, max_steps: int
+) -> Correction:
+    """Return the free change of traction that takes `error` [m] away, by preconditioned conjugate gradients.
+
+    Parameters
+    ----------
+    interface : Interface
+    freedom : Freedom
+    error : array, shape (k, n)
+        What the change should add to the displacement.
+    reduction : float
+        Part of the error, in the norm of the preconditioner, that may stay.
+    max_steps : int
+        Largest number of products.
+
+    Notes
+    -----
+    Where cells stick, the preconditioner is the inverse of the half-space as if it were periodic, wave by wave. Where
+    they slip, the diagonal: next to turning, the half-space is compliant only for long waves.
+    """
+    precondition = _preconditioner(interface, freedom)
+    change, image, steps = interface.zeros(), interface.zeros(), 0
+    r = freedom.project(error)
+    z = precondition(r)
+    t = z
+    rho = inner(r, z)
+    enough = reduction**2 * rho
+    while rho > enough and steps < max_steps:
+        v = interface.estimate(t)
+        steps += 1
+        q = freedom.project(v) + freedom.turning * t
+        curvature = inner(t, q)
+        if not curvature > 0:  # rounding has eaten the direction
+            break
+        alpha = rho / curvature
+        change += alpha * t
+        image += alpha * v
+        r = r - alpha * q
+        z = precondition(r)
+        rho, previous = inner(r, z), rho
+        t = z + rho / previous * t
+    return Correction(change, image, steps)
+
+
+def _preconditioner(interface: Interface, freedom: Freedom) -> Callable[[Array], Array]:
+    """Return a map from errors [m] to free changes of traction [Pa], without resultant if the force is held."""
+    xp = namespace(freedom.normal)
+    sticks = ~xp.any(freedom.normal != 0, axis=0)
+    diagonal = 1 / (interface.self_influence + freedom.turning)
+
+    def answer(r: Array) -> Array:
+        z = xp.where(sticks, interface.approximate_inverse(xp.where(sticks, r, 0.0)), r * diagonal)
+        return freedom.project(z)
+
+    if not freedom.held:
+        return answer
+    # Answers to common displacements, of which a combination takes a resultant away.
+    common = [answer(freedom.project(unit)) for unit in interface.units()]
+    shares = np.linalg.pinv(np.array([numbers(xp.sum(z, axis=1)) for z in common]).T)
+
+    def without_resultant(r: Array) -> Array:
+        z = answer(r)
+        for part, response in zip(shares @ numbers(xp.sum(z, axis=1)), common, strict=True):
+            z -= float(part) * response
+        return z
+
+    return without_resultant

@@ -1,0 +1,237 @@
+"""The tangential problem: a pressed contact, two bodies, a friction coefficient."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import namespace
+from roughcontact.contact.solution import Solution
+from roughcontact.friction.contact_cells import Interface
+from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
+from roughcontact.material import Solid, reduced_modulus
+from roughcontact.solver.control import checked_tolerance
+from roughcontact.theory.tools.domain import number
+
+__all__ = [
+    "Bodies",
+    "Load",
+    "Pull",
+    "Shift",
+    "SlipProblem",
+    "continued",
+    "load_of",
+    "make_problem",
+    "shear_body",
+]
+
+Array = npt.NDArray[np.float64]
+
+Bodies = Solid | tuple[Solid, Solid]
+"""Two solids; one has a rigid partner."""
+
+Load = float | Sequence[float] | Array
+"""A force or a displacement: its components (x, y), or one number in the direction of the traction, by default x."""
+
+SAME = 1e-6  # relative difference of two reduced moduli that are one
+SLIDING = 1e-9  # relative distance of a force from mu P within which the bodies slide
+PARALLEL = 1e-9  # sine of the angle between two directions that are one
+
+
+@dataclass(frozen=True, slots=True)
+class Pull:
+    """Pull until the contact carries the tangential force (`x`, `y`) [N]."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shift:
+    """Move body 2 until it stands displaced by (`x`, `y`) [m] against body 1, since the start."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SlipProblem:
+    """Tangential loading of a contact whose pressure is held, under Coulomb's law.
+
+    Parameters
+    ----------
+    pressed : Solution
+        The contact under its normal force; its pressure stays as it is.
+    bodies : Solid or pair of Solids
+    friction : float
+        Coefficient of friction mu.
+    along : tuple of float, optional
+        The one direction (x, y), a unit vector, in which traction may act; without one it may turn.
+    operator : ShearOperator
+        Displacement [m] from traction [Pa] on the whole grid.
+    interface : Interface
+        The same on the cells in contact.
+    tolerance : float
+        Largest residual of a solution.
+    """
+
+    pressed: Solution
+    bodies: Bodies
+    friction: float
+    along: tuple[float, float] | None
+    operator: ShearOperator
+    interface: Interface
+    tolerance: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.friction) and self.friction > 0):
+            raise ValueError(f"the friction coefficient must be positive and finite, not {self.friction}")
+        checked_tolerance(self.tolerance)
+
+    @property
+    def limit(self) -> Array:
+        """Largest traction of each cell in contact, mu p [Pa], in flat order."""
+        pressure = namespace(self.pressed.pressure).expand_dims(self.pressed.pressure, axis=0)
+        return self.friction * self.interface.chosen.take(pressure)[0, :]
+
+    @property
+    def capacity(self) -> float:
+        """Largest tangential force that friction can hold, mu P [N]."""
+        return float(namespace(self.pressed.pressure).sum(self.limit)) * self.interface.area
+
+    def slides_under(self, load: Pull | Shift) -> bool:
+        """Whether a force is all that friction can hold."""
+        return isinstance(load, Pull) and math.hypot(load.x, load.y) >= self.capacity * (1 - SLIDING)
+
+    def check(self, load: Pull | Shift) -> None:
+        """Raise a ValueError for a load that this contact cannot take."""
+        size = math.hypot(load.x, load.y)
+        if self.along is not None:
+            ex, ey = self.along
+            if abs(load.x * ey - load.y * ex) > PARALLEL * size:
+                raise ValueError(
+                    f"traction acts along {self.along} only, and ({load.x:g}, {load.y:g}) does not: leave out `along`"
+                )
+        if isinstance(load, Pull) and size > self.capacity * (1 + SLIDING):
+            raise ValueError(
+                f"friction holds at most mu P = {self.capacity:.6g} N, and {size:.6g} N makes the bodies slide away: "
+                "pull less, or press harder"
+            )
+        if isinstance(load, Shift) and self.interface.floating:
+            raise ValueError(
+                "all cells of a periodic grid are in contact: no traction displaces their mean; give a force"
+            )
+
+
+def make_problem(
+    pressed: Solution,
+    bodies: Bodies,
+    friction: float,
+    *,
+    along: Sequence[float] | None = None,
+    operator: ShearOperator | None = None,
+    tolerance: float = 1e-8,
+) -> SlipProblem:
+    """Return the problem, or say in a ValueError what is wrong with it."""
+    if not isinstance(pressed, Solution):
+        raise ValueError(f"a Solution is wanted, as `press` returns it, not {type(pressed).__name__}")
+    kind = pressed.problem.geometry
+    if kind is not Geometry.SURFACE:
+        raise ValueError(
+            f"partial slip is that of a surface of two axes; this contact is that of a {kind.value}"
+        )
+    if not bool(namespace(pressed.contact).any(pressed.contact)):
+        raise ValueError("the bodies do not touch: nothing to pull at; press them first")
+    modulus, stated = reduced_modulus(*_pair(bodies)), pressed.problem.modulus
+    if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:
+        raise ValueError(
+            f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa: press "
+            "and pull the same"
+        )
+    body = shear_body(pressed.problem.grid, bodies, operator)
+    direction = None if along is None else _unit(along)
+    interface = Interface.of(body, pressed.contact, direction)
+    return SlipProblem(pressed, bodies, float(friction), direction, body, interface, tolerance)
+
+
+def continued(
+    earlier: SlipProblem,
+    pressed: Solution,
+    bodies: Bodies,
+    friction: float,
+    *,
+    along: Sequence[float] | None = None,
+    operator: ShearOperator | None = None,
+    tolerance: float = 1e-8,
+) -> SlipProblem:
+    """Return an earlier problem, whose operator is at hand, to another tolerance; all else must be the same."""
+    if earlier.pressed is not pressed:
+        raise ValueError("the initial state is that of another contact: the pressure must stay as it is")
+    given = (bodies, friction, earlier.along if along is None else _unit(along))
+    if given != (earlier.bodies, earlier.friction, earlier.along):
+        raise ValueError(
+            f"the initial state has bodies {earlier.bodies}, friction {earlier.friction} and along={earlier.along}: "
+            "go on with the same"
+        )
+    if operator is not None and operator is not earlier.operator:
+        raise ValueError(
+            "the initial state was found with another operator: go on with the same, or name none"
+        )
+    return replace(earlier, tolerance=tolerance)
+
+
+def load_of(
+    along: tuple[float, float] | None, *, force: Load | None = None, displacement: Load | None = None
+) -> Pull | Shift:
+    """Return the load that exactly one of the two states."""
+    if (force is None) == (displacement is None):
+        raise ValueError("give exactly one of force and displacement")
+    given = force if force is not None else displacement
+    assert given is not None
+    value = np.asarray(number(given, "a tangential load"))
+    if value.ndim == 0:
+        value = value * np.asarray(along or (1.0, 0.0))
+    if value.shape != (2,) or not np.isfinite(value).all():
+        raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
+    x, y = (float(v) for v in value)
+    return Pull(x, y) if force is not None else Shift(x, y)
+
+
+def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = None) -> ShearOperator:
+    """Return `operator`, which must lie on `grid`; without one the half-spaces of the bodies.
+
+    Raises
+    ------
+    ValueError
+        If the operator lies on another grid, or the grid has not two axes.
+    """
+    if operator is None:
+        return shear_half_space(grid, *_pair(bodies))
+    if operator.grid != grid:
+        raise ValueError(f"the operator's grid {operator.grid} is not the contact's {grid}")
+    return operator
+
+
+def _pair(bodies: Bodies) -> tuple[Solid, Solid | None]:
+    if isinstance(bodies, Solid):
+        return bodies, None
+    if isinstance(bodies, tuple) and len(bodies) == 2:
+        return bodies
+    raise ValueError(
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
+    )
+
+
+def _unit(along: Sequence[float]) -> tuple[float, float]:
+    direction = np.asarray(number(along, "along"))
+    size = float(np.hypot(*direction)) if direction.shape == (2,) else math.nan
+    if not (math.isfinite(size) and size > 0):
+        raise ValueError(f"`along` is a direction (x, y), not {along}")
+    x, y = direction / size
+    return float(x), float(y)

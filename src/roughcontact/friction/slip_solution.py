@@ -1,0 +1,189 @@
+"""The answer of a step of tangential loading, and everything that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
+from roughcontact.cached import cached_property
+from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.coulomb import at_limit
+from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
+from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
+from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
+from roughcontact.material import Solid
+from roughcontact.solver.status import Status
+from roughcontact.threads import one_blas_thread
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["TangentialSolution"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TangentialSolution:
+    """A traction, the displacement of the bodies, and a certificate; the rest is computed when asked for.
+
+    Fields have shape ``(2, ny, nx)``: x component, then y component; they live where the pressure does. Vectors that
+    belong to no cell are NumPy's. Traction, force and displacement are those that body 2 forces upon body 1.
+
+    Attributes
+    ----------
+    problem : SlipProblem
+    load : Pull or Shift
+        What was prescribed.
+    traction : array, shape (2, ny, nx)
+        Tangential traction [Pa], zero outside the contact.
+    displacement : array, shape (2,)
+        Displacement of body 2 against body 1, far from the contact, since the start [m]. Where the bodies slide under
+        a given force it is the least at which every cell has slipped forward.
+    slip : array, shape (2, ny, nx)
+        How far surface 1 has slipped over surface 2 since the start [m]; zero, to the residual, where they have stuck
+        throughout, and outside the contact, where it means nothing.
+    dissipated : float
+        Energy that friction took in this step [J].
+    status : Status
+        How the solve ended; it claims nothing that was not earned.
+    residual : float
+        Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, on a product of
+        the exact operator with this traction. Where the bodies slide under a given force the law is that of the slip
+        rate of the steady slide, and of the slip of the step only what lies along the force counts: none is backward.
+    steps : int
+        Products with the operator that the solve took.
+    step_residual : float
+        The same by all of the slip of this step. Only where the bodies slide under a given force is it another number:
+        what slipped across the force before the slide was steady, which no finite displacement opposes to the traction.
+    """
+
+    problem: SlipProblem
+    load: Pull | Shift
+    traction: Array
+    displacement: Array
+    slip: Array
+    dissipated: float
+    status: Status
+    residual: float
+    steps: int
+    step_residual: float
+
+    @property
+    def force(self) -> Array:
+        """Tangential force [N], shape (2,)."""
+        traction = self._on_cells(self.traction)
+        return numbers(namespace(traction).sum(traction, axis=1)) * self.problem.interface.area
+
+    @cached_property
+    def slipping(self) -> Mask:
+        """Mask of the cells in contact whose traction is all that friction holds."""
+        interface = self.problem.interface
+        held = at_limit(interface.take(self.traction), self.problem.limit)
+        return interface.chosen.embed(held[None, :])[0, ...]
+
+    @property
+    def sticking(self) -> Mask:
+        """Mask of the cells in contact that hold."""
+        return self.problem.interface.contact & ~self.slipping
+
+    @property
+    def stick_area(self) -> float:
+        """Area of the cells that hold [m^2]."""
+        return _count(self.sticking) * self.problem.interface.area
+
+    @property
+    def slip_area(self) -> float:
+        """Area of the cells that slip [m^2]."""
+        return _count(self.slipping) * self.problem.interface.area
+
+    @property
+    def sliding(self) -> bool:
+        """Whether every cell slips."""
+        return _count(self.sticking) == 0
+
+    @cached_property
+    @one_blas_thread()
+    def elastic_energy(self) -> float:
+        """Elastic energy of the tangential displacement [J]: half the traction times it."""
+        traction = self._on_cells(self.traction)
+        displaced = self._on_cells(self.slip) + beside(self.displacement[:, None], traction)
+        return 0.5 * inner(traction, displaced) * self.problem.interface.area
+
+    @cached_property
+    def frozen(self) -> TangentialStiffness:
+        """The response of the cells that hold, displaced as one, while the traction of the others stays as it is."""
+        return frozen_shear(self.problem.operator, self.sticking)
+
+    @property
+    def stiffness(self) -> Array:
+        """Tangential stiffness dQ/d(displacement) of the cells that hold [N/m], shape (2, 2)."""
+        return self.frozen.matrix
+
+    def on_host(self) -> TangentialSolution:
+        """Return the same solution in NumPy's memory."""
+        if is_numpy(self.traction):
+            return self
+        problem, pressed = self.problem, self.problem.pressed.on_host()
+        interface = Interface.of(problem.operator, pressed.contact, problem.along)
+        there = replace(problem, pressed=pressed, interface=interface)
+        return replace(self, problem=there, traction=on_host(self.traction), slip=on_host(self.slip))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        notes = []
+        if not self.status.converged:
+            notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
+        if not self.problem.pressed.status.converged:
+            notes.append("The pressure itself missed its tolerance.")
+        bodies = self.problem.bodies
+        beta = dundurs_parameter(*((bodies,) if isinstance(bodies, Solid) else bodies))
+        if abs(beta) > UNLIKE:
+            notes.append(
+                f"The bodies are unlike (Dundurs's parameter {beta:.2g}): that traction changes the pressure, and "
+                "pressure shears the surfaces, is left out."
+            )
+        if self.sliding:
+            notes.append("Every cell slips: the bodies slide.")
+            if self.status.converged and self.step_residual > self.problem.tolerance:
+                notes[-1] += (
+                    " This is the steady slide, whose slip rate is opposed to the traction; of the slip until then, up "
+                    f"to {self.step_residual:.1e} of the largest displacement is not."
+                )
+        return tuple(notes)
+
+    def __repr__(self) -> str:
+        """Say what was found, not the fields."""
+        (qx, qy), (x, y) = self.force, self.displacement
+        slips, cells = _count(self.slipping), self.problem.interface.chosen.count
+        return (
+            f"TangentialSolution({self.status.value}, force ({qx:.4g}, {qy:.4g}) N, displacement ({x:.4g}, {y:.4g}) m, "
+            f"{slips} of {cells} cells slip, residual {self.residual:.1e})"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        from roughcontact.friction.slip_dataset import tangential_dataset
+
+        return tangential_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON."""
+        from roughcontact.friction.slip_dataset import tangential_record
+
+        return tangential_record(self)
+
+    def _on_cells(self, field: Array) -> Array:
+        return self.problem.interface.chosen.take(field)
+
+
+def _count(mask: Mask) -> int:
+    return int(namespace(mask).count_nonzero(mask))

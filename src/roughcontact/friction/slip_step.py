@@ -1,0 +1,148 @@
+"""One step of tangential loading: what is asked, and how far an answer is from it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import beside, inner, namespace, numbers
+from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.coulomb import (
+    at_limit,
+    directions,
+    lengths,
+    under_force,
+    violations,
+    within,
+)
+from roughcontact.friction.multiplier import common_displacement
+from roughcontact.solver.optimality import UNITS
+from roughcontact.solver.status import Status
+
+__all__ = ["Slipped", "State", "Step"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """One step of tangential loading, from a state of rest to another.
+
+    Parameters
+    ----------
+    interface : Interface
+    limit : array, shape (n,)
+        Largest traction of each cell [Pa].
+    traction, slip : array, shape (k, n)
+        Where the step starts [Pa], and how far the cells have slipped until then [m].
+    force, shift : NumPy array, shape (k,), or None
+        One of them: the force [N] or the displacement of the bodies [m] at the end of the step.
+    scale : float
+        Largest displacement of a cell at the start [m].
+    tolerance : float
+        Largest residual.
+    """
+
+    interface: Interface
+    limit: Array
+    traction: Array
+    slip: Array
+    force: Array | None
+    shift: Array | None
+    scale: float
+    tolerance: float
+
+    def state(self, traction: Array, displacement: Array | None = None) -> State:
+        """Return the state of a traction that friction can hold; its exact displacement is found if none is given."""
+        moved = self.interface.apply(traction) if displacement is None else displacement
+        normal = directions(traction, at_limit(traction, self.limit))
+        shift = self.shift_of(moved, normal)
+        slipped = self.slipped(moved, shift)
+        residual = self.residual(traction, moved, slipped)
+        return State(traction, moved, displacement is None, normal, shift, slipped, residual)
+
+    def energy(self, state: State) -> float:
+        """Return what is lowest at the end of the step [J per area of a cell]."""
+        stored = inner(state.traction, state.displacement / 2 - self.slip)
+        if self.shift is None:  # the work of a given force is the same for all tractions that add up to it
+            return stored
+        return stored - float(self.shift @ numbers(namespace(state.traction).sum(state.traction, axis=1)))
+
+    def admitted(self, traction: Array) -> Array:
+        """Return the nearest traction that friction can hold, under the force if one is given."""
+        if self.force is None:
+            return within(traction, self.limit)
+        return under_force(traction, self.limit, self.force / self.interface.area)
+
+    def shift_of(self, displacement: Array, normal: Array) -> Array:
+        """Return the displacement of the bodies [m]: the one that is given, or that belongs to a traction.
+
+        `normal` are unit vectors of the traction in the cells at their limit, zero elsewhere.
+        """
+        if self.shift is not None:
+            return self.shift
+        level = displacement - self.slip
+        return common_displacement(level, normal, self.limit, self.interface.self_influence)
+
+    def slipped(self, displacement: Array, shift: Array) -> Array:
+        """Return the slip of the step [m]."""
+        moved: Array = displacement - beside(shift[:, None], displacement)
+        return moved - self.slip
+
+    def residual(self, traction: Array, displacement: Array, slipped: Array) -> float:
+        """Return the largest violation of Coulomb's law relative to the largest displacement of the step.
+
+        What is rounding of what the largest traction does in its own cell counts as no more: uniform traction on all
+        cells of a period moves nothing, and there all is rounding.
+        """
+        xp = namespace(traction)
+        violation = float(xp.max(violations(traction, self.limit, slipped)))
+        if violation == 0:
+            return 0.0
+        scale = max(self.scale, float(xp.max(lengths(displacement))))
+        relative = violation / scale if scale > 0 else math.inf
+        rounding = UNITS * self.interface.self_influence * float(xp.max(lengths(traction)))
+        return min(relative, UNITS) if violation <= rounding else relative
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A traction that friction can hold, and how far it is from the end of the step.
+
+    Parameters
+    ----------
+    traction, displacement : array, shape (k, n)
+        Of the cells [Pa], [m].
+    exact : bool
+        Whether the displacement is the exact product of this very traction: what a certificate stands on.
+    normal : array, shape (k, n)
+        Unit vectors of the traction in cells at their limit, zero elsewhere.
+    shift : NumPy array, shape (k,)
+        Displacement of the bodies [m].
+    slipped : array, shape (k, n)
+        Slip of the step [m], which is the slope of the energy.
+    residual : float
+    """
+
+    traction: Array
+    displacement: Array
+    exact: bool
+    normal: Array
+    shift: Array
+    slipped: Array
+    residual: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Slipped:
+    """The end of a step: traction [Pa], its displacement [m] on the cells, that of the bodies [m], and how good."""
+
+    traction: Array
+    displacement: Array
+    shift: Array
+    residual: float
+    steps: int
+    status: Status

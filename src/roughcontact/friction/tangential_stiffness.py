@@ -1,0 +1,137 @@
+"""The tangential stiffness of a contact region that sticks: its force per unit displacement."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import inner, namespace
+from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.slip_cg import Freedom, corrected
+from roughcontact.friction.slip_problem import Bodies, shear_body
+from roughcontact.grid import Grid
+from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.region import checked_region
+from roughcontact.threads import one_blas_thread
+
+__all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
+MAX_STEPS = 5000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TangentialStiffness:
+    """The response of a region that sticks and is displaced as one.
+
+    Attributes
+    ----------
+    matrix : array, shape (2, 2)
+        Force along x and y [N] per displacement along x and y [m]; symmetric. Zero for an empty region, infinite on the
+        diagonal for the whole of a periodic grid.
+    residual : float
+        Largest error of the unit displacements.
+    """
+
+    matrix: Array
+    residual: float
+
+    @property
+    def principal(self) -> tuple[Array, Array]:
+        """The two principal stiffnesses [N/m], the smaller first, and their directions (x, y), one a row."""
+        if not np.isfinite(self.matrix).all():
+            return np.diag(self.matrix), np.eye(2)
+        values, vectors = np.linalg.eigh(self.matrix)
+        return values, vectors.T
+
+
+def tangential_stiffness(
+    region: Mask,
+    grid: Grid,
+    bodies: Bodies,
+    *,
+    operator: ShearOperator | None = None,
+    tolerance: float = TOLERANCE,
+) -> TangentialStiffness:
+    """Return the stiffness of a given contact region against tangential displacement, if no cell slips.
+
+    Of a disc it is 2 G* a in every direction (Mindlin 1949; thesis, eq. 4.5), and so E*/G* times less than the normal
+    stiffness. Of other regions it depends on the direction: along the longer side of a rectangle it is smaller.
+
+    Parameters
+    ----------
+    region : bool array, shape ``grid.shape``
+        The cells in contact, for instance ``solution.contact``. On arrays of other libraries the work is done where
+        they live.
+    grid : Grid
+        Of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        One solid: against a rigid body. That normal and tangential displacements of unlike bodies couple is left out.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid.
+    tolerance : float
+        Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
+
+    Raises
+    ------
+    ValueError
+        If the region does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is none.
+    RuntimeError
+        If the tolerance was not reached.
+    """
+    body = shear_body(grid, bodies, operator)
+    cells, tolerance = checked_region(region, grid.shape), checked_tolerance(tolerance)
+    frozen = frozen_shear(body, cells, tolerance=tolerance)
+    if not frozen.residual <= tolerance:
+        raise RuntimeError(
+            f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
+        )
+    return frozen
+
+
+@one_blas_thread()
+def frozen_shear(
+    operator: ShearOperator, region: Mask, *, tolerance: float = TOLERANCE
+) -> TangentialStiffness:
+    """Return what `tangential_stiffness` does, with whatever residual was reached."""
+    if not bool(namespace(region).any(region)):
+        return TangentialStiffness(np.zeros((2, 2)), 0.0)
+    interface = Interface.of(operator, region)
+    if interface.floating:
+        return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
+    xp = namespace(region)
+    answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
+    # By what the errors are to the tractions, the matrix is good to the product of two errors, beside the diagonal too.
+    matrix = np.array(
+        [
+            [float(xp.sum(traction[of, :])) + inner(other, error) for of, (other, _) in enumerate(answers)]
+            for traction, error in answers
+        ]
+    )
+    residual = max(float(xp.max(xp.abs(error))) for _, error in answers)
+    return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
+
+
+def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+    """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
+    xp, traction = namespace(wanted), interface.zeros()
+    sticks = Freedom(traction, traction[0, :], held=False)
+    error, worst, steps = wanted, 1.0, 0
+    while worst > tolerance and steps < MAX_STEPS:
+        found = corrected(
+            interface, sticks, error, reduction=0.1 * tolerance / worst, max_steps=MAX_STEPS - steps
+        )
+        traction = traction + found.traction
+        error = wanted - interface.apply(traction)
+        before, worst, steps = worst, float(xp.max(xp.abs(error))), steps + found.steps + 1
+        if worst > 0.9 * before:  # rounding allows no more
+            break
+    return traction, error

@@ -1,0 +1,1 @@
+"""Operators: the linear maps from pressure to displacement."""

@@ -1,0 +1,158 @@
+"""The half-space under loads that do not change along one direction: line contact, per unit length."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import Grid
+from roughcontact.halfspace.influence.tables import Periodic, Strip, Tables
+from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import keeps_precision
+from roughcontact.halfspace.sums.methods import Sum, Summed, summed
+from roughcontact.halfspace.sums.multilevel import MultilevelOperator
+from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
+from roughcontact.material import Solid, as_modulus
+from roughcontact.theory.tools.numeric import numeric
+
+__all__ = ["LineOperator", "line"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineOperator:
+    """A line is a plane of one row, one metre wide.
+
+    Parameters
+    ----------
+    plane : FreeOperator or PeriodicOperator, or another sum of the former
+        On a grid of shape ``(1, n)`` and spacing ``(1, dx)``.
+    """
+
+    plane: Summed
+
+    @property
+    def geometry(self) -> Geometry:
+        """A line: forces are per unit length."""
+        return Geometry.LINE
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of one axis."""
+        plane = self.plane.grid
+        return Grid(plane.shape[1:], plane.spacing[1:], plane.periodic[1:])
+
+    @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa]."""
+        return self.plane.modulus
+
+    @property
+    def positive(self) -> bool:
+        """Whether no pressure lifts any cell."""
+        return self.plane.positive
+
+    @property
+    def exact(self) -> LineOperator | None:
+        """The same body without the error of its sum; None if there is none to speak of."""
+        return LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None
+
+    @property
+    def keeps_precision(self) -> bool:
+        """Whether products with fields in single precision are in single precision."""
+        return keeps_precision(self.plane)
+
+    @property
+    def weights(self) -> float:
+        """Width of a cell [m]: force per unit length of a unit pressure."""
+        return self.plane.weights
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
+        return self.plane.apply(pressure[None, ...])[0, ...]
+
+    def as_matrix(self, cells: Cells | None = None) -> Array:
+        """Return the matrix [m/Pa] between `cells` (all cells without)."""
+        return self.plane.as_matrix(cells)
+
+    def restrict(self, window: tuple[slice, ...]) -> LineOperator:
+        """Return the map between the cells of `window`, with no pressure outside and the same reference length."""
+        return LineOperator(self.plane.restrict((slice(0, 1), *window)))
+
+    def between(self, cells: Cells) -> CellsOperator:
+        """Return the map between a list of cells, with no pressure elsewhere."""
+        return self.plane.between(cells)
+
+    def coarsened(self, grid: Grid) -> LineOperator | None:
+        """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""
+        coarse = self.plane.coarsened(_plane(grid))
+        return None if coarse is None else LineOperator(coarse)
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]: every wave by E* q/2."""
+        return self.plane.approximate_inverse(displacement[None, ...])[0, ...]
+
+
+@numeric
+def line(
+    grid: Grid,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    reference_length: float | None = None,
+    method: Sum = "fft",
+) -> LineOperator:
+    """Return the half-space under loads that do not change along y: cylinders and rough lines.
+
+    Everything is per unit length along y: forces [N/m], stiffness [N/m^2], energy [J/m], contact area [m].
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of one axis, free or periodic.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    reference_length : float, optional
+        Of a free line: distance from a load at which its displacement is zero [m]; the grid's length without.
+        Depths hang on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
+        Pressures at given force do not.
+    method : {"fft", "moving-grid", "multilevel"}
+        How the sum over the cells is done, see `half_space`; the latter two on a free line.
+
+    Raises
+    ------
+    ValueError
+        If the grid has two axes or is one of rings, the reference length is shorter than the grid or given for a
+        periodic one, or the method is not for it.
+
+    Notes
+    -----
+    Strips of constant pressure, and means of the displacement over strips (thesis, eqs A.37 to A.46 as
+    corrected); a periodic line answers each wave by 2/(E* q), mean displacement zero.
+    """
+    value = as_modulus(modulus)
+    if not isinstance(grid, Grid) or grid.ndim != 1:
+        raise ValueError("a line contact needs a grid of one axis: Grid(n, spacing)")
+    plane = _plane(grid)
+    if all(grid.periodic):
+        if reference_length is not None:
+            raise ValueError("a periodic line has no reference length: its mean displacement is zero")
+        return LineOperator(summed(PeriodicOperator(plane, Periodic(plane, value)), method))
+    length = grid.lengths[0]
+    reference = length if reference_length is None else float(reference_length)
+    if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
+        raise ValueError(
+            f"the reference length must be finite and at least that of the grid, {length:g} m, not {reference:g}: "
+            "with a shorter one a load would lift the far end"
+        )
+    free = FreeOperator(plane, Tables(Strip(plane.spacing, value, reference), plane.shape))
+    return LineOperator(summed(free, method))
+
+
+def _plane(grid: Grid) -> Grid:
+    return Grid((1, *grid.shape), (1.0, *grid.spacing), (all(grid.periodic), *grid.periodic))

@@ -1,0 +1,1 @@
+"""Tangential traction: influence functions, operators and sums."""

@@ -1,0 +1,130 @@
+"""Two bodies under tangential traction: what their operators can do, and the one place that builds them."""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol, get_args, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.grid import AnyGrid, Grid
+from roughcontact.halfspace.shear.shear_influence import Cerruti, ShearCompliance, ShearWaves
+from roughcontact.halfspace.shear.shear_moving_grid import MovingGridShear
+from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
+from roughcontact.halfspace.shear.shear_sums import DenseShear, FreeShear, PeriodicShear
+from roughcontact.halfspace.sums.methods import Sum
+from roughcontact.material import Solid, reduced_modulus
+
+__all__ = ["ShearOperator", "dundurs_parameter", "shear_compliance", "shear_half_space"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+
+@runtime_checkable
+class ShearOperator(Protocol):
+    """A linear map from tangential traction [Pa] to the tangential displacement of body 1 against body 2 [m].
+
+    Fields have shape ``(2, ny, nx)``: the component along x, then that along y. Traction is what body 2 exerts on
+    body 1. The map is symmetric; on a free grid positive definite, on a periodic one semidefinite, since a constant
+    traction moves nothing. One whose sum is not exact has the ``exact`` one, by which answers are certified.
+    """
+
+    @property
+    def grid(self) -> Grid:
+        """The grid it works on."""
+        ...
+
+    @property
+    def weights(self) -> float:
+        """Area of a cell [m^2]: force of a unit traction."""
+        ...
+
+    def apply(self, traction: Array) -> Array:
+        """Return the displacement [m] under `traction` [Pa], both of shape ``(2, ny, nx)``."""
+        ...
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a traction [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
+        ...
+
+    def as_matrix(self, cells: Cells | None = None) -> Array:
+        """Return the matrix [m/Pa] between n `cells` (flat indices; all cells without), shape ``(2 n, 2 n)``.
+
+        The x components of all cells come first, then the y components.
+        """
+        ...
+
+    def restrict(self, window: tuple[slice, ...]) -> ShearOperator:
+        """Return the map between the cells of `window`, with no traction outside."""
+        ...
+
+
+def shear_half_space(
+    grid: AnyGrid,
+    first: Solid,
+    second: Solid | None = None,
+    *,
+    method: Literal["dense"] | Sum = "fft",
+) -> ShearOperator:
+    """Return two elastic half-spaces under tangential traction (Cerruti's problem) on a grid of two axes.
+
+    Both components of the traction, and their coupling through Poisson's ratio, are in it. That between normal and
+    tangential displacement is not: it vanishes for equal bodies and where both are incompressible, and for others
+    `dundurs_parameter` says how strong it is.
+
+    Parameters
+    ----------
+    grid : Grid
+        Free or periodic along both axes.
+    first, second : Solid
+        The bodies; without a second one the partner is rigid.
+    method : {"fft", "dense", "moving-grid", "multilevel"}
+        How the sum over the n cells is done, as for `half_space`: by fast Fourier transforms; with the full matrix (32
+        n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
+        (inexact by some 1e-6, see `MultilevelShear`; what drives with it is certified by the exact sum).
+
+    Raises
+    ------
+    ValueError
+        If the grid has one axis, is one of rings, or periodic along one axis only; if the method is not for it; if both
+        bodies are rigid.
+    """
+    if not isinstance(grid, Grid) or grid.ndim != 2:
+        raise ValueError("tangential traction needs a grid of two axes; lines and rings are not offered")
+    if any(grid.periodic) != all(grid.periodic):
+        raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
+    compliance = shear_compliance(first, second)
+    operator: FreeShear | PeriodicShear
+    if all(grid.periodic):
+        operator = PeriodicShear(grid, ShearWaves(grid, compliance))
+    else:
+        operator = FreeShear(grid, Cerruti(grid.spacing, compliance))
+    if method == "fft":
+        return operator
+    if method == "dense":
+        return DenseShear(grid, operator.as_matrix())
+    if method not in get_args(Sum):
+        names = ", ".join(map(repr, get_args(Sum)))
+        raise ValueError(f"method must be one of {names} or 'dense', not {method!r}")
+    if not isinstance(operator, FreeShear):
+        raise ValueError(f"the method {method!r} is for free grids; a periodic one is summed by 'fft'")
+    return MovingGridShear(operator) if method == "moving-grid" else MultilevelShear(operator)
+
+
+def shear_compliance(first: Solid, second: Solid | None = None) -> ShearCompliance:
+    """Return what two bodies yield to tangential traction; without a `second` its partner is rigid."""
+    along = 1 / reduced_modulus(first, second)  # which refuses what is no pair of bodies
+    bodies = (first,) if second is None else (first, second)
+    return ShearCompliance(along, sum(1 / (2 * body.shear_modulus) for body in bodies))
+
+
+def dundurs_parameter(first: Solid, second: Solid | None = None) -> float:
+    """Return Dundurs's second parameter, beta: how much normal and tangential displacements couple, -1/2 to 1/2.
+
+    It is zero for equal bodies and where both are incompressible; without a `second` body the partner is rigid.
+    """
+    compliance = 1 / reduced_modulus(first, second)
+    signs = zip((first,) if second is None else (first, second), (1, -1), strict=False)
+    differing = sum(sign * (1 - 2 * body.poisson_ratio) / body.shear_modulus for body, sign in signs)
+    return differing / (4 * compliance)

@@ -1,0 +1,1 @@
+"""Stress and displacement below the surface."""

@@ -1,0 +1,246 @@
+"""Displacement and stress below the surface, under any pressure on a free or periodic half-space."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.cached import cached_property
+from roughcontact.grid import AnyGrid, Grid
+from roughcontact.halfspace.subsurface.field_transform import (
+    Parity,
+    convolve_each,
+    padded_lengths,
+    parity_multiplier,
+)
+from roughcontact.halfspace.subsurface.love_field import (
+    DISPLACEMENT_PARITY,
+    STRESS_PARITY,
+    displacement_table,
+    stress_table,
+)
+from roughcontact.halfspace.subsurface.row_field import row_stress_table
+from roughcontact.halfspace.subsurface.wave_field import displacement_waves, stress_waves
+from roughcontact.material import Solid
+
+__all__ = ["Displacement", "Stress", "displacement", "stress"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Stress:
+    """Stresses below the cells of a grid [Pa], positive in tension.
+
+    Attributes
+    ----------
+    grid : Grid
+    depth : float or array, shape (nz,)
+        Depth below the surface [m].
+    xx, yy, zz : arrays, shape ``(ny, nx)``, or ``(nz, ny, nx)`` for several depths
+        Normal stresses; z points into the body.
+    xy, xz, yz : arrays of that shape
+        Shear stresses.
+    """
+
+    grid: Grid
+    depth: float | Array
+    xx: Array
+    yy: Array
+    zz: Array
+    xy: Array
+    xz: Array
+    yz: Array
+
+    @cached_property
+    def von_mises(self) -> Array:
+        """Equivalent stress of von Mises [Pa]: at its yield stress, a metal begins to flow."""
+        direct = (self.xx - self.yy) ** 2 + (self.yy - self.zz) ** 2 + (self.zz - self.xx) ** 2
+        return np.asarray(np.sqrt(direct / 2 + 3 * (self.xy**2 + self.xz**2 + self.yz**2)))
+
+    @cached_property
+    def principal(self) -> Array:
+        """Principal stresses [Pa], the largest first, in a last axis of three."""
+        rows = ((self.xx, self.xy, self.xz), (self.xy, self.yy, self.yz), (self.xz, self.yz, self.zz))
+        tensor = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        return np.asarray(np.linalg.eigvalsh(tensor)[..., ::-1])
+
+    @property
+    def largest_shear(self) -> Array:
+        """Largest shear stress on any plane [Pa], half of Tresca's equivalent stress."""
+        return np.asarray((self.principal[..., 0] - self.principal[..., 2]) / 2)
+
+    @property
+    def mean(self) -> Array:
+        """Mean of the normal stresses [Pa], the negative of the hydrostatic pressure."""
+        return (self.xx + self.yy + self.zz) / 3
+
+
+@dataclass(frozen=True, eq=False)
+class Displacement:
+    """Displacements below the cells of a grid [m].
+
+    Attributes
+    ----------
+    grid : Grid
+    depth : float or array, shape (nz,)
+        Depth below the surface [m].
+    x, y, z : arrays, shape ``(ny, nx)``, or ``(nz, ny, nx)`` for several depths
+        Along the axes; z points into the body. On a free grid they vanish far away, on a periodic one their means
+        vanish on the surface.
+    """
+
+    grid: Grid
+    depth: float | Array
+    x: Array
+    y: Array
+    z: Array
+
+
+def stress(pressure: Array, grid: AnyGrid, depth: float | Array, poisson_ratio: float) -> Stress:
+    """Return the stresses at a depth, or at several, below the middles of the cells.
+
+    Parameters
+    ----------
+    pressure : array, shape ``grid.shape``
+        On the surface [Pa]; without friction.
+    grid : Grid
+        Of two axes, free or periodic.
+    depth : float or array, shape (nz,)
+        Depth below the surface [m], 0 or more.
+    poisson_ratio : float
+        Of the body. Its modulus plays no part.
+
+    Raises
+    ------
+    ValueError
+        If the pressure does not fit the grid, the grid is no such, or depth or Poisson's ratio make no sense.
+
+    Notes
+    -----
+    A convolution for each component and depth: on a free grid with the closed forms of uniformly loaded cells
+    (`roughcontact.halfspace.subsurface.love_field`), on a periodic one wave by wave
+    (`roughcontact.halfspace.subsurface.wave_field`), on one that is periodic along one axis with the images
+    of each cell, to 1e-8 of the mean pressure. Less than a cell below the surface the stresses are those of
+    the cells, not of the contact: they jump from cell to cell, and above their edges grow without bound. Two
+    bodies in contact carry the same pressure, each with its own Poisson's ratio.
+    """
+    p, plane = _checked(pressure, grid)
+    at, nu = _depths(depth), _ratio(poisson_ratio)
+    multipliers = partial(_stress_multipliers, plane, poisson_ratio=nu)
+    return Stress(plane, at, *_fields(p, plane, at, multipliers, STRESS_PARITY))
+
+
+def displacement(pressure: Array, grid: AnyGrid, depth: float | Array, solid: Solid) -> Displacement:
+    """Return the displacements of a `solid` at a depth, or at several, below the middles of the cells.
+
+    Parameters
+    ----------
+    pressure, grid, depth
+        As of `stress`.
+    solid : Solid
+        The body.
+
+    Raises
+    ------
+    ValueError
+        As `stress`, or if the solid is rigid.
+    """
+    if not (isinstance(solid, Solid) and np.isfinite(solid.young_modulus)):
+        raise ValueError(f"displacements need an elastic Solid(young_modulus, poisson_ratio), not {solid!r}")
+    p, plane = _checked(pressure, grid)
+    if any(grid.periodic) != all(grid.periodic):
+        raise ValueError("below a row of loads displacements have no bound; stresses have")
+    at = _depths(depth)
+    multipliers = partial(_displacement_multipliers, plane, poisson_ratio=solid.poisson_ratio)
+    return Displacement(
+        plane, at, *_fields(p / solid.shear_modulus, plane, at, multipliers, DISPLACEMENT_PARITY)
+    )
+
+
+def _fields(
+    pressure: Array,
+    grid: Grid,
+    depth: float | Array,
+    multipliers: Callable[[float], Sequence[Array]],
+    parities: Sequence[Parity],
+) -> Array:
+    """Return the components at every depth, shape ``(components, *depths, ny, nx)``."""
+    depths = np.atleast_1d(depth)
+    fields = np.empty((len(parities), len(depths), *grid.shape))
+    for i, z in enumerate(depths.tolist()):
+        found = convolve_each(pressure, multipliers(z), parities, _padded(grid))
+        for field, component in zip(fields, found, strict=True):
+            field[i] = component
+    return fields if np.ndim(depth) else fields[:, 0]
+
+
+def _padded(grid: Grid) -> tuple[int, int]:
+    """Return the lengths of the transforms: those of a period, or enough for a free axis."""
+    y, x = (
+        n if periodic else free
+        for n, periodic, free in zip(grid.shape, grid.periodic, padded_lengths(grid.shape), strict=True)
+    )
+    return y, x
+
+
+def _stress_multipliers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
+    if all(grid.periodic):
+        return list(stress_waves(grid, depth, poisson_ratio))
+    if not any(grid.periodic):
+        kernels = stress_table(grid.shape, grid.spacing, depth, poisson_ratio)
+    elif grid.periodic[0]:
+        kernels = row_stress_table(grid.shape, grid.spacing, depth, poisson_ratio)
+    else:  # x and y change places
+        kernels = row_stress_table(grid.shape[::-1], grid.spacing[::-1], depth, poisson_ratio)
+        kernels = kernels.transpose(0, 2, 1)[[1, 0, 2, 3, 5, 4]]
+    return _transformed(grid, kernels, STRESS_PARITY)
+
+
+def _displacement_multipliers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
+    if all(grid.periodic):
+        return list(displacement_waves(grid, depth, poisson_ratio))
+    kernels = displacement_table(grid.shape, grid.spacing, depth, poisson_ratio)
+    return _transformed(grid, kernels, DISPLACEMENT_PARITY)
+
+
+def _transformed(grid: Grid, kernels: Array, parities: Sequence[Parity]) -> Sequence[Array]:
+    return [
+        parity_multiplier(kernel, parity, _padded(grid), grid.periodic)
+        for kernel, parity in zip(kernels, parities, strict=True)
+    ]
+
+
+def _checked(pressure: Array, grid: AnyGrid) -> tuple[Array, Grid]:
+    if not isinstance(grid, Grid) or grid.ndim != 2:
+        raise ValueError(
+            "fields below the surface need a grid of two axes; a line is a strip of it, "
+            "Grid((ny, nx), spacing, periodic=True) with one pressure on each column"
+        )
+    p = np.asarray(pressure, dtype=np.float64)
+    if p.shape != grid.shape:
+        raise ValueError(f"a pressure of shape {p.shape} does not fit the grid of shape {grid.shape}")
+    if not np.isfinite(p).all():
+        raise ValueError("the pressure must be finite [Pa]: zero where nothing touches")
+    return p, grid
+
+
+def _depths(depth: float | Array) -> float | Array:
+    z = np.asarray(depth, dtype=np.float64)
+    if z.ndim > 1 or not z.size:
+        raise ValueError(f"depth must be a number or a list of numbers [m], not of shape {z.shape}")
+    if not (np.isfinite(z).all() and (z >= 0).all()):
+        raise ValueError(
+            f"the depth counts from the surface into the body: at least 0 and finite [m], not {depth}"
+        )
+    return z if z.ndim else float(z)
+
+
+def _ratio(poisson_ratio: float) -> float:
+    if not -1 < poisson_ratio <= 0.5:
+        raise ValueError(f"poisson_ratio must lie above -1 and at most at 0.5, not {poisson_ratio}")
+    return float(poisson_ratio)

@@ -1,0 +1,1 @@
+"""Fast sums over the cells of a half-space."""

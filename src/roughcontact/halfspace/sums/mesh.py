@@ -1,0 +1,110 @@
+"""Nodes under tiles: what is smooth is carried by few of them, through B-splines."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import BSpline
+
+from roughcontact.halfspace.sums.tiles import SIDE, Tiles, count
+
+__all__ = ["ORDER", "Nodes", "node_shape", "sharpened"]
+
+Array = npt.NDArray[np.float64]
+Single = npt.NDArray[Any]  # of single precision
+Cells = npt.NDArray[np.intp]
+Pair = tuple[int, int]
+
+ORDER = 6  # of the splines: each cell has as many nodes along each axis
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nodes:
+    """Nodes every few cells, and how they lie under tiles.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Nodes along each axis.
+    indices : int array, shape (tiles, m)
+        The nodes that each tile is spread to.
+    weights : array, shape (SIDE * SIDE, m)
+        The splines of these at the cells of a tile.
+    """
+
+    shape: Pair
+    indices: Cells
+    weights: Single
+
+    @classmethod
+    def under(cls, tiles: Tiles, step: Pair, periodic: bool) -> Nodes:
+        """Return the nodes of a plane, `step` cells apart, and beyond its edges unless it is `periodic`."""
+        shape, before = node_shape(tiles.shape, step, periodic), ORDER // 2 - 1
+        ky, kx = (np.arange(-before, SIDE // s + before + 1) for s in step)
+        y = tiles.rows[:, None] * (SIDE // step[0]) + ky
+        x = tiles.columns[:, None] * (SIDE // step[1]) + kx
+        y, x = (y % shape[0], x % shape[1]) if periodic else (y + before, x + before)
+        indices = y[:, :, None] * shape[1] + x[:, None, :]
+        weights = np.kron(_splines(ky, step[0]), _splines(kx, step[1])).T
+        return cls(
+            shape,
+            indices.reshape(len(tiles), -1),
+            np.ascontiguousarray(weights, dtype=np.float32),
+        )
+
+    def spread(self, values: Single) -> Single:
+        """Return the field on the nodes that values on the tiles add up to."""
+        parts = (values @ self.weights).ravel()
+        return (
+            np.bincount(self.indices.ravel(), parts, math.prod(self.shape))
+            .reshape(self.shape)
+            .astype(np.float32)
+        )
+
+    def gather(self, field: Single) -> Single:
+        """Return what a field on the nodes is in the cells of the tiles: the transpose of `spread`."""
+        return np.asarray(field.ravel()[self.indices] @ self.weights.T)
+
+
+def node_shape(cells: Pair, step: Pair, periodic: bool) -> Pair:
+    """Return how many nodes a plane takes."""
+    ny, nx = (
+        n // s if periodic else count(n) * (SIDE // s) + ORDER - 1 for n, s in zip(cells, step, strict=True)
+    )
+    return ny, nx
+
+
+def sharpened(transform: Array, lengths: Pair) -> Array:
+    """Return the transform of a function on nodes, so that splines before and after it do not blur.
+
+    Parameters
+    ----------
+    transform : array, shape (lengths[0] // 2 + 1, lengths[1] // 2 + 1)
+    lengths : tuple of int
+        Nodes along each axis.
+    """
+    ny, nx = lengths
+    return np.asarray(transform / _spectrum(ny)[:, None] / _spectrum(nx))
+
+
+def _spectrum(length: int) -> Array:
+    """Return the square of the transform of a spline at the nodes."""
+    angle = 2 * math.pi * np.arange(length // 2 + 1) / length
+    k = np.arange(1, ORDER // 2)
+    values = _spline(np.arange(ORDER // 2))
+    return np.asarray((values[0] + 2 * np.cos(angle[:, None] * k) @ values[1:]) ** 2)
+
+
+def _splines(nodes: Cells, step: int) -> Array:
+    """Return the splines of nodes, counted from the edge of a tile, at its cells, shape (nodes, SIDE)."""
+    return _spline((np.arange(SIDE) + 0.5) / step - nodes[:, None])
+
+
+def _spline(x: npt.ArrayLike) -> Array:
+    """Return the central B-spline at distances of `x` nodes."""
+    knots = np.arange(ORDER + 1) - ORDER / 2
+    return np.nan_to_num(BSpline.basis_element(knots, extrapolate=False)(np.asarray(x, dtype=float)))

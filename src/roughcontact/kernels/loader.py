@@ -1,0 +1,196 @@
+"""Machine code: translated once, kept on disk, found there by the next process."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import hashlib
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from roughcontact.kernels import disk
+from roughcontact.kernels.processor import is_off, processor
+from roughcontact.threads import once
+
+__all__ = ["address", "code_for", "functions", "is_available", "takes"]
+
+COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code depends on
+_POINTER = ctypes.c_void_p
+_ENGINES: list[Any] = []  # they own the code that runs
+_NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
+_REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
+
+
+@once
+def is_available() -> bool:
+    """Whether LLVM makes code that runs here, and is wanted; without it NumPy and SciPy do everything.
+
+    Raises
+    ------
+    ValueError
+        If the environment names a processor that is not known, or whose instructions this machine lacks.
+    """
+    if is_off():
+        return False
+    try:
+        functions("scaling", "float64")  # the smallest
+    except (AttributeError, ImportError, OSError, RuntimeError, TypeError):
+        return False
+    return True
+
+
+def code_for(family: str, field: Any) -> Mapping[str, Callable[..., None]]:
+    """Return the functions of a module for the precision of a NumPy array."""
+    return functions(family, _NAMES[field.dtype.char])
+
+
+@once
+def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
+    """Return the functions of a module of this package, which take arrays by their addresses.
+
+    Parameters
+    ----------
+    family : str
+        Name of the module. Its ``KINDS`` says which functions there are, with the kinds of their parameters, and its
+        ``write(module, precision)`` writes them.
+    precision : {"float32", "float64"}
+
+    Notes
+    -----
+    Other threads run meanwhile. The first call on a machine takes about a second; later processes find the code in
+    the user's folder for caches, if there is one and nobody else can write to it.
+    """
+    writer, key = _families()[family], _key(family, precision)
+    if key is None:
+        return _loaded(_translated(writer, precision), writer.KINDS, precision)
+    file = f"{family}-{precision}-{key.hex()[:32]}.o"
+    found = disk.read(file, key)
+    if found is not None:
+        with contextlib.suppress(RuntimeError):
+            return _loaded(found, writer.KINDS, precision)
+    code = _translated(writer, precision)
+    loaded = _loaded(code, writer.KINDS, precision)
+    disk.keep(file, key, code)
+    return loaded
+
+
+def takes(field: Any) -> bool:
+    """Whether machine code can work on a field: of NumPy, double or single precision, and the order of this machine."""
+    if not isinstance(field, np.ndarray):
+        return False
+    return field.dtype.char in _NAMES and bool(field.dtype.isnative) and is_available()
+
+
+def address(array: Any) -> int:
+    """Return where a NumPy array begins."""
+    try:
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))
+    except (TypeError, ValueError):  # read only, empty, or not contiguous: a slower way
+        found: int = array.__array_interface__["data"][0]
+        return found
+
+
+def _families() -> Mapping[str, Any]:
+    """Return the modules that write code, imported late and by names that bundlers of programs see."""
+    from roughcontact.kernels import fft as fourier
+    from roughcontact.kernels import judging, passes, scaling
+    from roughcontact.kernels import tile_kernels as tiles
+
+    return {"fourier": fourier, "judging": judging, "passes": passes, "scaling": scaling, "tiles": tiles}
+
+
+@cache
+def _target() -> Any:
+    return _new_target()
+
+
+def _new_target() -> Any:
+    """Return a description of the processor; every engine owns one."""
+    from llvmlite import binding
+
+    _ = binding.ModulePassManager.add_sroa_pass  # from 0.45 on
+    with contextlib.suppress(RuntimeError):  # newer versions do it by themselves, and say so
+        binding.initialize()
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    return binding.Target.from_default_triple().create_target_machine(
+        cpu=processor().name,
+        features=processor().features,
+        opt=3,
+        codemodel="jitdefault",
+        jit=True,
+    )
+
+
+def _translated(writer: Any, precision: str) -> bytes:
+    from llvmlite import binding, ir
+
+    written = ir.Module(writer.__name__)
+    writer.write(written, precision)
+    module = binding.parse_assembly(str(written))
+    module.triple, module.data_layout = _target().triple, str(_target().target_data)
+    options = binding.create_pipeline_tuning_options(speed_level=0)
+    passes = binding.create_pass_builder(_target(), options)
+    manager = binding.create_new_module_pass_manager()
+    manager.add_sroa_pass()
+    manager.add_instruction_combine_pass()
+    manager.add_simplify_cfg_pass()
+    manager.run(module, passes)
+    return bytes(_target().emit_object(module))
+
+
+def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, Callable[..., None]]:
+    """Return the functions in some object code.
+
+    Raises
+    ------
+    RuntimeError
+        If one of them is not in it.
+    """
+    from llvmlite import binding
+
+    empty = binding.parse_assembly("")
+    engine = binding.create_mcjit_compiler(empty, _new_target())
+    engine.add_object_file(binding.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    places = {name: engine.get_function_address(f"{name}_{precision}") for name in kinds}
+    if 0 in places.values():
+        raise RuntimeError(f"not all of {', '.join(places)} are in the code")
+    _ENGINES.append(engine)
+    types = {
+        "index": ctypes.c_int64,
+        "indices": _POINTER,
+        "reals": _POINTER,
+        "doubles": _POINTER,
+        "flags": _POINTER,
+        "double": ctypes.c_double,
+        "real": _REALS[precision],
+    }
+    return {
+        name: ctypes.CFUNCTYPE(None, *(types[kind] for kind in parameters.split()))(places[name])
+        for name, parameters in kinds.items()
+    }
+
+
+def _key(family: str, precision: str) -> bytes | None:
+    """Return a digest of all that the code depends on; None where the texts are missing, as in bundles of programs."""
+    from llvmlite import __version__, binding
+
+    try:
+        texts = [_text(name) for name in (*COMMON, family)]
+    except OSError:
+        return None
+    llvm = ".".join(map(str, binding.llvm_version_info))
+    parts = (family, precision, __version__, llvm, _target().triple, *processor())
+    digest = hashlib.sha256()
+    for part in (*(part.encode() for part in parts), *texts):
+        digest.update(hashlib.sha256(part).digest())
+    return digest.digest()
+
+
+def _text(module: str) -> bytes:
+    return resources.files("roughcontact.kernels").joinpath(f"{module}.py").read_bytes()

@@ -1,0 +1,1 @@
+"""Names, units and labels of everything that leaves the library."""

@@ -1,0 +1,75 @@
+"""The pieces that labelled answers are made of: variables with units, words, plain values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import VARIABLES, unit_of
+
+if TYPE_CHECKING:
+    import xarray
+
+
+__all__ = ["dataset_of", "plain_values", "sizes", "units_of", "variable", "word", "words"]
+
+
+def variable(
+    name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
+) -> tuple[Any, Any, dict[str, str]]:
+    """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
+    unit = unit_of(name, geometry)
+    attributes = {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
+    return dimensions, np.asarray(values), attributes
+
+
+def sizes(lengths: Any, spacing: Any, periodic: Any) -> dict[str, Any]:
+    """Return the size of the grid, one value for each axis."""
+    values = {"lengths": lengths, "spacing": spacing, "periodic": periodic}
+    return {name: variable(name, ("axis",), value) for name, value in values.items()}
+
+
+def dataset_of(
+    data: dict[str, Any], coordinates: dict[str, Any], title: str, geometry: Geometry
+) -> xarray.Dataset:
+    """Return the variables and coordinates as a dataset, with the names of the grid's axes."""
+    import xarray
+
+    told = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
+    axis = (("axis",), list(geometry.axes), {"long_name": told})
+    attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
+    return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
+
+
+def units_of(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
+    """Return the units of those names in a record that have one."""
+    units = {name: unit_of(name, geometry) for name in record if name in VARIABLES}
+    return {name: unit for name, unit in units.items() if unit}
+
+
+def word(status: Enum) -> str:
+    """Return the word that a file holds for how a solve ended."""
+    return str(status.value)
+
+
+def words(statuses: Iterable[Enum]) -> list[str]:
+    """Return `word` of each."""
+    return [word(status) for status in statuses]
+
+
+def plain_values(value: Any) -> Any:
+    """Return a number, an array or a sequence as built-in types, with None for what is not finite."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    elif isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, list | tuple):
+        return [plain_values(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

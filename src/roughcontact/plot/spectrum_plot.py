@@ -1,0 +1,164 @@
+"""Power spectra, drawn on axes that the caller owns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.plot.engineering_units import Scale, scale
+from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import readable_ticks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from roughcontact.surface.analysis.hurst import HurstFit
+    from roughcontact.surface.analysis.power import PowerSpectrum
+
+__all__ = ["SpectrumScales", "spectrum_axes", "spectrum_curve"]
+
+Array = npt.NDArray[Any]
+
+_POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
+_DRAWN = 40.0  # bins to a decade: more are a band of ink
+_ROOM = 2.0  # space beyond the lowest density of a logarithmic axis, as a factor
+
+
+@dataclass(frozen=True, slots=True)
+class SpectrumScales:
+    """The units of a picture of spectra: multiply values in SI by these.
+
+    Parameters
+    ----------
+    wavenumber : float
+        Radians per metre to radians per the unit of the wavelengths.
+    density : Scale
+        Of C2D [m^4] or C1D [m^3].
+    length : Scale
+        Of wavelengths [m].
+    """
+
+    wavenumber: float
+    density: Scale
+    length: Scale
+
+
+def spectrum_curve(
+    axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = None, *, label: str = "measured"
+) -> None:
+    """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
+
+    Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
+    averaged to forty a decade. `law` is laid over the band that it was fitted in; vertical lines mark where it ends.
+    `label` says in the legend where the spectrum comes from.
+    """
+    shown = spectrum.rebinned(_DRAWN)
+    with_power = shown.density > 0  # a logarithmic axis has no place for zero
+    wavelengths = shown.wavelength[with_power]
+    scales = spectrum_axes(axes, shown.kind, wavelengths, shown.density[with_power])
+    q, density = shown.wavenumber * scales.wavenumber, shown.density * scales.density.factor
+    width = shown.standard_error * scales.density.factor
+    inside = (shown.wavenumber >= shown.q_min * (1 - 1e-9)) & (shown.wavenumber <= shown.q_max * (1 + 1e-9))
+    axes.plot(q[with_power], density[with_power], ".", color="0.7", markersize=3, zorder=2)
+    reliable = inside & with_power
+    # A bin of few waves may be known to less than its own size: half of it is as low as the band goes.
+    low = np.maximum(density - width, density / 2)
+    axes.fill_between(
+        q[reliable], low[reliable], (density + width)[reliable], color=_POINTS, alpha=0.2, linewidth=0
+    )
+    axes.plot(
+        q[reliable],
+        density[reliable],
+        ".-",
+        color=_POINTS,
+        markersize=4,
+        linewidth=0.8,
+        zorder=3,
+        label=label,
+    )
+    if law is not None:
+        _draw_law(axes, law, scales)
+    # Last, since a limit that is set ends the fitting of the axis to what is drawn.
+    axes.set_ylim(bottom=float(density[with_power].min()) / _ROOM)
+    axes.legend(loc="lower left", fontsize=TICK, frameon=False)
+
+
+def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -> SpectrumScales:
+    """Make axes logarithmic, label them, and put wavelengths on the upper one; return the scales to draw with.
+
+    Parameters
+    ----------
+    axes : Axes
+    kind : {"C2D", "C1D"}
+    wavelengths, densities : array
+        All that will be drawn [m; m^4 or m^3]; they choose the units.
+    """
+    length = scale(math.sqrt(float(wavelengths.min()) * float(wavelengths.max())), "m")
+    power = {"C2D": 4, "C1D": 3}[kind]
+    density = scale(float(densities.max()), f"m{power}")
+    axes.set(xscale="log", yscale="log")
+    dimension = kind[1:]
+    axes.set_xlabel(f"wavenumber q [rad/{length.unit}]", fontsize=LABEL)
+    axes.set_ylabel(rf"power spectrum $C_{{\mathrm{{{dimension}}}}}$ [{density.unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK, which="both")
+    axes.grid(True, which="major", color="0.92", linewidth=0.8)
+    axes.set_axisbelow(True)
+    low, high = (2 * math.pi / (w * length.factor) for w in (wavelengths.max(), wavelengths.min()))
+    axes.set_xlim(low / 1.3, high * 1.3)
+    top = axes.secondary_xaxis("top", functions=(_other, _other))
+    for axis in (axes.xaxis, top.xaxis):
+        readable_ticks(axis, high / low)
+    top.set_xlabel(f"wavelength [{length.unit}]", fontsize=LABEL)
+    top.tick_params(labelsize=TICK, which="both")
+    return SpectrumScales(1 / length.factor, density, length)
+
+
+def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
+    ends = (law.rolloff_wavelength, law.cutoff_wavelength, law.short_wavelength)
+    # Corners belong among the points, so that a plateau ends where it ends.
+    corners = [2 * math.pi / w for w in ends if w is not None]
+    q = np.unique(np.concatenate([np.geomspace(*law.band, 200), np.clip(corners, *law.band)]))
+    values = law(q)
+    drawn = values > 0
+    label = f"H = {law.hurst:.3f} ± {law.standard_error:.3f}"
+    axes.plot(
+        q[drawn] * scales.wavenumber,
+        values[drawn] * scales.density.factor,
+        color=_LAW,
+        linewidth=1.8,
+        zorder=4,
+        label=label,
+    )
+    for wavelength, name in zip(ends, ("roll-off", "cut-off", "short end"), strict=True):
+        if wavelength is not None:
+            text = f"{name} {wavelength * scales.length.factor:.3g} {scales.length.unit}"
+            # Where the spectrum leaves room: below it at its long waves, above it at its short ones.
+            place: tuple[float, Literal["top", "bottom"]] = (
+                (0.98, "top") if name == "short end" else (0.2, "bottom")
+            )
+            _mark(axes, 2 * math.pi / wavelength * scales.wavenumber, text, place)
+
+
+def _mark(axes: Axes, q: float, text: str, place: tuple[float, Literal["top", "bottom"]]) -> None:
+    axes.axvline(q, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
+    axes.annotate(
+        text,
+        (q, place[0]),
+        xycoords=axes.get_xaxis_transform(),
+        xytext=(3, 0),
+        textcoords="offset points",
+        rotation=90,
+        va=place[1],
+        fontsize=TICK,
+        color=_LIMIT,
+    )
+
+
+def _other(value: npt.ArrayLike) -> Array:
+    """Return the wavelength of a wavenumber, and the other way round; 0 is asked for before anything is drawn."""
+    given = np.asarray(value, dtype=np.float64)
+    return np.asarray(2 * np.pi / np.where(given == 0, np.finfo(float).tiny ** 0.5, given))

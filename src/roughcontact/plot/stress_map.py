@@ -1,0 +1,113 @@
+"""The stress below a line of cells, drawn on axes that the caller owns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from roughcontact.contact.below import half_space_grid, loaded_part, ratio_of
+from roughcontact.halfspace.subsurface.fields_below import stress
+from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.raster import LABEL, TICK, colour_bar, length_scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from roughcontact.contact.solution import Solution
+    from roughcontact.material import Solid
+
+__all__ = ["von_mises_figure", "von_mises_section"]
+
+DEPTHS = 40
+
+
+def von_mises_section(
+    axes: Axes,
+    solution: Solution,
+    solid: Solid | float,
+    *,
+    row: int | None = None,
+    deepest: float | None = None,
+) -> None:
+    """Draw the equivalent stress of von Mises below a row of cells, and mark where it is largest there.
+
+    A line along the top shows which cells are in contact.
+
+    Parameters
+    ----------
+    axes : Axes
+    solution : Solution
+        Of a half-space under a surface, with at least one cell in contact.
+    solid : Solid or float
+        The body looked into, or its Poisson's ratio.
+    row : int, optional
+        Index of the row; the one that holds the largest pressure without.
+    deepest : float, optional
+        Depth where the picture ends [m]; the extent of the contact without.
+
+    Raises
+    ------
+    ValueError
+        If the solution is not that of a half-space under a surface, nothing is in contact, or the row is not one.
+    """
+    import matplotlib
+
+    grid, nu = half_space_grid(solution), ratio_of(solid)
+    pressure, part, first = loaded_part(solution.pressure, grid)
+    if row is None:
+        row = int(np.argmax(solution.pressure.max(axis=1)))
+    if not first[0] <= row < first[0] + part.shape[0]:
+        raise ValueError(
+            f"row {row} lies beside the contact: choose one from {first[0]} to {first[0] + part.shape[0] - 1}"
+        )
+    loaded = np.flatnonzero(pressure.any(axis=0)), np.flatnonzero(pressure.any(axis=1))
+    extent = max(step * (np.ptp(cells) + 1) for step, cells in zip(part.spacing[::-1], loaded, strict=True))
+    bottom = float(extent) if deepest is None else float(deepest)
+    if not (np.isfinite(bottom) and bottom > 0):
+        raise ValueError(f"the picture must end at a positive, finite depth [m], not {deepest}")
+    depths = (np.arange(DEPTHS) + 0.5) * bottom / DEPTHS
+    here = row - first[0]
+    values = np.stack([stress(pressure, part, depth, nu).von_mises[here] for depth in depths])
+
+    unit, length = scale(float(values.max()), "Pa"), length_scale(grid)
+    left = first[1] * grid.spacing[1] * length.factor
+    right = left + part.lengths[1] * length.factor
+    image = axes.imshow(
+        values * unit.factor,
+        cmap=matplotlib.colormaps["inferno"],
+        vmin=0.0,
+        interpolation="nearest",
+        origin="upper",
+        extent=(left, right, bottom * length.factor, 0.0),
+    )
+    x = np.linspace(left, right, part.shape[1] + 1)
+    touching = np.flatnonzero(pressure[here] > 0)
+    axes.hlines(
+        np.zeros(len(touching)), x[touching], x[touching + 1], color="#0072b2", linewidth=4, clip_on=False
+    )
+    deep, across = np.unravel_index(int(values.argmax()), values.shape)
+    axes.plot(
+        (x[across] + x[across + 1]) / 2,
+        depths[deep] * length.factor,
+        marker="+",
+        color="black",
+        markersize=9,
+        markeredgewidth=1.5,
+    )
+    axes.set_title(
+        f"largest in this section {written(float(values.max()), 'Pa')}, {written(float(depths[deep]), 'm')} deep",
+        fontsize=LABEL,
+    )
+    axes.set_xlabel(f"x [{length.unit}]", fontsize=LABEL)
+    axes.set_ylabel(f"depth [{length.unit}]", fontsize=LABEL)
+    axes.tick_params(labelsize=TICK)
+    colour_bar(axes, image, f"von Mises stress [{unit.unit}]")
+
+
+def von_mises_figure(solution: Solution, solid: Solid | float, *, row: int | None = None) -> Figure:
+    """Return the equivalent stress of von Mises below a row of cells."""
+    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
+    von_mises_section(figure.subplots(), solution, solid, row=row)
+    return figure

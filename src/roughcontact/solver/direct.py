@@ -1,0 +1,154 @@
+"""Small contact regions by a dense factorisation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+
+from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.solver.control import Control, Force
+from roughcontact.solver.inner_product import Measure
+
+__all__ = ["DENSE_LIMIT", "Pressed", "press_cells", "solve_cells"]
+
+Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
+
+DENSE_LIMIT = 2000  # cells: a matrix of 32 MB; time and memory grow with the third and second power beyond
+
+# Letting go of one cell costs two triangular solves, a new factorisation a sixth of the cells as many.
+FEW = 1 / 8
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pressed:
+    """A pressure [Pa] on `cells`, nowhere negative, its depth [m], and the pressure per unit depth [Pa/m].
+
+    `error` is the largest deviation from one of the displacement under that last pressure.
+    """
+
+    cells: Cells
+    pressure: Array
+    depth: float
+    tangent: Array
+    error: float
+
+
+def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> Pressed:
+    """Press on `cells` alone and let go of those that would pull, until none does (thesis, eqs A.6 to A.8).
+
+    Parameters
+    ----------
+    operator : Operator
+    separation : array
+        Undeformed gap [m] on the operator's grid.
+    control : Force or Depth
+        What is prescribed.
+    cells : int array
+        Flat indices of the cells that may carry pressure.
+
+    Notes
+    -----
+    With A a = 1 and A b = separation on the cells, the pressure is ``depth * a - b``; the force fixes the
+    depth.
+    """
+    weights = Measure(operator.weights).on(cells)
+    heights = separation.ravel()[cells]
+    system = _System(operator.as_matrix(cells), weights, np.stack([np.ones(len(cells)), heights], axis=1))
+    while True:
+        a, b = system.solution.T  # zero on the cells that were let go
+        depth = (control.value + weights @ b) / (weights @ a) if isinstance(control, Force) else control.value
+        p = depth * a - b
+        pulls = system.kept & (p <= 0)
+        if not pulls.any() or (pulls == system.kept).all():
+            kept = system.kept
+            error = float(np.abs(system.product(a) - 1.0)[kept].max())
+            return Pressed(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], error)
+        system.release(pulls)
+
+
+def solve_cells(operator: Operator, cells: Cells, right: Array) -> tuple[Array, Array]:
+    """Return the pressure [Pa] on `cells` that displaces them by `right` [m], shape (n,), and what it does displace."""
+    weights = Measure(operator.weights).on(cells)
+    system = _System(operator.as_matrix(cells), weights, right[:, None])
+    pressure = system.solution[:, 0]
+    return pressure, system.product(pressure)
+
+
+class _System:
+    """A symmetric positive definite system from which unknowns are let go one by one.
+
+    The influence matrix is symmetric under the weights; scaled by their roots it is so under none. Its first
+    factor overwrites the upper triangle, so that no copy is made (a fresh page costs more than its numbers);
+    the lower triangle and a note of the diagonal keep the matrix.
+    """
+
+    def __init__(self, matrix: Array, weights: Array, right: Array) -> None:
+        matrix = np.require(matrix, np.float64, ["C", "W"])  # a copy of what must not be written to
+        root = np.sqrt(weights / weights[0])[:, None]
+        self._root = None if (root == 1).all() else root
+        if self._root is not None:
+            matrix *= root
+            matrix /= root.T
+            right = right * root
+        self._matrix, self._right, self._diagonal = matrix, right, matrix.diagonal().copy()
+        self.kept = np.ones(len(right), dtype=bool)
+        self._base: Cells
+        self._gone: Cells
+        self._free: Array
+        self._columns: Array
+        # LAPACK wants Fortran order: the transpose, of which "lower" is what is the upper triangle here.
+        self._factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
+        self._restart(np.arange(len(right)))
+
+    @property
+    def solution(self) -> Array:
+        """Solution for every right side on the kept unknowns, zero elsewhere, shape (n, m)."""
+        x = self._free
+        if self._gone.size:
+            # The kept rows hold with the gone unknowns at zero: their columns of the inverse make up for it.
+            x = x - self._columns @ np.linalg.solve(self._columns[self._gone], x[self._gone])
+            x[self._gone] = 0.0
+        whole = np.zeros(self._right.shape)
+        whole[self._base] = x
+        return whole if self._root is None else whole / self._root
+
+    def release(self, unknowns: npt.NDArray[np.bool_]) -> None:
+        """Let go of `unknowns`: of a few by their columns of the inverse, of many by a new factorisation."""
+        self.kept = self.kept & ~unknowns
+        gone = np.flatnonzero(~self.kept[self._base])
+        if len(gone) > FEW * len(self._base):
+            self._refactorise()
+            return
+        new = np.setdiff1d(gone, self._gone)
+        unit = np.zeros((len(self._base), len(new)))
+        unit[new, np.arange(len(new))] = 1.0
+        self._columns = np.concatenate([self._columns, self._solve(unit)], axis=1)
+        self._gone = np.concatenate([self._gone, new])
+
+    def product(self, x: Array) -> Array:
+        """Return the product of the matrix with `x`."""
+        scaled = x if self._root is None else x * self._root[:, 0]
+        # Put back for once: what is added for the factor's roots, in small units far larger numbers, would be rounding.
+        factor = self._matrix.diagonal().copy()
+        np.fill_diagonal(self._matrix, self._diagonal)
+        product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
+        np.fill_diagonal(self._matrix, factor)
+        return np.asarray(product if self._root is None else product / self._root[:, 0])
+
+    def _refactorise(self) -> None:
+        base = np.flatnonzero(self.kept)
+        matrix = self._matrix[np.ix_(base, base)]
+        np.fill_diagonal(matrix, self._diagonal[base])
+        self._factor = scipy.linalg.cho_factor(matrix.T, lower=False, overwrite_a=True, check_finite=False)
+        self._restart(base)
+
+    def _restart(self, base: Cells) -> None:
+        self._base, self._gone = base, np.zeros(0, np.intp)
+        self._free, self._columns = self._solve(self._right[base]), np.zeros((len(base), 0))
+
+    def _solve(self, right: Array) -> Array:
+        return np.asarray(scipy.linalg.cho_solve(self._factor, right, check_finite=False))

@@ -1,0 +1,242 @@
+"""The pressure under a prescribed displacement of a given region (thesis, eq. A.7)."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import is_array, is_numpy, largest, namespace
+from roughcontact.halfspace.operators.operator import Listable, Operator, is_semidefinite
+from roughcontact.material import number
+from roughcontact.solver.conjugate_gradients import relax
+from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.direct import DENSE_LIMIT, solve_cells
+from roughcontact.solver.inner_operator import Driver, Plane, driver_on, factorised, first_product
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.region import checked_region
+from roughcontact.solver.subdomain import Place, bounding_box, embed, take
+from roughcontact.solver.vectors import fields_on
+from roughcontact.threads import one_blas_thread
+
+__all__ = ["Prescribed", "prescribe", "prescribed_displacement"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+SMALLER = 0.5  # of the padded cells: a box that is worth a kernel of its own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Prescribed:
+    """A pressure that gives a region a prescribed displacement, about.
+
+    Attributes
+    ----------
+    pressure : array
+        Pressure [Pa], zero outside the region.
+    force : float
+        Its sum over the region [N].
+    work : float
+        Sum of force times prescribed displacement [J], twice the elastic energy: wrong by the square of the residual,
+        where the force is wrong by the residual.
+    residual : float
+        Largest error of the displacement on the region, relative to its largest value.
+    steps : int
+        Products with the operator; none where few cells were factorised, and their matrix says that this will do.
+    """
+
+    pressure: Array
+    force: float
+    work: float
+    residual: float
+    steps: int
+
+
+def prescribed_displacement(
+    operator: Operator,
+    region: Mask,
+    displacement: float | Array,
+    *,
+    tolerance: float = 1e-8,
+    max_steps: int = 5000,
+    initial: Array | None = None,
+) -> Prescribed:
+    """Return the pressure that gives a region a prescribed displacement, and presses nowhere else.
+
+    The pressure may be negative: the region is bonded. On a periodic grid the region must leave a cell free.
+
+    Parameters
+    ----------
+    operator : Operator
+    region : bool array
+        The cells that carry pressure; at least one.
+    displacement : float or array
+        Their displacement [m]; values outside the region do not matter.
+    tolerance : float
+        Largest error of the displacement, relative to its largest value; between 1e-14 and 1e-2.
+    max_steps : int
+        Largest number of products with the operator, two at least: one for a step, one to tell how far it came.
+    initial : array, optional
+        A pressure [Pa] to start from.
+
+    Raises
+    ------
+    ValueError
+        If the region is empty, of a wrong shape, told by other numbers than ones and zeros, or the whole of a
+        periodic grid, if the displacement is zero or not finite on it, if the initial pressure is not finite, if one
+        of them does not fit the region, or if the operator, the tolerance or the number of steps is none.
+    RuntimeError
+        If the tolerance was missed.
+    """
+    answer = prescribe(operator, region, displacement, tolerance, max_steps, initial)
+    if not answer.residual <= tolerance:
+        remedy = "a larger tolerance" if answer.steps < max_steps else "more steps (max_steps)"
+        raise RuntimeError(
+            f"the displacement was met only to {answer.residual:.1e}, by {answer.steps} products, where "
+            f"{tolerance:.1e} was asked for: allow {remedy}"
+        )
+    return answer
+
+
+def prescribe(
+    operator: Operator,
+    region: Mask,
+    displacement: float | Array,
+    tolerance: float,
+    max_steps: int = 5000,
+    initial: Array | None = None,
+) -> Prescribed:
+    """Return what `prescribed_displacement` does, with whatever residual was reached."""
+    if not (hasattr(operator, "apply") and hasattr(operator, "grid")):
+        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
+    if not (isinstance(max_steps, int | np.integer) and max_steps >= 2):
+        raise ValueError(f"max_steps must be a whole number, two at least, not {max_steps!r}")
+    tolerance = checked_tolerance(tolerance)
+    region = checked_region(region, operator.grid.shape)
+    xp = namespace(region)
+    if not bool(xp.any(region)):
+        raise ValueError("the region holds no cell: nothing can be displaced")
+    if is_semidefinite(operator) and bool(xp.all(region)):
+        raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
+    _check("displacement", displacement, region)
+    if initial is not None:
+        _check("initial pressure", initial, region)
+    field = xp.zeros(region.shape, dtype=xp.float64, device=region.device)
+    target = xp.where(region, field + displacement, 0.0)
+    size = largest(target)
+    if not 0 < size < math.inf:
+        raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
+    if initial is not None and not bool(xp.all(xp.isfinite(initial))):
+        raise ValueError("the initial pressure must be finite [Pa]")
+    place = _place(operator, region)
+    part, inside, wanted = operator, region, target
+    start = None if initial is None else xp.where(region, initial, 0.0)
+    if place is not None:
+        part = _part(operator, place)
+        inside, wanted = take(region, place), take(target, place)
+        start = None if start is None else take(start, place)
+    with one_blas_thread():
+        pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
+        # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
+        work = Measure(part.weights).dot(pressure, wanted + lacking)
+    whole = pressure if place is None else embed(pressure, place, region.shape)
+    return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
+
+
+def _place(operator: Operator, region: Mask) -> Place | None:
+    """Return where a solve on a region costs least: on its cells, of a list, or in its box; None for the whole."""
+    if not is_numpy(region):  # elsewhere than on the host a box costs a look at every side
+        return None
+    if getattr(operator, "listed", False):
+        return np.flatnonzero(region)
+    box = bounding_box(region)
+    assert box is not None  # some cell is in the region
+    # A box takes a kernel of its own, as dear as two products or three; nothing repeats itself in it.
+    padded = math.prod(2 * (s.stop - s.start) for s in box)
+    whole = math.prod(n if p else 2 * n for n, p in zip(region.shape, operator.grid.periodic, strict=True))
+    return box if padded < SMALLER * whole else None
+
+
+def _part(operator: Operator, place: Place) -> Operator:
+    """Return the operator between the cells of a place."""
+    if isinstance(place, tuple):
+        return operator.restrict(place)
+    assert isinstance(operator, Listable)  # of others no list is made
+    return operator.between(place)
+
+
+def _check(name: str, given: Any, region: Mask) -> None:
+    """Refuse a field that does not fit its region."""
+    if is_array(given) and given.ndim == 0:
+        return
+    if not is_array(given):
+        number(name, given)
+        return
+    if tuple(given.shape) != tuple(region.shape):
+        raise ValueError(
+            f"the {name}, of shape {tuple(given.shape)}, does not fit {tuple(region.shape)} cells"
+        )
+    if is_numpy(given) != is_numpy(region):
+        raise ValueError(f"the {name} must be an array of the library that the region is of")
+
+
+def _solve(
+    operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
+) -> tuple[Array, Array, int]:
+    """Return pressure, the displacement that is lacking by a product of its own [m], and the number of products."""
+    xp, before = namespace(wanted), math.inf
+    driver: Driver | None = None
+    pressure, u, exact, steps = xp.zeros_like(wanted), xp.zeros_like(wanted), True, 0
+    if start is not None:
+        pressure, driver, steps = start, driver_on(operator, region), 1
+        u, exact = first_product(operator, start, driver)
+    elif (found := _on_few_cells(operator, region, wanted)) is not None:
+        pressure, u = found
+        # The matrix may be another than that of the products.
+        if largest(xp.where(region, wanted - u, 0.0)) > limit:
+            u, steps = operator.apply(pressure), 1
+    while True:
+        lacking = xp.where(region, wanted - u, 0.0)
+        error = largest(lacking)
+        if not error > limit or steps >= max_steps:
+            if exact:
+                return pressure, lacking, steps
+            u, exact, steps = operator.apply(pressure), True, steps + 1
+            continue
+        if driver is None:
+            driver = driver_on(operator, region)
+        elif not error < before / 2:
+            if not driver.gain:
+                return pressure, lacking, steps
+            driver = Plane(operator)  # the other has done what it could
+        before = error
+        part = driver.narrow(driver.gather(lacking) / error)  # so that single precision holds all numbers
+        measure, none = Measure(driver.weights), namespace(part).zeros_like(part)
+        fields = fields_on(driver, measure, driver.gather(region), part, none)
+        _, done = relax(
+            driver,
+            fields,
+            limit=max(0.5 * limit / error, driver.gain),
+            max_steps=max_steps - steps - 1,
+        )
+        pressure = pressure + driver.scatter(error * xp.astype(fields.change, xp.float64))
+        u, exact, steps = operator.apply(pressure), True, steps + done + 1
+
+
+def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
+    """Return the pressure on few cells and the displacement that their matrix says it causes on them.
+
+    More begin from nothing: what coarser cells would tell of them saves hardly any product, and takes longer.
+    """
+    if not is_numpy(region) or np.count_nonzero(region) > factorised(operator, DENSE_LIMIT):
+        return None
+    pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
+    with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
+        pressure.ravel()[cells], u.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
+        return pressure, u
+    return None

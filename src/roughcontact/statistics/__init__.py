@@ -1,0 +1,1 @@
+"""Power laws of curves, and statistics of ensembles."""

@@ -1,0 +1,60 @@
+"""A case: the loading curve of a nominally flat surface, and the heights of the maxima of its cells."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.study.case import Case
+from roughcontact.study.cases.curve_case import CurveParameters
+from roughcontact.study.cases.curve_case import run as loading_curve
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "CellsParameters", "run"]
+
+
+class CellsParameters(CurveParameters):
+    """Those of the case ``curve``.
+
+    The surface is divided into square cells as long as its longest waves: `cutoff`, else `rolloff`, else the side; if
+    that is no whole part of the side, the next one.
+    """
+
+    @property
+    def cells(self) -> int:
+        """Cells along a side."""
+        longest = min(self.cutoff or self.rolloff or 1.0, 1.0)
+        return max(1, round(1 / longest))
+
+
+def run(parameters: CellsParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the loading curve of one sample, and how far the maxima of its cells lie below the highest.
+
+    Returns
+    -------
+    xarray.Dataset
+        That of the case ``curve``; ``below`` (cell), the distance of the highest point of every cell from the top of
+        the surface [m], growing; ``peak``, the top above the mean plane [m].
+    """
+    heights = parameters.on_body(
+        parameters.roughness(deepcopy(rng))
+    ).heights  # the curve draws the same phases
+    record = loading_curve(parameters, rng)
+    edges = np.linspace(0, parameters.points, parameters.cells + 1).round().astype(int)
+    maxima = [heights[y0:y1, x0:x1].max() for y0, y1 in pairwise(edges) for x0, x1 in pairwise(edges)]
+    record["below"] = (
+        "cell",
+        np.sort(heights.max() - np.array(maxima)),
+        {"units": "m", "long_name": "distance of the highest point of a cell from the top of the surface"},
+    )
+    peak = float(heights.max() - heights.mean())
+    record["peak"] = (), peak, {"units": "m", "long_name": "top of the surface above its mean plane"}
+    return record
+
+
+CASE = Case("cells", 1, CellsParameters, run)

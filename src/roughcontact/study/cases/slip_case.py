@@ -1,0 +1,160 @@
+"""A case: a rough surface pressed, and pulled sideways until it slides."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from roughcontact.contact.loading import loading_path
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import cell_stiffness
+from roughcontact.friction.slip_curve import SlipCurve, slide_curve
+from roughcontact.friction.tangential_stiffness import tangential_stiffness
+from roughcontact.labels.labelled import variable, words
+from roughcontact.material import Solid
+from roughcontact.solver.status import Status
+from roughcontact.study.case import Case
+from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.study.cases.surfaces import RoughSquare
+from roughcontact.study.parameters import Positive, Pressure
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "SlipParameters", "run"]
+
+_LIMIT = 1e-5  # of the unit displacement; the stiffness itself is off by about its square
+
+
+class SlipParameters(RoughSquare, ForceRange):
+    """A rough contact of two equal bodies under growing normal forces; at each it is pulled along x from rest.
+
+    Parameters
+    ----------
+    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+        See `RoughSquare`.
+    modulus : float
+        Reduced modulus E* of both bodies together [Pa].
+    poisson_ratio : float
+        Poisson's ratio nu of both. That they are equal is what keeps normal and tangential displacements apart.
+    friction : float
+        Coefficient of friction mu.
+    lowest_force, highest_force, loads
+        Normal forces, see `ForceRange`.
+    pulls : int
+        Tangential forces at each, in equal steps from rest to mu F, where the bodies slide.
+    tolerance : float
+        Of the certificates of pressure and traction.
+    """
+
+    modulus: Positive[Pressure]
+    poisson_ratio: float = Field(default=0.3, gt=-1, le=0.5)
+    friction: float = Field(default=0.3, gt=0)
+    lowest_force: float = Field(default=3e-3, gt=0)
+    highest_force: float = Field(default=0.3, gt=0)
+    loads: int = Field(default=9, ge=2)
+    pulls: int = Field(default=10, ge=1)
+    tolerance: float = Field(default=1e-6, gt=0, le=1e-2)
+
+    @property
+    def bodies(self) -> tuple[Solid, Solid]:
+        """The two equal solids that have this modulus together."""
+        one = Solid(2 * self.modulus * (1 - self.poisson_ratio**2), self.poisson_ratio)
+        return one, one
+
+
+def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return normal and tangential stiffness, and the path to gross slip, of one sample.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``load``, the normal forces: ``force``, ``depth``, ``stiffness``, ``contact_area``,
+        ``dimensionless_force`` F/(E* h L), ``dimensionless_stiffness`` k/(E* L); ``tangential_stiffness``, the mean
+        over all directions of that of the whole contact region if nothing slips, and along ``principal`` the smaller
+        and the larger one of its axes. Along ``load`` and ``pull``: ``tangential_displacement`` along x and
+        ``stick_area``, at the parts ``pulled`` of mu F; the last displacement is the largest before gross slip.
+        Without a dimension ``cell_stiffness``.
+    """
+    import xarray
+
+    surface = parameters.on_body(parameters.roughness(rng))
+    bodies, forces = parameters.bodies, parameters.forces
+    scale = parameters.modulus * parameters.size
+    pulled = np.arange(1, parameters.pulls + 1) / parameters.pulls
+    path = loading_path(
+        surface, bodies, forces=forces * (scale * parameters.rms), tolerance=parameters.tolerance
+    )
+    points: list[Solution] = []
+    pulls: list[SlipCurve] = []
+    principals = []
+    for pressed in path:
+        points.append(pressed)
+        principals.append(
+            tangential_stiffness(pressed.contact, parameters.grid, bodies, tolerance=_LIMIT).principal[0]
+        )
+        pulls.append(
+            slide_curve(
+                pressed,
+                bodies,
+                friction=parameters.friction,
+                forces=pulled * (parameters.friction * pressed.force),
+                tolerance=parameters.tolerance,
+            )
+        )
+    stiffness = np.array([each.stiffness for each in points])
+    sideways = np.array(principals)
+    normal = {
+        name: variable(name, ("load",), [getattr(each, name) for each in points])
+        for name in ("force", "depth", "stiffness", "contact_area")
+    }
+    record = xarray.Dataset(
+        normal
+        | {
+            "dimensionless_force": variable("dimensionless_force", ("load",), forces),
+            "dimensionless_stiffness": variable("dimensionless_stiffness", ("load",), stiffness / scale),
+            "tangential_stiffness": (
+                "load",
+                sideways.mean(axis=1),
+                {
+                    "units": "N m-1",
+                    "long_name": "tangential stiffness of the contact region, mean over directions",
+                },
+            ),
+            "principal_stiffness": (
+                ("load", "principal"),
+                sideways,
+                {
+                    "units": "N m-1",
+                    "long_name": "tangential stiffness of the contact region along its two axes",
+                },
+            ),
+            "pulled": ("pull", pulled, {"units": "1", "long_name": "tangential force over mu F"}),
+            "tangential_displacement": variable(
+                "tangential_displacement", ("load", "pull"), [each.displacement[:, 0] for each in pulls]
+            ),
+            "stick_area": variable("stick_area", ("load", "pull"), [each.stick_area for each in pulls]),
+            "residual": variable(
+                "residual", ("load",), [_worst(*pair) for pair in zip(points, pulls, strict=True)]
+            ),
+            "status": variable(
+                "status", ("load",), words(_ended(*pair) for pair in zip(points, pulls, strict=True))
+            ),
+            "cell_stiffness": variable("cell_stiffness", (), cell_stiffness(points[0].problem.operator)),
+        }
+    )
+    return record.assign_attrs(title="rough contacts pulled sideways until they slide")
+
+
+def _worst(pressed: Solution, pulled: SlipCurve) -> float:
+    return max(pressed.residual, float(pulled.residual.max()))
+
+
+def _ended(pressed: Solution, pulled: SlipCurve) -> Status:
+    """Return how a load ended: well, if the pressure and all tractions did."""
+    return next((each for each in (pressed.status, *pulled.status) if not each.converged), pressed.status)
+
+
+CASE = Case("slip", 1, SlipParameters, run)

@@ -1,0 +1,91 @@
+"""Large variables of a record: a NetCDF file a case, beside the database."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.files.netcdf_bytes import netcdf_bytes
+from roughcontact.study.study_errors import StoreError, computed_again, disk_trouble
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["parted", "read_fields", "tidied", "write_fields"]
+
+_FOLDER = "fields"
+
+
+def parted(record: xarray.Dataset, names: tuple[str, ...]) -> tuple[xarray.Dataset, xarray.Dataset]:
+    """Return a record without its fields, and the fields, each with the coordinates that it needs."""
+    rest = record.drop_vars(names)
+    needed = {dimension for values in rest.data_vars.values() for dimension in values.dims}
+    idle = [name for name, values in rest.coords.items() if not set(values.dims) <= needed]
+    return rest.drop_vars(idle), record[list(names)]
+
+
+def write_fields(folder: Path, key: str, fields: xarray.Dataset) -> None:
+    """Write the fields of a case; they are on the disk when this returns.
+
+    Raises
+    ------
+    StoreError
+        If they cannot be written.
+    """
+    target, data = _file(folder, key), netcdf_bytes(fields)
+    try:
+        target.parent.mkdir(exist_ok=True)
+        with written_aside(target) as aside, open(aside, "wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        _keep_names(target.parent)
+    except OSError as error:
+        raise disk_trouble(folder, "fields cannot be written", error) from error
+    except WriteError as error:
+        raise disk_trouble(folder, "fields cannot be written", error.__cause__ or error) from error
+
+
+def read_fields(folder: Path, key: str) -> xarray.Dataset:
+    """Return the fields of a case.
+
+    Raises
+    ------
+    StoreError
+        If they cannot be read.
+    """
+    import xarray
+
+    try:
+        return xarray.load_dataset(_file(folder, key), engine="h5netcdf")
+    except (OSError, ValueError) as error:
+        raise StoreError(
+            folder,
+            f"there are no fields of the case {key}, or they cannot be read ({error})",
+            computed_again(key),
+        ) from error
+
+
+def tidied(folder: Path) -> None:
+    """Remove what a killed process has left half-written."""
+    for path in (folder / _FOLDER).glob(".*.part"):
+        with suppress(OSError):
+            path.unlink()
+
+
+def _file(folder: Path, key: str) -> Path:
+    return folder / _FOLDER / f"{key}.nc"
+
+
+def _keep_names(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk, where the system knows this."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,107 @@
+"""Which forces a power law is fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.contact.curve import FORCE_LIMIT
+from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.halfspace.operators.geometry import Geometry
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Window", "force_window", "resolved_window", "window_of"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Window:
+    """Between which forces and which mean stiffnesses a power law is fitted, all without dimension.
+
+    Parameters
+    ----------
+    force : tuple of float
+        Lowest and highest F/(E* h L); both belong to the window.
+    stiffness : tuple of float or DataArray
+        Limits of the mean k/(E* L), outside the window; arrays have dimensions of the ensembles.
+    rule : str
+        The window in words.
+
+    Raises
+    ------
+    ValueError
+        If the forces do not go from one to a larger one.
+    """
+
+    force: tuple[float, float]
+    stiffness: tuple[Any, Any]
+    rule: str
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.force[0] < self.force[1]:
+            raise ValueError(f"a window goes from a dimensionless force to a larger one, not {self.force}")
+
+
+def force_window(lowest: float, highest: float) -> Window:
+    """Return the window between two dimensionless forces, whatever the stiffness."""
+    return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
+
+
+def resolved_window(cell: Any, saturation: Any, highest: float = FORCE_LIMIT) -> Window:
+    """Return the window of the thesis: stiffness above 20 cells (section 4.3), force up to 0.07 (section 4.5).
+
+    Parameters
+    ----------
+    cell, saturation : float or DataArray
+        k/(E* L) of a single cell and with all cells in contact, below 90 % of which the window ends: of N springs 1/N
+        and 1.
+    highest : float
+        Dimensionless force.
+    """
+    rule = (
+        f"mean stiffness above {CELLS} cells and below {SATURATED:g} of saturation, force up to {highest:g}"
+    )
+    return Window((0.0, highest), (CELLS * cell, SATURATED * saturation), rule)
+
+
+def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> Window:
+    """Return the window of the thesis for loading curves that say what a cell is.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        With ``stiffness``, ``dimensionless_stiffness``, ``cell_stiffness`` and ``saturation``.
+    samples : sequence of str
+        Dimensions of the samples.
+    points : str
+        Dimension of the forces.
+
+    Raises
+    ------
+    ValueError
+        If one is missing, or the curves are those of line contacts, which have no such window.
+    """
+    wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "saturation")
+    missing = [name for name in wanted if name not in dataset]
+    if missing:
+        raise ValueError(
+            f"the curves do not say what is resolved, for want of {', '.join(missing)}: give a window, "
+            "resolved_window(cell, saturation) or force_window(lowest, highest)"
+        )
+    if dataset.attrs.get("geometry") == Geometry.LINE.value:
+        raise ValueError(
+            "on a line it is not the stiffness that tells what is resolved: give a window, force_window(...)"
+        )
+    # E* L, whatever the body is; it has no meaning where both are zero or infinite.
+    stiffness = dataset["stiffness"]
+    scale = stiffness.where((stiffness > 0) & np.isfinite(stiffness)) / dataset["dimensionless_stiffness"]
+    cell, saturation = (_mean(dataset[name] / _mean(scale, points), *samples) for name in wanted[2:])
+    return resolved_window(cell, saturation)
+
+
+def _mean(values: xarray.DataArray, *dims: str) -> xarray.DataArray:
+    return values.mean([d for d in dims if d in values.dims])

@@ -1,0 +1,235 @@
+import dataclasses
+import errno
+import json
+
+import numpy as np
+import pytest
+import xarray
+
+import roughcontact as rc
+from roughcontact.cli.report import solution_facts
+from roughcontact.plot import canvas as figures
+
+MODULUS = ("--modulus", "110GPa")
+FORCE = ("--force", "10mN")
+
+
+def test_it_answers_as_the_library_does(invoke, rough, surface):
+    answer = invoke("press", rough, *FORCE, *MODULUS, "--level", "none", "--json")
+    assert answer.exit_code == 0
+    solution = rc.press(surface, 110e9, force=0.01)
+    record = json.loads(answer.stdout)
+    for name in (
+        "force",
+        "depth",
+        "stiffness",
+        "interfacial_stiffness",
+        "contact_area",
+        "mean_gap",
+        "residual",
+    ):
+        assert record[name] == getattr(solution, name), name
+    assert record["largest_pressure"] == solution.pressure.max()
+    assert record["spots"] == solution.spots.count
+    assert record["converged"] is True
+    assert record["tolerance"] == 1e-8
+    assert record["modulus"] == 110e9
+    assert record["units"]["depth"] == "m"
+
+
+def test_the_plane_is_taken_out_unless_told_otherwise_and_it_says_so(invoke, rough, surface):
+    heights = surface.heights + 1e-7 * np.arange(32)
+    np.savez(rough, heights=heights, spacing=np.array(surface.grid.spacing), unit=np.array("m"))
+    tilted = rc.read(rough)
+    depths = {}
+    for level, expected in (
+        (None, tilted.levelled("plane")),
+        ("plane", tilted.levelled("plane")),
+        ("mean", tilted.levelled("mean")),
+        ("none", tilted),
+    ):
+        answer = invoke(
+            "press", rough, *FORCE, *MODULUS, "--json", *(() if level is None else ("--level", level))
+        )
+        depths[level] = json.loads(answer.stdout)["depth"]
+        assert depths[level] == rc.press(expected, 110e9, force=0.01).depth
+        assert ("levelled by their plane" in answer.stderr) == (level is None)
+    assert depths["plane"] != depths["none"]
+
+
+def test_the_load_can_be_a_force_a_pressure_or_a_depth(invoke, rough, surface):
+    def ask(*load):
+        return json.loads(invoke("press", rough, *load, *MODULUS, "--level", "none", "--json").stdout)
+
+    pressure = 0.01 / surface.grid.area
+    assert ask("--pressure", f"{pressure!r}Pa")["force"] == pytest.approx(0.01, rel=1e-12)
+    assert ask("--depth", "50nm")["depth"] == pytest.approx(50e-9, rel=1e-14)
+
+
+def test_the_modulus_can_follow_from_the_bodies(invoke, rough):
+    def ask(*bodies):
+        return json.loads(invoke("press", rough, *FORCE, *bodies, "--json").stdout)["modulus"]
+
+    steel, aluminium = rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)
+    first = ("--young", "210GPa", "--poisson", "0.3")
+    assert ask(*first) == rc.reduced_modulus(steel)
+    assert ask(*first, "--young2", "70GPa", "--poisson2", "0.33") == rc.reduced_modulus(steel, aluminium)
+
+
+def test_a_file_that_says_it_is_periodic_is_pressed_so(invoke, tmp_path):
+    path = tmp_path / "made.npz"
+    making = ("--hurst", "0.8", "--rms", "1um", "--size", "1mm", "--points", "16", "--periodic")
+    assert invoke("surface", "make", path, *making).exit_code == 0
+    answer = invoke("press", path, *FORCE, *MODULUS, "--json")
+    assert json.loads(answer.stdout)["periodic"] == [True, True]
+    assert "levelled by its mean" in answer.stderr
+    free = invoke("press", path, *FORCE, *MODULUS, "--json", "--free")
+    assert json.loads(free.stdout)["periodic"] == [False, False]
+    assert "levelled by their plane" in free.stderr
+
+
+def test_a_periodic_surface_has_no_edge(invoke, rough):
+    record = json.loads(invoke("press", rough, *FORCE, *MODULUS, "--periodic", "--json").stdout)
+    assert record["periodic"] == [True, True]
+    assert record["touches_edge"] is False
+
+
+def test_a_person_gets_a_table(invoke, rough):
+    answer = invoke("press", rough, *FORCE, *MODULUS)
+    assert answer.exit_code == 0
+    lines = dict(line.split("   ", 1) for line in answer.stdout.splitlines())
+    assert lines["force"].strip() == "10 mN"
+    assert lines["reduced modulus E*"].strip() == "110 GPa"
+    assert "24 x 32 cells, 48 µm x 32 µm, free" in lines["surface"]
+    assert "tolerance 1e-08: met" in lines["certificate"]
+
+
+def test_a_gap_that_is_mere_rounding_is_none(invoke, rough):
+    answer = invoke("press", rough, "--force", "1e9N", *MODULUS)
+    (gap,) = (line.split()[2:] for line in answer.stdout.splitlines() if line.startswith("mean gap"))
+    assert gap == ["0", "m"]
+    assert solution_facts(rc.press(rc.read(rough), 110e9, force=0.01))[11][1] != "0 m"
+
+
+def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):
+    heights = surface.heights.copy()
+    heights[3, 4:6] = np.nan
+    heights[0, 0] = 2 * np.nanmax(heights)
+    np.savez(rough, heights=heights, spacing=np.array(surface.grid.spacing), unit=np.array("m"))
+    answer = invoke("press", rough, *FORCE, *MODULUS)
+    assert "Note: 2 cells hold no height" in answer.stderr
+    assert "Note: Contact reaches the edge of the map" in answer.stderr
+
+
+def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
+    out = tmp_path / "new" / "result"
+    answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out, "--json")
+    assert answer.exit_code == 0
+    assert sorted(path.name for path in out.iterdir()) == ["pressure.nc", "pressure.png", "summary.json"]
+    record = json.loads(answer.stdout)
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert summary.items() >= record.items()
+    assert summary["provenance"]["input_control"] == "force = 0.01 N"
+    with xarray.open_dataset(out / "pressure.nc") as dataset:
+        assert float(dataset["force"]) == record["force"]
+        assert dataset["pressure"].shape == (24, 32)
+        assert float(dataset["pressure"].max()) == record["largest_pressure"]
+    assert (out / "pressure.png").read_bytes().startswith(b"\x89PNG")
+
+
+class TestMissedTolerance:
+    @pytest.fixture(autouse=True)
+    def _stagnate(self, monkeypatch):
+        press = rc.press
+
+        def stagnated(*arguments, **named):
+            raise rc.ConvergenceError(
+                dataclasses.replace(press(*arguments, **named), status=rc.Status.STAGNATED)
+            )
+
+        monkeypatch.setattr(rc, "press", stagnated)
+
+    def test_the_answer_is_marked_and_the_status_is_1(self, invoke, rough, tmp_path):
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--json", "--out", tmp_path / "out")
+        assert answer.exit_code == 1
+        record = json.loads(answer.stdout)
+        assert (record["converged"], record["status"]) == (False, "stagnated")
+        assert json.loads((tmp_path / "out" / "summary.json").read_text())["converged"] is False
+        assert "The residual stopped falling above the tolerance" in answer.stderr
+
+    def test_a_person_sees_it_in_the_table(self, invoke, rough):
+        answer = invoke("press", rough, *FORCE, *MODULUS)
+        assert answer.exit_code == 1
+        assert "MISSED" in answer.stdout
+
+
+class TestNothingHalfWritten:
+    @pytest.fixture
+    def out(self, tmp_path):
+        out = tmp_path / "out"
+        out.mkdir()
+        (out / "summary.json").write_text("of yesterday")
+        return out
+
+    @staticmethod
+    def _left(folder):
+        return {path.name: path.read_text() for path in folder.iterdir()}
+
+    @pytest.mark.parametrize(
+        ("error", "status"),
+        [
+            (OSError(errno.ENOSPC, "No space left on device", "pressure.png"), 2),
+            (KeyboardInterrupt(), 130),
+            (RuntimeError("a mistake of ours"), 1),
+        ],
+    )
+    def test_a_failure_between_the_files_leaves_what_was_there(
+        self, invoke, rough, out, monkeypatch, error, status
+    ):
+        def fail(*_):
+            raise error
+
+        monkeypatch.setattr(figures, "save", fail)
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out)
+        assert answer.exit_code == status
+        assert self._left(out) == {"summary.json": "of yesterday"}
+        assert answer.stdout == ""
+
+    def test_a_folder_made_for_a_run_that_fails_goes_again(self, invoke, rough, tmp_path):
+        answer = invoke("press", rough, "--force", "-1N", *MODULUS, "--out", tmp_path / "new" / "out")
+        assert answer.exit_code == 2
+        assert sorted(path.name for path in tmp_path.iterdir()) == ["rough.npz"]
+
+    def test_a_folder_in_the_place_of_a_file_is_refused(self, invoke, rough, out):
+        (out / "pressure.nc").mkdir()
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out)
+        assert answer.exit_code == 2
+        assert "it is a folder; choose another --out" in answer.stderr
+        assert sorted(path.name for path in out.iterdir()) == ["pressure.nc", "summary.json"]
+        assert (out / "summary.json").read_text() == "of yesterday"
+
+    def test_the_folder_is_tried_before_the_work(self, invoke, rough, monkeypatch):
+        monkeypatch.setattr(rc, "read", lambda *_, **__: pytest.fail("it went to work"))
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--out", rough)
+        assert answer.exit_code == 2
+        assert "is a file" in answer.stderr
+
+
+def test_the_distribution_of_the_pressure_is_drawn_beside_a_theory(invoke, rough, tmp_path):
+    words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--theory", "persson")
+    answer = invoke(*words, "--out", tmp_path / "result")
+    assert answer.exit_code == 0
+    assert (tmp_path / "result" / "distribution.png").stat().st_size > 10_000
+    nowhere = invoke(*words)
+    assert nowhere.exit_code == 2
+    assert "say where by --out" in nowhere.stderr
+    assert invoke(*words[:-1], "gw", "--out", tmp_path / "result").exit_code == 2
+
+
+def test_a_hardness(invoke, rough):
+    words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--json")
+    soft = json.loads(invoke(*words, "--hardness", "2GPa").stdout)
+    assert soft["largest_pressure"] == 2e9
+    assert any("give way" in note for note in soft["notes"])
+    for bad in ("--hardness=-1GPa", "--hardness=2N"):
+        assert invoke(*words, bad).exit_code == 2

@@ -1,0 +1,116 @@
+"""What a contact conducts."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+MODULUS = 3e10
+
+
+@pytest.fixture(scope="module")
+def disc():
+    """A flat circular spot, whose resistance Holm gave in closed form."""
+    grid = rc.RadialGrid.uniform(200, 1e-5)
+    return rc.press(rc.RadialProfile(np.zeros(200), grid), MODULUS, force=1.0)
+
+
+def test_holm(disc):
+    """R = (rho1 + rho2)/(4a), and thermally (1/l1 + 1/l2)/(4a); the rings' edge costs a part of 1/n."""
+    found = rc.conductance(disc, resistivities=(1.7e-8, 5e-8), conductivities=(400.0, 20.0))
+    assert found["electrical_resistance"] == pytest.approx(6.7e-8 / 4e-5, rel=2e-3)
+    assert found["thermal_resistance"] == pytest.approx((1 / 400 + 1 / 20) / 4e-5, rel=2e-3)
+    assert found["electrical_conductance"] * found["electrical_resistance"] == pytest.approx(1, rel=1e-15)
+
+
+def test_an_insulator_conducts_nothing(disc):
+    found = rc.conductance(disc, conductivities=(400.0, 0.0))
+    assert found["thermal_conductance"] == 0
+    assert found["thermal_resistance"] == np.inf
+    assert set(found) == {"thermal_conductance", "thermal_resistance"}
+
+
+def test_along_a_curve():
+    grid = rc.Grid((64, 64), 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    curve = rc.loading_curve(rough, MODULUS, forces=np.geomspace(1e-3, 1e-1, 5))
+    whole = rc.conductance(curve, resistivities=(1e-8, 1e-8))
+    interface = rc.conductance(curve, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    np.testing.assert_allclose(whole["electrical_conductance"], curve.stiffness / MODULUS / 1e-8, rtol=1e-14)
+    assert (interface["electrical_resistance"] < whole["electrical_resistance"]).all()
+    assert (np.diff(whole["electrical_resistance"]) <= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "give the resistivities"),
+        ({"resistivities": (-1.0, 1.0)}, "resistivity"),
+        ({"resistivities": (0.0, 0.0)}, "no limit"),
+        ({"conductivities": (np.inf, np.inf)}, "no limit"),
+        ({"conductivities": (1.0, np.nan)}, "conductivity"),
+        ({"conductivities": (1.0, 1.0), "of": "depth"}, "of must be"),
+        ({"resistivities": 1e-8}, "of both bodies"),
+        ({"resistivities": (1e-8,)}, "of both bodies"),
+        ({"conductivities": (1.0, 1.0, 1.0)}, "of both bodies"),
+    ],
+)
+def test_nonsense_is_refused(disc, given, message):
+    with pytest.raises(ValueError, match=message):
+        rc.conductance(disc, **given)
+
+
+def test_a_line_has_none():
+    grid = rc.Grid(8, 1e-6)
+    line = rc.press(
+        rc.Surface(np.arange(8) * 1e-9, grid), MODULUS, force=1.0, operator=rc.line(grid, MODULUS)
+    )
+    with pytest.raises(ValueError, match="line contact"):
+        rc.conductance(line, resistivities=(1e-8, 1e-8))
+
+
+def test_what_is_no_contact_is_refused():
+    with pytest.raises(ValueError, match="press the surface first"):
+        rc.conductance(rc.Grid(8, 1.0), resistivities=(1e-8, 1e-8))
+
+
+def test_what_gives_way_conducts_too():
+    """A region conducts whatever its pressure: all in contact, at any hardness, like a flat punch of its shape."""
+    grid = rc.Grid((32, 32), 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    hard = rc.press(rough, MODULUS, force=1e-1, hardness=5e8)
+    assert (hard.pressure == 5e8).any()
+    punch = rc.contact_stiffness(hard.contact, grid, MODULUS)
+    found = rc.conductance(hard, resistivities=(1e-8, 1e-8))["electrical_conductance"]
+    assert found == pytest.approx(punch / MODULUS / 1e-8, rel=1e-12)
+    assert hard.stiffness < 0.9 * punch
+    interface = rc.conductance(hard, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    assert interface["electrical_conductance"] > found
+
+
+def test_a_curve_under_a_hardness_does_not_know():
+    from roughcontact.contact.conduction import Conductors
+    from roughcontact.contact.dataset import with_conductance
+
+    grid = rc.Grid((8, 8), 1e-6)
+    curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)
+    with pytest.raises(ValueError, match="the cells that give way conduct"):
+        rc.conductance(curve, resistivities=(1e-8, 1e-8))
+    dataset = curve.to_dataset()
+    assert dataset.hardness == 1e10
+    with pytest.raises(ValueError, match="the cells that give way conduct"):
+        with_conductance(dataset, Conductors((1e-8, 1e-8)))
+    with pytest.raises(ValueError, match="of must be"):
+        with_conductance(dataset, Conductors((1e-8, 1e-8)), of="depth")
+
+
+def test_an_insulator_has_a_picture():
+    """Its resistance is infinite, and has no place on the axis."""
+    from roughcontact.contact.conduction import Conductors
+    from roughcontact.contact.dataset import with_conductance
+    from roughcontact.plot.resistance import resistance_figure
+
+    grid = rc.Grid((8, 8), 1e-6)
+    curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])
+    dataset = with_conductance(curve.to_dataset(), Conductors(conductivities=(1.0, 0.0)))
+    resistance_figure(dataset).canvas.draw()

@@ -1,0 +1,122 @@
+"""Whole figures: nothing overlaps, nothing global is touched, files are whole or not there."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+import roughcontact as rc
+from roughcontact.files.aside import WriteError
+from roughcontact.plot.canvas import curve_figure, save, solution_figure, surface_figure
+
+MODULUS = 1e11
+
+
+def rough(shape: tuple[int, int], periodic: bool = False) -> rc.Surface:
+    return rc.self_affine(
+        rc.Grid(shape, (1e-7, 1e-7), periodic), hurst=0.8, rms=1e-7, rng=np.random.default_rng(3)
+    )
+
+
+def overlaps(figure: Figure) -> list[tuple[str, str]]:
+    """Return the pairs of texts that are drawn over one another by more than a hair."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()  # the layout settles
+    drawn: list[Text] = []
+    draw = Text.draw
+
+    def note(text: Text, renderer: object) -> None:
+        if text.get_visible() and text.get_text().strip():
+            drawn.append(text)
+        draw(text, renderer)
+
+    # Ticks beyond the ends of an axis have texts too, which are never drawn: only drawing tells.
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Text, "draw", note)
+        canvas.draw()
+    boxes = [(text.get_text(), text.get_window_extent(canvas.get_renderer())) for text in drawn]
+    assert len(boxes) > 10
+    found = []
+    for (one, a), (two, b) in combinations(boxes, 2):
+        wide = min(a.x1, b.x1) - max(a.x0, b.x0)
+        high = min(a.y1, b.y1) - max(a.y0, b.y0)
+        if wide > 1 and high > 1:  # pixels
+            found.append((one, two))
+    return found
+
+
+@pytest.mark.parametrize("shape", [(32, 32), (20, 64), (64, 20)])
+def test_no_text_overlaps_on_maps(shape):
+    solution = rc.press(rough(shape), MODULUS, force=1e-4)
+    assert overlaps(solution_figure(solution)) == []
+    assert overlaps(surface_figure(rough(shape))) == []
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_no_text_overlaps_on_curves(periodic):
+    surface = rough((48, 48), periodic)
+    scale = MODULUS * 1e-7 * 48e-7
+    curve = rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(1e-3, 0.5, 12))
+    law = curve.fit((float(curve.force[0]), float(curve.force[-1])))
+    assert overlaps(curve_figure(curve, law)) == []
+    assert overlaps(curve_figure(curve)) == []
+
+
+def test_the_frame_shows_what_is_enlarged():
+    heights = np.zeros((128, 128))
+    heights[20, 30] = 1e-6
+    solution = rc.press(rc.Surface(heights, rc.Grid((128, 128), 1e-6)), MODULUS, force=1e-3)
+    figure = solution_figure(solution)
+    whole, enlarged = figure.axes
+    frame = whole.lines[0]
+    assert (min(frame.get_xdata()), max(frame.get_xdata())) == enlarged.get_xlim()
+    assert (max(frame.get_ydata()), min(frame.get_ydata())) == enlarged.get_ylim()
+    low, high = enlarged.get_xlim()
+    assert low < 30.5 < high
+    assert "0.0061 %" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize(
+    ("ending", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml"), ("PNG", b"\x89PNG")]
+)
+def test_pictures_are_what_their_names_say(ending, magic, tmp_path):
+    save(surface_figure(rough((8, 8))), tmp_path / f"a.{ending}")
+    assert (tmp_path / f"a.{ending}").read_bytes().startswith(magic)
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("name", ["a.xyz", "a"])
+def test_other_endings_are_refused(name, tmp_path):
+    with pytest.raises(WriteError, match="png, pdf, svg"):
+        save(Figure(), tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_interrupted_picture_leaves_nothing(tmp_path):
+    class Interrupted(Figure):
+        def savefig(self, path, **_):
+            path.write_bytes(b"half")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        save(Interrupted(), tmp_path / "a.png")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_pyplot_and_no_settings_are_touched(tmp_path):
+    program = (
+        "import sys, numpy as np, matplotlib; before = matplotlib.rcParams.copy();"
+        "import roughcontact as rc; from roughcontact.plot.canvas import surface_figure, save;"
+        "save(surface_figure(rc.Surface(np.eye(4), rc.Grid((4, 4), 1.0))), sys.argv[1]);"
+        "assert 'matplotlib.pyplot' not in sys.modules; assert matplotlib.rcParams.copy() == before"
+    )
+    command = [sys.executable, "-c", program, str(tmp_path / "a.png")]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr

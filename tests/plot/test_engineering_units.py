@@ -1,0 +1,65 @@
+"""Engineering units: the prefix that leaves a readable number."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.engineering_units import pretty, scale, written
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "factor", "name"),
+    [
+        (5.12e-5, "m", 1e6, "µm"),
+        (1e-6, "m", 1e6, "µm"),
+        (9.99e-7, "m", 1e9, "nm"),
+        (0.02, "m", 1e3, "mm"),
+        (3e7, "m", 1e-3, "km"),
+        (2.3e9, "Pa", 1e-9, "GPa"),
+        (2e5, "N m-1", 1e-3, "kN/m"),
+        (2e-11, "m2", 1e12, "µm²"),
+        (9e-13, "m2", 1e18, "nm²"),
+        (3e-9, "J", 1e9, "nJ"),
+        (0.3, "1", 1.0, ""),
+        (0.0, "N", 1.0, "N"),
+        (math.inf, "N", 1.0, "N"),
+    ],
+)
+def test_the_prefix_leaves_one_to_a_thousand(largest, unit, factor, name):
+    chosen = scale(largest, unit)
+    assert (chosen.factor, chosen.unit) == (factor, name)
+
+
+@pytest.mark.parametrize("exponent", range(-14, 14))
+def test_exact_powers_of_ten_are_not_rounded_down(exponent):
+    chosen = scale(float(f"1e{exponent}"), "Pa")
+    shown = float(f"1e{exponent}") * chosen.factor
+    if -12 <= exponent < 15:
+        assert 1 - 1e-12 < shown < 1000
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (1.2345e-5, "m", "12.3 µm"),
+        (9.9999e-7, "m", "1 µm"),
+        (3.65e9, "N m-1", "3.65 GN/m"),
+        (-2e-9, "m", "-2 nm"),
+        (0.0, "N", "0 N"),
+        (123456.0, "1", "123000"),
+        (2e30, "N", "2e+18 TN"),
+        (-1.5e-16, "m", "-0.00015 pm"),
+        (math.inf, "N m-1", "infinite"),
+        (math.nan, "N m-1", "unknown"),
+    ],
+)
+def test_values_are_written_for_people(value, unit, text):
+    assert written(value, unit) == text
+
+
+def test_every_unit_of_the_table_can_be_printed():
+    mechanics, conductance = {"", "N", "m", "N/m", "m²", "J", "Pa"}, {"S", "ohm", "W/K", "K/W"}
+    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance

@@ -1,0 +1,192 @@
+"""Solves that inexact operators drive: the same certified answers, and none the worse where these are wrong."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.halfspace.sums import particle_mesh as patches
+from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches, PatchOperator
+from roughcontact.kernels import loader
+from roughcontact.solver import inner_operator as drivers
+from roughcontact.solver import subdomain as window
+from roughcontact.solver.active_set import ActiveSet
+from roughcontact.solver.conjugate_gradients import relax
+from roughcontact.solver.inner_operator import Driver, Plane, SinglePlane, driver_on
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.vectors import fields_on
+
+ITERATIVE = ActiveSet(dense_limit=0)
+needs_machine_code = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
+
+
+class Plain:
+    """An operator that says nothing of what could stand in for it."""
+
+    def __init__(self, operator):
+        self._operator = operator
+
+    def __getattr__(self, name):
+        if name in ("patches", "keeps_precision"):
+            raise AttributeError(name)
+        value = getattr(self._operator, name)
+        if name in ("restrict", "coarsened"):
+            return lambda *arguments: plain(value(*arguments))
+        return value
+
+
+def plain(operator):
+    return None if operator is None else Plain(operator)
+
+
+@pytest.fixture(params=["free", "free, any shape", "periodic"])
+def rough(request):
+    shape = (230, 187) if request.param == "free, any shape" else (160, 160)
+    grid = rc.Grid(shape, (1e-3, 1e-3), request.param == "periodic")
+    return rc.self_affine(grid, hurst=0.8, rms=1e-3, rng=np.random.default_rng(5))
+
+
+TILES = pytest.param(PatchOperator, marks=needs_machine_code)
+
+
+@pytest.fixture(params=[TILES, SinglePlane])
+def used(request, monkeypatch):
+    """Let one kind of driver stand in wherever it can, and count its products."""
+    kind = request.param
+    for part in ("cover", "filled"):
+        monkeypatch.setattr(Patches, part, 2.0 if kind is PatchOperator else 0.0)
+    monkeypatch.setattr(patches, "LEAST", 0)
+    if kind is SinglePlane:
+        monkeypatch.setattr(ListPatches, "tiles", lambda *_: None)
+        monkeypatch.setattr(window, "FILLED", 0.0)  # planes, not lists
+    counts = [0]
+    apply = kind.apply
+
+    def counted(self, pressure):
+        counts[0] += isinstance(self, kind)
+        return apply(self, pressure)
+
+    monkeypatch.setattr(kind, "apply", counted)
+    return counts
+
+
+def pressed(surface, operator, part=0.3):
+    force = part * 1e9 * surface.rms * surface.grid.lengths[0]
+    return rc.press(surface, 1e9, force=force, operator=operator, solver=ITERATIVE, tolerance=1e-10)
+
+
+def test_the_answer_is_that_of_the_exact_operator(rough, used):
+    operator = rc.half_space(rough.grid, 1e9)
+    expected = pressed(rough, plain(operator))
+    assert not used[0]
+    found = pressed(rough, operator)
+    assert used[0] > 5
+    assert found.residual <= 1e-10
+    # Both gaps are closed to 1e-10 of the largest displacement: the depths, set by them, agree as well.
+    scale = float(np.abs(expected.displacement).max())
+    assert found.depth == pytest.approx(expected.depth, abs=2e-10 * scale)
+    np.testing.assert_array_equal(found.contact, expected.contact)
+
+
+def test_the_stiffness_is_that_of_the_exact_operator(rough, used):
+    mask = pressed(rough, None).contact
+    operator = rc.half_space(rough.grid, 1e9)
+    left = np.arange(rough.grid.shape[1]) < 40  # a part of the tiles, and more cells than are factorised
+    region = mask | (left & (rough.heights > np.quantile(rough.heights[:, left], 0.4)))
+    expected = rc.contact_stiffness(region, rough.grid, 1e9, operator=plain(operator))
+    before = used[0]
+    found = rc.contact_stiffness(region, rough.grid, 1e9, operator=operator)
+    if not all(rough.grid.periodic):  # a window of a period has no tiles
+        assert used[0] > before
+    # Each unit displacement is met to 1e-7.
+    assert found == pytest.approx(expected, rel=2e-7)
+
+
+@pytest.mark.parametrize(("modulus", "spacing"), [(1e11, 1e-10), (1e-12, 1e3), (1e28, 1e-3), (1e-28, 1e3)])
+def test_units_are_no_matter(used, modulus, spacing):
+    """Single precision ends at 1e38: where it would not do, the operator itself drives."""
+    grid = rc.Grid((128, 128), spacing)
+    rough = rc.self_affine(grid, hurst=0.8, rms=spacing, rng=np.random.default_rng(5))
+    force = 40 * modulus * spacing**2
+    found = rc.press(rough, modulus, force=force, solver=ITERATIVE)
+    assert found.status.converged
+    assert (used[0] > 5) == (1e-25 < spacing / modulus < 1e25)
+    one = rc.Surface(rough.heights / spacing, rc.Grid((128, 128), 1.0))
+    assert found.depth / spacing == pytest.approx(rc.press(one, 1.0, force=40.0).depth, rel=1e-7)
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """A driver that is none of the body's."""
+
+    true: Driver
+    factor: float
+
+    def __getattr__(self, name):
+        return getattr(self.true, name)
+
+    def apply(self, pressure):
+        return self.factor * self.true.apply(pressure)
+
+
+@pytest.mark.parametrize("factor", [-1.0, 0.05, 20.0, np.nan])
+def test_wrong_drivers_cost_time_and_no_more(monkeypatch, used, factor):
+    grid = rc.Grid((128, 128), (1e-3, 1e-3))
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-3, rng=np.random.default_rng(5))
+    operator = rc.half_space(grid, 1e9)
+    expected = pressed(rough, plain(operator))
+
+    def lying(operator, region, previous=None):
+        driver = driver_on(operator, region, previous.true if isinstance(previous, Wrong) else previous)
+        return driver if type(driver) is Plane else Wrong(driver, factor)
+
+    monkeypatch.setattr("roughcontact.solver.active_set.driver_on", lying)
+    monkeypatch.setattr("roughcontact.solver.prescribed.driver_on", lying)
+    found = pressed(rough, operator)
+    assert found.residual <= 1e-10
+    assert found.depth == pytest.approx(expected.depth, rel=1e-8)
+    region = rough.heights > np.quantile(rough.heights, 0.85)
+    assert rc.contact_stiffness(region, grid, 1e9, operator=operator) == pytest.approx(
+        rc.contact_stiffness(region, grid, 1e9, operator=plain(operator)), rel=2e-7
+    )
+
+
+@needs_machine_code
+def test_who_drives():
+    def kind(operator, region, previous=None):
+        return type(driver_on(operator, region, previous))
+
+    tiny = rc.half_space(rc.Grid((32, 32), 1.0), 1.0)
+    assert kind(tiny, np.eye(32, dtype=bool)) is Plane
+    small = rc.half_space(rc.Grid((64, 64), 1.0), 1.0)
+    assert kind(small, np.eye(64, dtype=bool)) is SinglePlane
+    assert kind(plain(small), np.eye(64, dtype=bool)) is Plane
+    large = rc.half_space(rc.Grid((512, 512), 1.0), 1.0)
+    assert kind(large, np.ones((512, 512), dtype=bool)) is SinglePlane
+    few = np.zeros((512, 512), dtype=bool)
+    few[40:60, 100:130] = True
+    tiles = driver_on(large, few)
+    assert type(tiles) is PatchOperator
+    assert driver_on(large, few, tiles) is tiles
+    assert driver_on(large, few[::-1], tiles) is not tiles
+
+
+@needs_machine_code
+def test_one_driver_takes_off_what_it_says(rough):
+    """`gain`: a change of pressure that one makes leaves this of an error, and what its products get wrong."""
+    operator = rc.half_space(rough.grid, 1e9)
+    region = rough.heights > np.quantile(rough.heights, 0.8)
+    patch = operator.patches.on(drivers.Tiles.of(region))
+    for driver in (SinglePlane(operator), patch):
+        lacking = np.where(region, rough.heights, 0.0)
+        unit = float(np.abs(lacking).max())
+        part = driver.narrow(driver.gather(lacking / unit))
+        measure, kept = Measure(driver.weights), driver.gather(region)
+        fields = fields_on(driver, measure, kept, part, np.zeros_like(part))
+        relax(driver, fields, limit=driver.gain, max_steps=200)
+        change = unit * driver.scatter(fields.change).astype(float)
+        left = np.where(region, lacking - operator.apply(change), 0.0)
+        # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).
+        wrong = 1.5e-4 * operator.apply(np.abs(change)).max()
+        assert np.abs(left).max() <= driver.gain * unit + wrong
