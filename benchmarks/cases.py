@@ -43,8 +43,8 @@ def nominally_flat(n: int, seed: int, *, periodic: bool, slope_pressure: float) 
         0.8,
         RMS,
         np.random.default_rng(seed),
-        cutoff_wavelength=1 / 4,
-        short_wavelength=8 / n,
+        long_cutoff=1 / 4,
+        short_cutoff=8 / n,
     )
     return Problem(
         surface.heights, surface.grid.spacing, periodic, slope_pressure * _rms_slope(surface.heights)

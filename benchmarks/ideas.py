@@ -51,7 +51,7 @@ def cases(n):
     yield "sphere, 12 % in contact", sphere, 4 / 3 * a**3
     for periodic in (False, True):
         grid = rc.Grid((n, n), 1 / n, periodic)
-        band = {"cutoff_wavelength": 1 / 4, "short_wavelength": 8 / n}
+        band = {"long_cutoff": 1 / 4, "short_cutoff": 8 / n}
         flat = rc.self_affine(grid, 0.8, 0.01, np.random.default_rng(0), **band)
         slope = np.sqrt(sum(np.mean(d**2) for d in np.gradient(flat.heights, 1 / n)))
         yield f"nominally flat, {'periodic' if periodic else 'free'}", flat, 0.05 * slope

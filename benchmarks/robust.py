@@ -36,7 +36,7 @@ MATRIX = 1500  # cells up to which a region's stiffness is judged
 BOUNDARIES = {
     "free": [(False, False)],
     "periodic": [(True, True)],
-    "half-periodic": [(True, False), (False, True)],
+    "singly periodic": [(True, False), (False, True)],
 }
 
 Array = npt.NDArray[np.float64]
@@ -87,9 +87,9 @@ class Tally:
 def problem(seed: int) -> Problem:
     """Return a problem that depends on its number alone."""
     rng = np.random.default_rng(seed)
-    boundary = ("free", "periodic", "half-periodic")[rng.integers(3)]
+    boundary = ("free", "periodic", "singly periodic")[rng.integers(3)]
     levels, hard = rng.random() < 0.4, rng.random() < 0.5
-    large = boundary != "half-periodic" and rng.random() < LARGE
+    large = boundary != "singly periodic" and rng.random() < LARGE
     shape = tuple(int(n) for n in (rng.integers(512, 768, 2) if large else rng.integers(16, 97, 2)))
     if rng.random() < 0.2:
         shape = (512, 512) if large else (2 ** int(rng.integers(4, 7)),) * 2

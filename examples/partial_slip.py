@@ -18,9 +18,7 @@ PART = 0.8  # of the force at which the bodies would slide
 def rough_sphere():
     """Return a sphere with a self-affine roughness of 100 nm."""
     grid = rc.Grid((CELLS, CELLS), SPACING)
-    roughness = rc.self_affine(
-        grid, hurst=0.8, rms=100e-9, short_wavelength=8e-6, rng=np.random.default_rng(1)
-    )
+    roughness = rc.self_affine(grid, hurst=0.8, rms=100e-9, short_cutoff=8e-6, rng=np.random.default_rng(1))
     y, x = (c - c.mean() for c in grid.coordinates)
     return rc.Surface(roughness.heights - (y[:, None] ** 2 + x**2) / (2 * RADIUS), grid)
 

@@ -118,8 +118,8 @@ def plane(n, hurst=0.8, periodic=False, method="fft"):
     return body(rc.Grid((n, n), 1.0, periodic), lambda grid: rc.half_space(grid, 1.0, method), hurst)
 
 
-def half_periodic():
-    return body(rc.Grid((24, 40), 1.0, (True, False)), lambda grid: rc.half_periodic(grid, 1.0))
+def singly_periodic():
+    return body(rc.Grid((24, 40), 1.0, (True, False)), lambda grid: rc.singly_periodic(grid, 1.0))
 
 
 def layer(base):
@@ -179,8 +179,8 @@ CASES = {
     "periodic by depth": lambda: press(whole := plane(256, periodic=True), depth=0.6 * full(whole)),
     "periodic nearly full": lambda: press(whole := plane(256, 0.2, True), depth=0.9 * full(whole)),
     "small periodic nearly full": lambda: press(whole := plane(128, 0.2, True), depth=0.9 * full(whole)),
-    "half periodic": lambda: press(half_periodic(), force=3.0),
-    "half periodic iterated": lambda: press(half_periodic(), force=3.0, **ITERATED),
+    "singly periodic": lambda: press(singly_periodic(), force=3.0),
+    "singly periodic iterated": lambda: press(singly_periodic(), force=3.0, **ITERATED),
     "layer": lambda: press(layer("bonded"), force=2.0),
     "layer iterated": lambda: press(layer("bonded"), force=2.0, **ITERATED),
     "line": lambda: press(line(), force=0.3),
@@ -200,7 +200,7 @@ CASES = {
     "periodic curve by depths": lambda: curve(
         whole := plane(128, periodic=True), depths=np.linspace(0.25, 0.95, 10) * full(whole)
     ),
-    "half periodic curve": lambda: curve(half_periodic(), forces=32 * LOADS),
+    "singly periodic curve": lambda: curve(singly_periodic(), forces=32 * LOADS),
     "layer curve": lambda: curve(layer("rigid-frictionless"), forces=40 * LOADS),
     "line curve": lambda: curve(line(), forces=10 * LOADS),
     "line curve iterated": lambda: curve(line(), forces=10 * LOADS, **ITERATED),

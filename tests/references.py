@@ -52,14 +52,14 @@ def rings(rng):
     return rc.ring(rc.RadialGrid(np.cumsum(rng.uniform(0.1, 2, int(rng.integers(20, 200))))), MODULUS)
 
 
-def half_periodic(rng):
-    return rc.half_periodic(rc.Grid((24, int(rng.integers(12, 40))), 1.0, (True, False)), MODULUS)
+def singly_periodic(rng):
+    return rc.singly_periodic(rc.Grid((24, int(rng.integers(12, 40))), 1.0, (True, False)), MODULUS)
 
 
 OPERATORS = {
     "free": plane(False),
     "periodic": plane(True),
-    "half periodic": lambda rng: rc.half_periodic(
+    "singly periodic": lambda rng: rc.singly_periodic(
         rc.Grid((24, int(rng.integers(12, 40))), 1.0, (True, False)), MODULUS
     ),
     "bonded layer": layer("bonded"),

@@ -59,7 +59,7 @@ _ROOMS = {
     "stratified_parameters": "surface.parameters.material_ratio",
     "half_space": "halfspace.operators.build",
     "ring": "halfspace.operators.ring",
-    "half_periodic": "halfspace.operators.singly_periodic",
+    "singly_periodic": "halfspace.operators.singly_periodic",
     "layer": "halfspace.operators.layer",
     "Stress": "halfspace.subsurface.fields_below",
     "Displacement": "halfspace.subsurface.fields_below",
@@ -158,7 +158,7 @@ if TYPE_CHECKING:
     from roughcontact.halfspace.operators.line_contact import line as line
     from roughcontact.halfspace.operators.operator import Operator as Operator
     from roughcontact.halfspace.operators.ring import ring as ring
-    from roughcontact.halfspace.operators.singly_periodic import half_periodic as half_periodic
+    from roughcontact.halfspace.operators.singly_periodic import singly_periodic as singly_periodic
     from roughcontact.halfspace.shear.shear_operator import ShearOperator as ShearOperator
     from roughcontact.halfspace.shear.shear_operator import shear_half_space as shear_half_space
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement

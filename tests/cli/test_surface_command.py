@@ -34,9 +34,9 @@ def test_a_surface_is_made_as_the_library_makes_it(invoke, tmp_path):
         0.7,
         2e-6,
         np.random.default_rng(9),
-        rolloff_wavelength=0.8e-3,
-        cutoff_wavelength=2e-3,
-        short_wavelength=0.2e-3,
+        rolloff=0.8e-3,
+        long_cutoff=2e-3,
+        short_cutoff=0.2e-3,
     )
     surface = rc.read(path)
     np.testing.assert_allclose(surface.heights, expected.heights, rtol=0, atol=1e-14 * expected.rms)

@@ -7,7 +7,7 @@ from scipy.optimize import minimize_scalar
 import roughcontact as rc
 from roughcontact.contact.below import below, displacement_below, largest_von_mises
 from roughcontact.halfspace.operators.layer import layer
-from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 
 MODULUS = 2.0
 STEEL, SOFT = rc.Solid(3.0, 0.3), rc.Solid(2.0, 0.4)
@@ -77,7 +77,7 @@ def test_a_row_of_spheres():
     grid = rc.Grid((165, 33), 2.0 / 33, (True, False))
     y, x = (c - length / 2 for c, length in zip(grid.coordinates, grid.lengths, strict=True))
     surface = rc.Surface(-(y[:, None] ** 2 + x**2) / 2, grid)
-    s = rc.press(surface, MODULUS, force=force, operator=half_periodic(grid, MODULUS))
+    s = rc.press(surface, MODULUS, force=force, operator=singly_periodic(grid, MODULUS))
     found, exact = below(s, 0.3, 0.3).von_mises[66:99], below(alone, 0.3, 0.3).von_mises
     # The nearest images, ten away, bring 2 F/(2 pi 10^2) = 6e-4 at most and change the pressure by less.
     np.testing.assert_allclose(found, exact, atol=1.5e-3)

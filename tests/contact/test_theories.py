@@ -18,8 +18,8 @@ def wide():
         hurst=0.8,
         rms=1e-6,
         rng=np.random.default_rng(1),
-        rolloff_wavelength=5e-5,
-        short_wavelength=1.6e-5,
+        rolloff=5e-5,
+        short_cutoff=1.6e-5,
         amplitudes="gaussian",
     )
 

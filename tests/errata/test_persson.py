@@ -14,7 +14,7 @@ def printed_stiffness(pressure, gap, area):
 
 def rough(periodic):
     grid = rc.Grid((32, 32), 1 / 32, periodic=periodic)
-    return rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(4), short_wavelength=1 / 8)
+    return rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(4), short_cutoff=1 / 8)
 
 
 def near(force, step=1e-4):
@@ -33,7 +33,7 @@ class TestStiffness:
         assert (-printed <= tangents[1:] * (1 + 1e-6)).all()
 
     def test_3_16_in_persson_s_theory(self):
-        spectrum = rc.SelfAffineSpectrum(0.8, cutoff_wavelength=1.0, short_wavelength=1e-2).scaled(0.01)
+        spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1.0, short_cutoff=1e-2).scaled(0.01)
         p = near(1e-3)
         gap = persson_separation.mean_gap(p, 1.0, spectrum)
         printed = printed_stiffness(p[::2], gap[::2], 1.0)[0]

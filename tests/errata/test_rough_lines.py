@@ -78,7 +78,7 @@ def test_a_76_goes_to_pi_for_many_waves_at_hurst_0_and_not_at_1():
 
 def test_4_54_gives_equal_rms_heights_as_integrals_and_not_on_a_grid():
     """C1D = pi q C2D equates eqs A.74 and A.75, not the sums over the waves of a grid."""
-    surface = rc.SelfAffineSpectrum(1.0, cutoff_wavelength=3.0, short_wavelength=0.1)
+    surface = rc.SelfAffineSpectrum(1.0, long_cutoff=3.0, short_cutoff=0.1)
     line = line_spectrum(surface)
     ends = 2 * math.pi / 3.0 * (1 + 1e-12), 2 * math.pi / 0.1 * (1 - 1e-12)
     areal = 2 * math.pi * quad(lambda q: q * surface(np.array([q]))[0], *ends, epsrel=1e-10)[0]

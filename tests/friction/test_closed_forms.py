@@ -32,8 +32,8 @@ def rough(periodic, nu=0.0, n=64):
         grid,
         hurst=0.8,
         rms=1e-7,
-        rolloff_wavelength=3e-5,
-        short_wavelength=4e-6,
+        rolloff=3e-5,
+        short_cutoff=4e-6,
         rng=np.random.default_rng(4),
     )
     bodies = (rc.Solid(2e11, nu), rc.Solid(1e11, nu))

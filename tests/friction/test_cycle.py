@@ -17,7 +17,7 @@ MU = 0.3
 def pressed(nu=0.0, n=48, periodic=False):
     """A rough sphere: some spots, and one slope of the curve."""
     grid = rc.Grid((n, n), 1e-6, periodic)
-    surface = rc.self_affine(grid, hurst=0.8, rms=2e-8, short_wavelength=5e-6, rng=np.random.default_rng(2))
+    surface = rc.self_affine(grid, hurst=0.8, rms=2e-8, short_cutoff=5e-6, rng=np.random.default_rng(2))
     heights = surface.heights + oracles.paraboloid(n, 5e-4, side=n * 1e-6)
     bodies = (rc.Solid(1e11, nu), rc.Solid(1e11, nu))
     solution = rc.press(rc.Surface(heights, grid), bodies, depth=4e-7)

@@ -11,7 +11,7 @@ import roughcontact as rc
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.operators.line_contact import LineOperator
 from roughcontact.halfspace.operators.operator import Operator, is_positive, is_semidefinite, self_influence
-from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
@@ -29,7 +29,7 @@ OTHERS = {
     "line in a large body": lambda: rc.line(rc.Grid(75, 0.5), 2.0, reference_length=1e3),
     "periodic line": lambda: rc.line(rc.Grid(76, 0.5, True), 2.0),
     **{
-        f"periodic along one axis {shape}, {along}": lambda shape=shape, along=along: half_periodic(
+        f"periodic along one axis {shape}, {along}": lambda shape=shape, along=along: singly_periodic(
             rc.Grid(shape, (0.3, 0.5), [axis == along for axis in (0, 1)]), 2.0
         )
         for shape in ((1, 1), (1, 6), (7, 5), (33, 20))

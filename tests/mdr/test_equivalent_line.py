@@ -11,7 +11,7 @@ import roughcontact as rc
 from roughcontact.mdr.equivalent_line import LineSpectrum, TabulatedSpectrum, line_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
 
-SURFACE = rc.SelfAffineSpectrum(0.8, rolloff_wavelength=2e-4, cutoff_wavelength=1e-3, short_wavelength=1e-6)
+SURFACE = rc.SelfAffineSpectrum(0.8, rolloff=2e-4, long_cutoff=1e-3, short_cutoff=1e-6)
 SURFACE = SURFACE.scaled(rms=1e-6)
 
 
@@ -52,8 +52,8 @@ class TestLineSpectrum:
         )
 
     def test_of_a_power_law_is_the_power_law_of_a_line(self):
-        surface = rc.SelfAffineSpectrum(0.6, short_wavelength=1e-6, scale=3e-12)
-        line = rc.SelfAffineSpectrum(0.6, short_wavelength=1e-6, scale=math.pi * 3e-12, dimension=1)
+        surface = rc.SelfAffineSpectrum(0.6, short_cutoff=1e-6, scale=3e-12)
+        line = rc.SelfAffineSpectrum(0.6, short_cutoff=1e-6, scale=math.pi * 3e-12, dimension=1)
         q = np.geomspace(1e3, 1e8, 50)
         np.testing.assert_allclose(line_spectrum(surface)(q), line(q), rtol=1e-13)
 

@@ -13,7 +13,7 @@ from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 
 HURST, N, SPACING = 0.8, 1024, 1e-6
-SURFACE = rc.SelfAffineSpectrum(HURST, cutoff_wavelength=N * SPACING, scale=1.0)
+SURFACE = rc.SelfAffineSpectrum(HURST, long_cutoff=N * SPACING, scale=1.0)
 GRID = rc.Grid((N, N), SPACING, periodic=True)
 LINE = rc.Grid(N, SPACING, periodic=True)
 SURFACE = SURFACE.scaled(1e-6, GRID)

@@ -20,7 +20,7 @@ def batch(spectrum, count, seed=0, **options):
 @pytest.mark.parametrize("rms", [None, 3e-6])
 def test_batches_hold_what_synthesise_makes_one_by_one(n, amplitudes, rms):
     grid, rng = rc.Grid(n, 1e-6), np.random.default_rng(3)
-    spectrum = rc.SelfAffineSpectrum(0.7, rolloff_wavelength=5e-5, dimension=1, scale=1e-9)
+    spectrum = rc.SelfAffineSpectrum(0.7, rolloff=5e-5, dimension=1, scale=1e-9)
     alone = [rc.synthesise(grid, spectrum, rng, rms=rms, amplitudes=amplitudes).heights for _ in range(3)]
     rng = np.random.default_rng(3)
     [together] = rough_lines(grid, spectrum, rng, 3, rms=rms, amplitudes=amplitudes)

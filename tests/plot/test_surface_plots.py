@@ -35,7 +35,7 @@ def spectrum_of(density, kind="C2D", low=2e4, high=2e6):
 
 
 def law_of(**limits):
-    limits = dict.fromkeys(("rolloff_wavelength", "cutoff_wavelength", "short_wavelength")) | limits
+    limits = dict.fromkeys(("rolloff", "long_cutoff", "short_cutoff")) | limits
     return rc.HurstFit(0.5, 0.01, 1e-22, 1e6, "C2D", **limits, misfit=1.0, band=(2e4, 2e6))
 
 
@@ -93,7 +93,7 @@ def test_bins_outside_the_reliable_band_are_drawn_apart():
 
 
 def test_a_law_lies_over_its_band_and_bends_where_it_says():
-    law = law_of(rolloff_wavelength=5e-5)
+    law = law_of(rolloff=5e-5)
     spectrum = spectrum_of(law)
     figure, axes = single()
     spectrum_curve(axes, spectrum, law)
@@ -113,9 +113,7 @@ def test_a_law_lies_over_its_band_and_bends_where_it_says():
 
 def test_empty_bins_of_a_cut_off_spectrum_have_no_place_on_a_logarithmic_axis():
     figure, axes = single()
-    spectrum_curve(
-        axes, spectrum_of(lambda q: np.where(q < 0.99e5, 0.0, q**-4.0)), law_of(cutoff_wavelength=6e-5)
-    )
+    spectrum_curve(axes, spectrum_of(lambda q: np.where(q < 0.99e5, 0.0, q**-4.0)), law_of(long_cutoff=6e-5))
     drawn(figure)
     assert len(axes.lines[0].get_xdata()) == 41
     assert (line(axes, "measured").get_ydata() > 0).all()

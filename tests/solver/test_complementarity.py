@@ -69,7 +69,7 @@ OPERATORS = {
     "periodic, iterated": lambda: square(112, True),
     "rings": lambda: rings(300),
     "line": lambda: line(500),
-    "half periodic": lambda: rc.half_periodic(rc.Grid((24, 24), STEP, (True, False)), MODULUS),
+    "singly periodic": lambda: rc.singly_periodic(rc.Grid((24, 24), STEP, (True, False)), MODULUS),
     "layer": lambda: rc.layer(rc.Grid((32, 32), STEP), rc.Solid(MODULUS, 0.3), 10 * STEP, base="bonded"),
 }
 SOLVERS = {
@@ -79,7 +79,7 @@ SOLVERS = {
 }
 
 
-FEW = ["free", "periodic", "rings", "half periodic", "layer"]  # cells, for the slow method
+FEW = ["free", "periodic", "rings", "singly periodic", "layer"]  # cells, for the slow method
 PAIRS = [
     (name, solver) for name in OPERATORS for solver in SOLVERS if solver in list(SOLVERS)[:2] or name in FEW
 ]

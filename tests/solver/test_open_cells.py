@@ -10,7 +10,7 @@ import roughcontact as rc
 from libraries import LIBRARIES
 from roughcontact.contact import solution as solution_module
 from roughcontact.halfspace.operators.layer import layer
-from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 
 DEPTH = 1e-3
 WITHIN = 1e-6  # what is claimed of both numbers
@@ -150,7 +150,7 @@ SQUARE = rc.Grid((24, 24), 1 / 24)
 BODIES = {
     "free": lambda: rc.half_space(SQUARE, 1.0),
     "periodic": lambda: rc.half_space(rc.Grid((24, 24), 1 / 24, True), 1.0),
-    "periodic along one axis": lambda: half_periodic(rc.Grid((24, 24), 1 / 24, (True, False)), 1.0),
+    "periodic along one axis": lambda: singly_periodic(rc.Grid((24, 24), 1 / 24, (True, False)), 1.0),
     "layer": lambda: layer(SQUARE, rc.Solid(1.0, 0.3), 0.2, base="bonded"),
     "line": lambda: rc.line(rc.Grid(300, 1 / 300), 1.0),
     "rings": lambda: rc.ring(rc.RadialGrid(RADII / RADII[-1]), 1.0),

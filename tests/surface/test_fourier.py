@@ -67,11 +67,11 @@ def test_a_length_of_two_metres():
 def test_band_limits():
     q = wavenumbers(SQUARE.shape, SQUARE.spacing)
     length = 6.4
-    b = amplitudes(make(cutoff_wavelength=length / 4, short_wavelength=length / 16))
+    b = amplitudes(make(long_cutoff=length / 4, short_cutoff=length / 16))
     inside = (q >= 2 * np.pi * 4 / length * (1 - 1e-9)) & (q <= 2 * np.pi * 16 / length * (1 + 1e-9))
     assert (b[inside] > 1e-6).all()
     assert b[~inside].max() < 1e-15
-    b = amplitudes(make(rolloff_wavelength=length / 4))
+    b = amplitudes(make(rolloff=length / 4))
     plateau = b[(q > 0) & (q <= 2 * np.pi * 4 / length * (1 + 1e-9))]
     np.testing.assert_allclose(plateau, plateau[0], rtol=1e-10)
 
@@ -115,9 +115,9 @@ def test_the_same_generator_gives_the_same_surface():
         ({"rms": np.inf}, "rms must be positive"),
         ({"support": "ball"}, "support must be"),
         ({"amplitudes": "loud"}, "amplitudes must be"),
-        ({"cutoff_wavelength": -1.0}, "cutoff_wavelength must be"),
-        ({"short_wavelength": 2.0, "cutoff_wavelength": 1.0}, "no wave is left"),
-        ({"cutoff_wavelength": 1e-3}, "no wave of this grid"),
+        ({"long_cutoff": -1.0}, "long_cutoff must be"),
+        ({"short_cutoff": 2.0, "long_cutoff": 1.0}, "no wave is left"),
+        ({"long_cutoff": 1e-3}, "no wave of this grid"),
         ({"grid": rc.Grid((64, 64), 0.1, True), "nodal": True}, "nodal"),
         ({"grid": rc.Grid(64, 0.1), "anisotropy": (2.0, 0.0)}, "a line has no direction"),
         ({"anisotropy": (0.0, 0.0)}, "ratio of an anisotropy"),
@@ -215,7 +215,7 @@ def test_one_spectrum_on_one_and_on_two_metres(ndim, hurst):
 @pytest.mark.parametrize("hurst", [-0.5, 0.0, 0.7, 2.0])
 def test_lines_follow_their_own_law(hurst):
     """Eq. 2.10: C1D ~ q^-(2H+1), and a plateau where a roll-off asks for one."""
-    line = make(LINE, hurst, rms=1e-7, rolloff_wavelength=LINE.lengths[0] / 4)
+    line = make(LINE, hurst, rms=1e-7, rolloff=LINE.lengths[0] / 4)
     assert line.rms == pytest.approx(1e-7, rel=1e-12)
     assert abs(line.heights.mean()) < 1e-19
     estimate = estimated(line)[1:64]
@@ -260,7 +260,7 @@ def test_stretched_surfaces():
 def test_a_stretched_spectrum_keeps_its_power():
     """int C2D d2q does not change, as the stretch has determinant 1; the slopes become steeper across the lay."""
     grid = rc.Grid((256, 256), 1 / 256)
-    ring = SelfAffineSpectrum(0.5, cutoff_wavelength=1 / 16, short_wavelength=1 / 32)
+    ring = SelfAffineSpectrum(0.5, long_cutoff=1 / 16, short_cutoff=1 / 32)
     base, stretched = (
         surface_moments(synthesise(grid, s, np.random.default_rng(5)), "spectral")
         for s in (ring, StretchedSpectrum(ring, 2.0, 0.3))

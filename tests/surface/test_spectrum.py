@@ -49,7 +49,7 @@ def test_moments_pass_smoothly_through_their_logarithms(hurst):
 def test_slope_of_the_thesis():
     """Eq. 4.18: <|grad z|^2> = 2 pi C(q0) q0^(2H+2) (q1^(2-2H) - q0^(2-2H))/(2-2H)."""
     h, q0, q1 = 0.8, TAU, 100 * TAU
-    spectrum = SelfAffineSpectrum(h, cutoff_wavelength=1.0, short_wavelength=0.01)
+    spectrum = SelfAffineSpectrum(h, long_cutoff=1.0, short_cutoff=0.01)
     expected = (
         TAU * q0 ** (-2 * h - 2) * q0 ** (2 * h + 2) * (q1 ** (2 - 2 * h) - q0 ** (2 - 2 * h)) / (2 - 2 * h)
     )
@@ -61,12 +61,12 @@ def test_moments_of_a_band_without_ends_diverge_where_they_must():
     assert (endless.q_min, endless.q_max) == (0, np.inf)
     assert endless.moments().m0 == endless.moments().m2 == endless.moments().m4 == np.inf
     assert np.isnan(endless.moments().nayak)
-    flat = SelfAffineSpectrum(1.5, rolloff_wavelength=1.0).moments()
+    flat = SelfAffineSpectrum(1.5, rolloff=1.0).moments()
     # plateau q_r^2/2 and tail q_r^2/(2H), times C(q_r)
     assert flat.m0 == pytest.approx(TAU * TAU**-5 * TAU**2 * (1 / 2 + 1 / 3), rel=1e-12)
     assert flat.m2 == pytest.approx(np.pi * TAU**-5 * TAU**4 * (1 / 4 + 1), rel=1e-12)
     assert flat.m4 == np.inf
-    steep = SelfAffineSpectrum(-0.5, short_wavelength=1.0).moments()
+    steep = SelfAffineSpectrum(-0.5, short_cutoff=1.0).moments()
     assert steep.m0 == pytest.approx(TAU * TAU, rel=1e-12)
 
 
@@ -110,9 +110,9 @@ def test_values_without_a_scale():
     [
         (lambda: SelfAffineSpectrum(0.8, dimension=3), "dimension must be"),
         (lambda: SelfAffineSpectrum(0.8, scale=0.0), "scale must be"),
-        (lambda: SelfAffineSpectrum(0.8).scaled(1.0), "give cutoff_wavelength"),
+        (lambda: SelfAffineSpectrum(0.8).scaled(1.0), "give long_cutoff"),
         (lambda: SelfAffineSpectrum(0.8, None, 1.0).scaled(0.0), "rms must be"),
-        (lambda: SelfAffineSpectrum(0.8, None, 1.0, 1.0).scaled(1.0), "give cutoff_wavelength"),
+        (lambda: SelfAffineSpectrum(0.8, None, 1.0, 1.0).scaled(1.0), "give long_cutoff"),
     ],
 )
 def test_nonsense_is_refused(make, message):

@@ -11,9 +11,7 @@ from roughcontact.theory.finite_size import Cell
 from roughcontact.theory.waves import Waves
 
 MODULUS = 1e11
-SPECTRUM = rc.SelfAffineSpectrum(
-    0.8, cutoff_wavelength=1e-3, rolloff_wavelength=1e-4, short_wavelength=1e-6
-).scaled(1e-6)
+SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, rolloff=1e-4, short_cutoff=1e-6).scaled(1e-6)
 CELL = Cell(0.8, 1e-6, 1e-4)
 
 
@@ -74,8 +72,8 @@ def test_computed_contacts_cross_over():
             hurst=0.8,
             rms=rms,
             rng=np.random.default_rng(seed),
-            rolloff_wavelength=0.25,
-            short_wavelength=1 / 24,
+            rolloff=0.25,
+            short_cutoff=1 / 24,
         )
         curves.append(rc.loading_curve(surface, 1.0, forces=forces).interfacial_stiffness)
     waves = Waves.of_heights(surface.heights, grid.spacing)

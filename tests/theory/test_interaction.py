@@ -105,8 +105,8 @@ class TestAgainstTheSolver:
                 hurst=0.8,
                 rms=0.003,
                 rng=np.random.default_rng(seed),
-                short_wavelength=1 / 24,
-                rolloff_wavelength=1 / 8,
+                short_cutoff=1 / 24,
+                rolloff=1 / 8,
             )
             solution = rc.press(surface, 1.0, force=3e-4)
             found[seed] = 1 / solution.stiffness - 1 / solution.interfacial_stiffness

@@ -29,9 +29,7 @@ from roughcontact.theory import (
 from roughcontact.theory.beat_wave import beat_wave
 from roughcontact.theory.tools.computed import as_law
 
-SPECTRUM = rc.SelfAffineSpectrum(
-    0.8, cutoff_wavelength=1e-3, rolloff_wavelength=5e-4, short_wavelength=1e-5
-).scaled(1e-6)
+SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, rolloff=5e-4, short_cutoff=1e-5).scaled(1e-6)
 MOMENTS = SPECTRUM.moments()
 SURFACE = rc.self_affine(rc.Grid((16, 16), 1e-5), 0.8, 1e-6, np.random.default_rng(0))
 PEAKS = asperities.Asperities(

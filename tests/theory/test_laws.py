@@ -19,9 +19,7 @@ from roughcontact.theory import (
 )
 
 MODULUS, AREA, LENGTH = 1e11, 4e-6, 2e-3
-SPECTRUM = rc.SelfAffineSpectrum(
-    0.8, cutoff_wavelength=LENGTH, rolloff_wavelength=5e-4, short_wavelength=1e-5
-).scaled(1e-6)
+SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=LENGTH, rolloff=5e-4, short_cutoff=1e-5).scaled(1e-6)
 MOMENTS = SPECTRUM.moments()
 FACTS = {
     "modulus": MODULUS,

@@ -103,8 +103,8 @@ class TestStatistics:
             hurst=0.8,
             rms=1.0,
             rng=np.random.default_rng(5),
-            cutoff_wavelength=64.0,
-            short_wavelength=16.0,
+            long_cutoff=64.0,
+            short_cutoff=16.0,
         )
         counted, expected = rc.find_summits(surface), nayak.summits(rc.surface_moments(surface))
         assert counted.count > 1000

@@ -14,7 +14,7 @@ MODULUS = 2e11
 SURFACE = rc.Moments(1e-12, 5e-3, 1e9)
 SLOPE = 0.1  # sqrt(2 m2)
 SPREAD = MODULUS * SLOPE / 2
-SPECTRUM = rc.SelfAffineSpectrum(0.8, cutoff_wavelength=1e-3, short_wavelength=1e-6).scaled(1e-6)
+SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-6).scaled(1e-6)
 
 
 class TestArea:

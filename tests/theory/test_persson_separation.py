@@ -18,9 +18,7 @@ RMS = 1e-6
 
 def self_affine(hurst, decades=3.0):
     longest = 1e-3
-    return rc.SelfAffineSpectrum(
-        hurst, cutoff_wavelength=longest, short_wavelength=longest * 10**-decades
-    ).scaled(RMS)
+    return rc.SelfAffineSpectrum(hurst, long_cutoff=longest, short_cutoff=longest * 10**-decades).scaled(RMS)
 
 
 def finite_band_decay(hurst, zeta):
@@ -85,7 +83,7 @@ class TestDecayLength:
 
     def test_follows_the_heights_and_nothing_else(self):
         small, large = self_affine(0.8), self_affine(0.8).scaled(3 * RMS)
-        wide = rc.SelfAffineSpectrum(0.8, cutoff_wavelength=1.0, short_wavelength=1e-3).scaled(RMS)
+        wide = rc.SelfAffineSpectrum(0.8, long_cutoff=1.0, short_cutoff=1e-3).scaled(RMS)
         u0 = separation.decay_length(small)
         assert separation.decay_length(large) == pytest.approx(3 * u0, rel=1e-12)
         assert separation.decay_length(wide) == pytest.approx(u0, rel=1e-12)
@@ -122,9 +120,7 @@ class TestOneWave:
 
 class TestAgainstQuadrature:
     Q0, Q1 = 1e4, 1e6
-    SPECTRUM = rc.SelfAffineSpectrum(
-        0.7, cutoff_wavelength=2 * np.pi / Q0, short_wavelength=2 * np.pi / Q1
-    ).scaled(RMS)
+    SPECTRUM = rc.SelfAffineSpectrum(0.7, long_cutoff=2 * np.pi / Q0, short_cutoff=2 * np.pi / Q1).scaled(RMS)
 
     def over_waves(self, function):
         """sqrt(pi) int q^2 C2D w f(w) dq, the page's integral as it stands, with q = q0 (1 + s^2)."""
@@ -231,7 +227,7 @@ class TestLimits:
     def test_scale_laws(self):
         p = np.geomspace(1e-6, 1e-2, 5) * MODULUS
         # A surface magnified by 7: same slopes, everything as long as it is.
-        scaled = rc.SelfAffineSpectrum(0.8, cutoff_wavelength=7e-3, short_wavelength=7e-6).scaled(7 * RMS)
+        scaled = rc.SelfAffineSpectrum(0.8, long_cutoff=7e-3, short_cutoff=7e-6).scaled(7 * RMS)
         given = (MODULUS, self.SPECTRUM)
         assert separation.mean_gap(p, MODULUS, scaled) == pytest.approx(
             7 * separation.mean_gap(p, *given), rel=1e-12

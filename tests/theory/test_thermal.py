@@ -56,9 +56,7 @@ class TestCorrelations:
     def test_mean_absolute_slope_of_a_gaussian_surface(self):
         # Slopes of a random sum of many waves are Gaussian: E|s| = sqrt(2/pi) rms.
         grid = rc.Grid((256, 256), 1e-6, periodic=True)
-        surface = rc.self_affine(
-            grid, hurst=0.3, rms=1e-7, rng=np.random.default_rng(5), rolloff_wavelength=3e-5
-        )
+        surface = rc.self_affine(grid, hurst=0.3, rms=1e-7, rng=np.random.default_rng(5), rolloff=3e-5)
         slopes = np.fft.ifft(
             2j * np.pi * np.fft.fftfreq(256, 1e-6) * np.fft.fft(surface.heights, axis=1), axis=1
         ).real

@@ -8,7 +8,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.theory.waves import Waves
 
-SELF_AFFINE = {"cutoff_wavelength": 1e-3, "short_wavelength": 1e-6}
+SELF_AFFINE = {"long_cutoff": 1e-3, "short_cutoff": 1e-6}
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ class TestContinuous:
     @pytest.mark.parametrize("hurst", [-1.0, -0.5, 0.0, 0.3, 0.8, 1.0, 1.5, 3.0])
     @pytest.mark.parametrize("rolloff", [None, 2.3e-4])
     def test_moments_are_the_closed_ones(self, hurst, rolloff):
-        spectrum = rc.SelfAffineSpectrum(hurst, rolloff_wavelength=rolloff, **SELF_AFFINE)
+        spectrum = rc.SelfAffineSpectrum(hurst, rolloff=rolloff, **SELF_AFFINE)
         waves, exact = Waves.of_spectrum(spectrum), spectrum.moments()
         # Gauss' rule is at rounding on these panels; sums of some hundred terms lose a digit or two.
         for name in ("m0", "m2", "m4"):
@@ -57,7 +57,7 @@ class TestContinuous:
             assert total == pytest.approx(exact, rel=1e-8)
 
     def test_a_smaller_magnification_is_a_shorter_band(self):
-        spectrum = rc.SelfAffineSpectrum(0.8, rolloff_wavelength=2e-4, **SELF_AFFINE)
+        spectrum = rc.SelfAffineSpectrum(0.8, rolloff=2e-4, **SELF_AFFINE)
         whole = Waves.of_spectrum(spectrum)
         for node in (350, 400, 450):
             part = Waves.of_spectrum(spectrum, q_max=whole.wavenumber[node])
@@ -71,15 +71,15 @@ class TestContinuous:
         assert waves.m0 == pytest.approx(2 * math.pi * (math.log(10) + 50 * (1e-2 - 1e-4)), rel=1e-12)
 
     def test_steep_spectra_do_not_upset_the_order(self):
-        waves = Waves.of_spectrum(rc.SelfAffineSpectrum(3.0, cutoff_wavelength=1.0, short_wavelength=1e-7))
+        waves = Waves.of_spectrum(rc.SelfAffineSpectrum(3.0, long_cutoff=1.0, short_cutoff=1e-7))
         assert (np.diff(waves.slope) >= 0).all()
 
     @pytest.mark.parametrize(
         ("spectrum", "reason"),
         [
-            (rc.SelfAffineSpectrum(0.8, cutoff_wavelength=1e-3), "no shortest wave"),
-            (rc.SelfAffineSpectrum(0.8, short_wavelength=1e-6), "no longest wave"),
-            (rc.SelfAffineSpectrum(0.8, rolloff_wavelength=1e-4, short_wavelength=1e-6), "no longest wave"),
+            (rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3), "no shortest wave"),
+            (rc.SelfAffineSpectrum(0.8, short_cutoff=1e-6), "no longest wave"),
+            (rc.SelfAffineSpectrum(0.8, rolloff=1e-4, short_cutoff=1e-6), "no longest wave"),
             (rc.SelfAffineSpectrum(0.8, dimension=1, **SELF_AFFINE), "line"),
         ],
     )

@@ -33,7 +33,7 @@ def heights(hurst, shortest):
     """Return the surface with all waves, and how it looks without the short ones."""
     rng = np.random.default_rng(np.random.SeedSequence(outlook_cutoff.SEED, spawn_key=(0,)))
     grid = rc.Grid((32, 32), 1 / 32)
-    whole = rc.self_affine(grid, hurst, 0.01, rng, short_wavelength=1 / 8)
+    whole = rc.self_affine(grid, hurst, 0.01, rng, short_cutoff=1 / 8)
     q = 2 * np.pi * np.hypot(*np.meshgrid(np.fft.fftfreq(32, 1 / 32), np.fft.fftfreq(32, 1 / 32)))
     waves = np.fft.fft2(whole.heights) * (q <= 2 * np.pi / shortest * (1 + 1e-9))
     return rc.Surface(np.fft.ifft2(waves).real, grid)

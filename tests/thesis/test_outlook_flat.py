@@ -39,9 +39,9 @@ def test_rows_are_cut_off_then_rolled_off(found):
 def test_theories_are_those_of_the_spectrum_of_all_samples(export, found):
     grid = rc.Grid((64, 64), 1 / 64, periodic=True)
     force = export["dimensionless_force"].to_numpy() * RMS
-    for row, limit in ((2, {"cutoff_wavelength": 1 / 4}), (5, {"rolloff_wavelength": 1 / 8})):
+    for row, limit in ((2, {"long_cutoff": 1 / 4}), (5, {"rolloff": 1 / 8})):
         other = rc.self_affine(
-            grid, outlook_flat.HURST, RMS, np.random.default_rng(99), short_wavelength=1 / 32, **limit
+            grid, outlook_flat.HURST, RMS, np.random.default_rng(99), short_cutoff=1 / 32, **limit
         )
         waves = Waves.of_heights(other.heights, grid.spacing)
         one = found.isel(row=row)

@@ -29,11 +29,11 @@ def test_the_rows_are_ceilings_then_waves_and_one_ceiling_for_all_of_them():
         grid = rc.Grid((points, points), 1 / points)
         pressures = []
         for row in study.rows[6:]:
-            spectrum = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_wavelength=row["shortest"])
+            spectrum = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_cutoff=row["shortest"])
             slope = rc.grid_moments(spectrum, grid).rms_slope
             if "relative_hardness" in row:
                 pressures.append(row["relative_hardness"] * slope)  # of one spectrum, over E*
-        whole = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_wavelength=1 / last)
+        whole = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_cutoff=1 / last)
         given = outlook_hardness.GIVEN * rc.grid_moments(whole, grid).rms_slope
         np.testing.assert_allclose(pressures, given, rtol=1e-12)
         assert len(pressures) == len(study.rows[6:]) / 2

@@ -63,7 +63,7 @@ def test_the_longest_octave_is_that_of_the_waves_between_l_and_half_of_it():
     grid = rc.Grid((128, 128), 1 / 128)
     for hurst in HURST:
         long, all_waves, few = (
-            rc.grid_moments(rc.SelfAffineSpectrum(hurst, short_wavelength=each), grid).rms_height
+            rc.grid_moments(rc.SelfAffineSpectrum(hurst, short_cutoff=each), grid).rms_height
             for each in (1 / 2, 1 / 32, 1 / 8)
         )
         one = octave.sel(hurst=hurst)

@@ -122,9 +122,9 @@ def make(
             exponent,
             height,
             np.random.default_rng(chosen),
-            rolloff_wavelength=waves.get("rolloff"),
-            cutoff_wavelength=waves.get("cutoff"),
-            short_wavelength=waves.get("short"),
+            rolloff=waves.get("rolloff"),
+            long_cutoff=waves.get("cutoff"),
+            short_cutoff=waves.get("short"),
             nodal=nodal,
         )
         recipe = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])

@@ -24,7 +24,7 @@ Array = npt.NDArray[np.float64]
 class LineSpectrum:
     """``C1D(q) = factor q C2D(q)``, two-sided.
 
-    A spectrum with a plateau (`rolloff_wavelength`) gives a line whose spectrum rises on it.
+    A spectrum with a plateau (`rolloff`) gives a line whose spectrum rises on it.
 
     Parameters
     ----------

@@ -118,7 +118,7 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
 
 
 def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
-    ends = (law.rolloff_wavelength, law.cutoff_wavelength, law.short_wavelength)
+    ends = (law.rolloff, law.long_cutoff, law.short_cutoff)
     # Corners belong among the points, so that a plateau ends where it ends.
     corners = [2 * math.pi / w for w in ends if w is not None]
     q = np.unique(np.concatenate([np.geomspace(*law.band, 200), np.clip(corners, *law.band)]))

@@ -28,9 +28,9 @@ def self_affine(
     rms: float,
     rng: np.random.Generator,
     *,
-    rolloff_wavelength: float | None = None,
-    cutoff_wavelength: float | None = None,
-    short_wavelength: float | None = None,
+    rolloff: float | None = None,
+    long_cutoff: float | None = None,
+    short_cutoff: float | None = None,
     anisotropy: tuple[float, float] | None = None,
     support: Support = "square",
     amplitudes: Literal["exact", "gaussian"] = "exact",
@@ -53,7 +53,7 @@ def self_affine(
         the process, about which samples scatter.
     rng : numpy.random.Generator
         Source of the phases.
-    rolloff_wavelength, cutoff_wavelength, short_wavelength : float, optional
+    rolloff, long_cutoff, short_cutoff : float, optional
         Limits of the power law [m], see `SelfAffineSpectrum`.
     anisotropy : tuple of float, optional
         ``(ratio, angle)``: correlation length along over that across, and the direction
@@ -78,7 +78,7 @@ def self_affine(
     """
     if not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
-    law = SelfAffineSpectrum(hurst, rolloff_wavelength, cutoff_wavelength, short_wavelength, grid.ndim)
+    law = SelfAffineSpectrum(hurst, rolloff, long_cutoff, short_cutoff, grid.ndim)
     spectrum: Spectrum = law
     if anisotropy is not None:
         if np.shape(number(anisotropy, "anisotropy")) != (2,):

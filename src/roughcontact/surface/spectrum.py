@@ -49,11 +49,11 @@ class SelfAffineSpectrum:
     ----------
     hurst : float
         Hurst exponent H, from -1 to 3. Heights are white at -1, on a line at -1/2.
-    rolloff_wavelength : float, optional
+    rolloff : float, optional
         Longer waves than this [m] have the amplitude of this one (a plateau).
-    cutoff_wavelength : float, optional
+    long_cutoff : float, optional
         Longer waves than this [m] are absent.
-    short_wavelength : float, optional
+    short_cutoff : float, optional
         Shorter waves than this [m] are absent.
     dimension : {2, 1}
         C2D of a surface, or the two-sided C1D ~ q^(-2H-1) of a line.
@@ -67,9 +67,9 @@ class SelfAffineSpectrum:
     """
 
     hurst: float
-    rolloff_wavelength: float | None = None
-    cutoff_wavelength: float | None = None
-    short_wavelength: float | None = None
+    rolloff: float | None = None
+    long_cutoff: float | None = None
+    short_cutoff: float | None = None
     dimension: int = 2
     scale: float = 1.0
 
@@ -77,14 +77,14 @@ class SelfAffineSpectrum:
         require_numbers(self)
         if not -1 <= self.hurst <= 3:
             raise ValueError(f"hurst must lie between -1 and 3, not {self.hurst}")
-        for name in ("rolloff_wavelength", "cutoff_wavelength", "short_wavelength"):
+        for name in ("rolloff", "long_cutoff", "short_cutoff"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):
                 raise ValueError(f"{name} must be positive and finite [m], not {value}")
-        longest = min(v for v in (self.cutoff_wavelength, math.inf) if v is not None)
-        if self.short_wavelength is not None and not self.short_wavelength <= longest:
+        longest = min(v for v in (self.long_cutoff, math.inf) if v is not None)
+        if self.short_cutoff is not None and not self.short_cutoff <= longest:
             raise ValueError(
-                f"short_wavelength {self.short_wavelength} m exceeds cutoff_wavelength {longest} m: no wave is left"
+                f"short_cutoff {self.short_cutoff} m exceeds long_cutoff {longest} m: no wave is left"
             )
         if self.dimension not in (1, 2):
             raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
@@ -93,18 +93,18 @@ class SelfAffineSpectrum:
 
     @property
     def q_min(self) -> float:
-        """Smallest wavenumber [rad/m], that of `cutoff_wavelength`; 0 without one."""
-        return 0.0 if self.cutoff_wavelength is None else 2 * math.pi / self.cutoff_wavelength
+        """Smallest wavenumber [rad/m], that of `long_cutoff`; 0 without one."""
+        return 0.0 if self.long_cutoff is None else 2 * math.pi / self.long_cutoff
 
     @property
     def q_max(self) -> float:
-        """Largest wavenumber [rad/m], that of `short_wavelength`; infinite without one."""
-        return math.inf if self.short_wavelength is None else 2 * math.pi / self.short_wavelength
+        """Largest wavenumber [rad/m], that of `short_cutoff`; infinite without one."""
+        return math.inf if self.short_cutoff is None else 2 * math.pi / self.short_cutoff
 
     @property
     def q_rolloff(self) -> float:
         """Wavenumber [rad/m] below which the spectrum is flat; 0 without a plateau."""
-        return 0.0 if self.rolloff_wavelength is None else 2 * math.pi / self.rolloff_wavelength
+        return 0.0 if self.rolloff is None else 2 * math.pi / self.rolloff
 
     def __call__(self, wavenumber: Array) -> Array:
         """Return C(q), m^4 on a surface and m^3 on a line, at the `wavenumber` q [rad/m]; zero at q = 0."""
@@ -120,8 +120,8 @@ class SelfAffineSpectrum:
     def moments(self) -> Moments:
         """Return the moments of the continuous spectrum, in closed form (thesis, eq. 4.18).
 
-        An integral that diverges for want of a limit is infinite: m0 without `cutoff_wavelength` or
-        `rolloff_wavelength` for H >= 0, and m2 without `short_wavelength` for H <= 1, for example.
+        An integral that diverges for want of a limit is infinite: m0 without `long_cutoff` or
+        `rolloff` for H >= 0, and m2 without `short_cutoff` for H <= 1, for example.
         """
         # The angular mean of cos^n times the angle's range, and of a line its two sides.
         factors = (2.0, 2.0, 2.0) if self.dimension == 1 else (2 * math.pi, math.pi, 3 * math.pi / 4)
@@ -154,7 +154,7 @@ class SelfAffineSpectrum:
         if not 0 < m0 < math.inf:
             raise ValueError(
                 f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "
-                "give cutoff_wavelength or rolloff_wavelength, and short_wavelength, or a grid"
+                "give long_cutoff or rolloff, and short_cutoff, or a grid"
             )
         return replace(self, scale=self.scale * (rms**2 / m0))
 

@@ -131,12 +131,12 @@ class Waves:
         high = min(getattr(spectrum, "q_max", math.inf), math.inf if q_max is None else q_max)
         if not low > 0:
             raise ValueError(
-                "the spectrum has no longest wave, and without one no surface of finite size: give cutoff_wavelength, "
+                "the spectrum has no longest wave, and without one no surface of finite size: give long_cutoff, "
                 "or q_min, 2 pi over the side of the surface [rad/m]"
             )
         if not math.isfinite(high):
             raise ValueError(
-                "the spectrum has no shortest wave, and the contact area hangs on it: give short_wavelength, or "
+                "the spectrum has no shortest wave, and the contact area hangs on it: give short_cutoff, or "
                 "q_max [rad/m]"
             )
         corner = getattr(spectrum, "q_rolloff", 0.0)

@@ -153,7 +153,7 @@ def _followed(law: SelfAffineSpectrum, radius: float) -> float:
     """Return the shortest wavelength [m] down to which the rms curvature of the law is a quarter of the tip's."""
 
     def excess(ln_wavelength: float) -> float:
-        part = replace(law, cutoff_wavelength=LENGTH, short_wavelength=math.exp(ln_wavelength))
+        part = replace(law, long_cutoff=LENGTH, short_cutoff=math.exp(ln_wavelength))
         return part.moments().rms_curvature * _TIP * radius - 1
 
     low, high = math.log(LENGTH * 1e-8), math.log(LENGTH * 0.999)

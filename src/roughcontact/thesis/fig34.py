@@ -54,8 +54,8 @@ def case(seed: int = SEED) -> tuple[Roughness, ...]:
     limit = LIMIT * LENGTH
     spectra = (
         SelfAffineSpectrum(HURST, dimension=1, scale=scale),
-        SelfAffineSpectrum(HURST, rolloff_wavelength=limit, dimension=1, scale=scale),
-        SelfAffineSpectrum(HURST, cutoff_wavelength=limit, dimension=1, scale=scale),
+        SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
+        SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
     )
     return tuple(
         Roughness(name, spectrum, synthesise(grid, spectrum, np.random.default_rng(seed)))

@@ -134,7 +134,7 @@ def _whole(exported: xarray.Dataset) -> xarray.DataArray:
     grid = Grid((points, points), 1 / points)
 
     def height(hurst: float, shortest: float) -> float:
-        return grid_moments(SelfAffineSpectrum(hurst, short_wavelength=shortest), grid).rms_height
+        return grid_moments(SelfAffineSpectrum(hurst, short_cutoff=shortest), grid).rms_height
 
     rows = [
         [height(hurst, shortest) for hurst in exported["hurst"].values]

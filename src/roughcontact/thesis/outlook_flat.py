@@ -196,7 +196,7 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
             HURST,
             _RMS,
             np.random.default_rng(0),
-            short_wavelength=float(exported["shortest"]),
+            short_cutoff=float(exported["shortest"]),
             **longest,  # type: ignore[arg-type]
         )
         for name, law in zip(_THEORIES, loading_laws(surface, 1.0, _THEORIES), strict=True):

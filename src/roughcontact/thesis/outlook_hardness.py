@@ -150,9 +150,7 @@ def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:
 
 def _moments(points: int, shortest: float) -> Moments:
     """Return the moments of a surface with waves down to a shortest one; the scale is that of the spectrum."""
-    return grid_moments(
-        SelfAffineSpectrum(HURST, short_wavelength=shortest), Grid((points, points), 1 / points)
-    )
+    return grid_moments(SelfAffineSpectrum(HURST, short_cutoff=shortest), Grid((points, points), 1 / points))
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

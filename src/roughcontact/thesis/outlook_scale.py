@@ -125,7 +125,7 @@ def _octave(exported: xarray.Dataset) -> xarray.DataArray:
 
     def part(hurst: float, shortest: float) -> float:
         longest, every = (
-            grid_moments(SelfAffineSpectrum(hurst, short_wavelength=each), grid).rms_height
+            grid_moments(SelfAffineSpectrum(hurst, short_cutoff=each), grid).rms_height
             for each in (OCTAVE, shortest)
         )
         return longest / every

@@ -49,7 +49,7 @@ BODIES = {
     "window of a periodic half-space": lambda: rc.half_space(rc.Grid((50, 70), SPACING, True), 2.0).restrict(
         (slice(3, 40), slice(9, 70))
     ),
-    "half-periodic half-space": lambda: rc.half_space(rc.Grid(SHAPE, SPACING, (True, False)), 2.0),
+    "singly periodic half-space": lambda: rc.half_space(rc.Grid(SHAPE, SPACING, (True, False)), 2.0),
     "layer": lambda: layer(rc.Grid(SHAPE, SPACING), RUBBER, 0.8, base="bonded"),
     "periodic layer": lambda: layer(rc.Grid(SHAPE, SPACING, True), RUBBER, 0.8, base="bonded"),
     "line": lambda: rc.line(rc.Grid(SHAPE[0] * SHAPE[1], 0.5), 2.0),

@@ -8,7 +8,7 @@ from scipy.special import eval_legendre, k0, zeta
 import roughcontact as rc
 import roughcontact.halfspace.influence.love_singly_periodic as kernel
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
-from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 
 MODULUS, PERIOD = 2.0, 1.7
 PAGE = 2 * np.exp(-np.euler_gamma) * PERIOD  # the reference length that takes 1/(|m| period) from each image
@@ -46,7 +46,7 @@ def sphere_in_a_row(rows, across, force=0.2):
     grid = rc.Grid((rows, across), 1 / 32, (True, False))
     y, x = (c - length / 2 for c, length in zip(grid.coordinates, grid.lengths, strict=True))
     surface = rc.Surface(-(y[:, None] ** 2 + x**2) / 2, grid)
-    return rc.press(surface, MODULUS, force=force, operator=half_periodic(grid, MODULUS), tolerance=1e-10)
+    return rc.press(surface, MODULUS, force=force, operator=singly_periodic(grid, MODULUS), tolerance=1e-10)
 
 
 def cylinder(shape, periodic, axis, **options):
@@ -54,7 +54,7 @@ def cylinder(shape, periodic, axis, **options):
     grid = rc.Grid(shape, (4 / shape[0], 4 / shape[1]), periodic)
     x = grid.coordinates[1 - axis] - 2
     heights = np.broadcast_to(np.expand_dims(-(x**2) / 2, axis), shape).copy()
-    operator = half_periodic(grid, MODULUS, **options)
+    operator = singly_periodic(grid, MODULUS, **options)
     return rc.press(rc.Surface(heights, grid), MODULUS, force=4.0, operator=operator, tolerance=1e-11)
 
 
@@ -175,7 +175,7 @@ def test_the_work_does_not_grow_with_cells_over_the_period(monkeypatch):
     for ratio in (2.0, 1e3, 1e4):
         for name in counts:
             counts[name] = 0
-        half_periodic(rc.Grid((1, 12), (1.0, ratio), (True, False)), MODULUS).influence.table((1, 12))
+        singly_periodic(rc.Grid((1, 12), (1.0, ratio), (True, False)), MODULUS).influence.table((1, 12))
         totals.append(dict(counts))
     assert totals[0] == totals[1] == totals[2]
     assert totals[0]["_images"] <= 16  # one cell holds the row: its nearest period, in four by four pieces
@@ -198,14 +198,14 @@ def test_far_from_the_row_it_is_a_line_load():
     p[3, 0] = 3.0
     line, x = 3.0 * grid.cell_area / 0.8, 399 * 0.05
     exact = 2 * line / (np.pi * MODULUS) * np.log(30.0 / x)
-    found = half_periodic(grid, MODULUS, reference_length=30.0).apply(p)[:, -1]
+    found = singly_periodic(grid, MODULUS, reference_length=30.0).apply(p)[:, -1]
     np.testing.assert_allclose(found, exact, rtol=(0.05 / x) ** 2)
 
 
 @pytest.mark.parametrize("shape", [(4, 300), (300, 4), (64, 64), (1, 50), (50, 1)], ids=str)
 def test_no_pressure_lifts_any_cell(shape):
     """The default reference length is beyond the last cell, in long grids along either axis; monotone decay to it."""
-    table = half_periodic(rc.Grid(shape, 0.1, (True, False)), MODULUS).influence.table(shape)
+    table = singly_periodic(rc.Grid(shape, 0.1, (True, False)), MODULUS).influence.table(shape)
     assert table.min() > 0
     half = table[: shape[0] // 2 + 1]
     assert (np.diff(half, axis=0) <= 1e-14 * half[0, 0]).all()
@@ -214,7 +214,7 @@ def test_no_pressure_lifts_any_cell(shape):
 
 def test_a_constant_pressure_presses_down():
     """Unlike on a grid that is periodic along both axes, it is no exception: the strip has two free edges."""
-    operator = half_periodic(rc.Grid((16, 20), 0.1, (True, False)), MODULUS)
+    operator = singly_periodic(rc.Grid((16, 20), 0.1, (True, False)), MODULUS)
     u = operator.apply(np.ones((16, 20)))
     assert u.min() > 0
     np.testing.assert_allclose(u, np.broadcast_to(u[:1], u.shape), rtol=1e-13)
@@ -222,14 +222,14 @@ def test_a_constant_pressure_presses_down():
 
 def test_both_axes_are_alike():
     p = np.random.default_rng(0).random((12, 9))
-    along_y = half_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), MODULUS).apply(p)
-    along_x = half_periodic(rc.Grid((9, 12), (0.5, 0.3), (False, True)), MODULUS).apply(p.T)
+    along_y = singly_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), MODULUS).apply(p)
+    along_x = singly_periodic(rc.Grid((9, 12), (0.5, 0.3), (False, True)), MODULUS).apply(p.T)
     np.testing.assert_allclose(along_x.T, along_y, rtol=1e-13)
 
 
 def test_a_window_keeps_the_period_that_it_holds():
     grid = rc.Grid((12, 30), (0.3, 0.5), (True, False))
-    operator = half_periodic(grid, MODULUS)
+    operator = singly_periodic(grid, MODULUS)
     part = operator.restrict((slice(0, 12), slice(4, 11)))
     assert part.grid.periodic == (True, False)
     p = np.zeros(grid.shape)
@@ -239,9 +239,9 @@ def test_a_window_keeps_the_period_that_it_holds():
 
 def test_scale_laws():
     p = np.random.default_rng(0).random((12, 9))
-    base = half_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), 2.0).apply(p)
-    small = half_periodic(rc.Grid((12, 9), (3e-7, 5e-7), (True, False)), 2.0).apply(p)
-    stiff = half_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), 2e11).apply(p)
+    base = singly_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), 2.0).apply(p)
+    small = singly_periodic(rc.Grid((12, 9), (3e-7, 5e-7), (True, False)), 2.0).apply(p)
+    stiff = singly_periodic(rc.Grid((12, 9), (0.3, 0.5), (True, False)), 2e11).apply(p)
     np.testing.assert_allclose(small, base * 1e-6, rtol=1e-12)
     np.testing.assert_allclose(stiff, base * 1e-11, rtol=1e-12)
 
@@ -312,7 +312,7 @@ def test_a_rough_strip():
     """Curves, both solvers, and a stiffness between the secants."""
     grid = rc.Grid((48, 64), 1e-6, (True, False))
     rough = rc.self_affine(rc.Grid((48, 64), 1e-6, True), hurst=0.8, rms=1e-6, rng=np.random.default_rng(0))
-    surface, operator = rc.Surface(rough.heights, grid), half_periodic(grid, 1e9)
+    surface, operator = rc.Surface(rough.heights, grid), singly_periodic(grid, 1e9)
     curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e5, 1e8, 8), operator=operator)
     assert (np.diff(curve.depth) > 0).all()
     assert (curve.secant_stiffness >= curve.stiffness[:-1] * (1 - 1e-6)).all()
@@ -337,4 +337,4 @@ def test_a_rough_strip():
 )
 def test_nonsense_is_refused(grid, reference, message):
     with pytest.raises(ValueError, match=message):
-        half_periodic(grid, MODULUS, reference_length=reference)
+        singly_periodic(grid, MODULUS, reference_length=reference)

@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.influence.love import love
-from roughcontact.halfspace.operators.singly_periodic import half_periodic
+from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 from roughcontact.halfspace.subsurface.fields_below import Stress, displacement, stress
 from roughcontact.halfspace.subsurface.love_field import (
     displacement_table,
@@ -327,7 +327,7 @@ def test_the_row_s_equilibrium():
     s = stress(p, grid, 0.8, NU)
     # Beyond x = 50 on either side a line load leaves (4/3 pi) (z/x)^3.
     assert -s.zz.sum() * grid.cell_area == pytest.approx(4.0 * grid.cell_area, rel=1e-5)
-    assert half_periodic(grid, 1.0).weights == grid.cell_area
+    assert singly_periodic(grid, 1.0).weights == grid.cell_area
 
 
 def test_scale_laws():

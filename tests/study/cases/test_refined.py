@@ -31,7 +31,7 @@ def test_it_comes_with_the_package():
 
 def test_a_surface_is_the_same_on_all_grids():
     whole = rc.self_affine(
-        rc.Grid((64, 64), 2e-3 / 64), 0.7, 1e-6, np.random.default_rng(0), short_wavelength=0.5e-3
+        rc.Grid((64, 64), 2e-3 / 64), 0.7, 1e-6, np.random.default_rng(0), short_cutoff=0.5e-3
     )
     np.testing.assert_array_equal(roughness(points=64).heights, whole.heights)
     for points in (32, 16):

@@ -70,7 +70,7 @@ def test_a_record_is_pure_is_paired_and_survives_as_text():
 
 
 def test_limits_of_the_spectrum_are_parts_of_the_side():
-    given = {"rolloff_wavelength": 1e-3, "cutoff_wavelength": 1.5e-3, "short_wavelength": 2e-4}
+    given = {"rolloff": 1e-3, "long_cutoff": 1.5e-3, "short_cutoff": 2e-4}
     record = run(rolloff=0.5, cutoff=0.75, shortest=0.1, amplitudes="gaussian")
     surface = roughness(amplitudes="gaussian", **given)
     curve = rc.loading_curve(surface, 1e11, forces=record["force"].to_numpy())

@@ -33,7 +33,7 @@ def test_a_law_without_noise_is_found_exactly(kind, steepness):
     assert fit.hurst == pytest.approx(0.63, abs=1e-9)
     assert fit.exponent == pytest.approx(steepness, abs=1e-8)
     assert fit(1e4) == pytest.approx(3e-20, rel=1e-8)
-    assert (fit.rolloff_wavelength, fit.cutoff_wavelength, fit.short_wavelength) == (None, None, None)
+    assert (fit.rolloff, fit.long_cutoff, fit.short_cutoff) == (None, None, None)
     # Regression of 300 equally weighted points over ln q: variance = 1/(freedom sum (x - mean)^2), half of it for H.
     x = np.log(spectrum.wavenumber)
     assert fit.standard_error == pytest.approx(0.5 / math.sqrt(100 * ((x - x.mean()) ** 2).sum()), rel=1e-6)
@@ -42,11 +42,11 @@ def test_a_law_without_noise_is_found_exactly(kind, steepness):
 def test_the_ends_of_a_law_without_noise_are_found():
     rolled = fit_spectrum(exact(lambda q: np.maximum(q, 1e4) ** -3.6))
     step = math.log(1e3) / 299  # between bins
-    assert math.log(2 * math.pi / rolled.rolloff_wavelength / 1e4) == pytest.approx(0, abs=step)
+    assert math.log(2 * math.pi / rolled.rolloff / 1e4) == pytest.approx(0, abs=step)
     assert rolled.hurst == pytest.approx(0.8, abs=0.01)
     cut = fit_spectrum(exact(lambda q: np.where((q < 1e4) | (q > 2e5), 0.0, q**-3.6)))
-    assert math.log(2 * math.pi / cut.cutoff_wavelength / 1e4) == pytest.approx(0, abs=step)
-    assert math.log(2 * math.pi / cut.short_wavelength / 2e5) == pytest.approx(0, abs=step)
+    assert math.log(2 * math.pi / cut.long_cutoff / 1e4) == pytest.approx(0, abs=step)
+    assert math.log(2 * math.pi / cut.short_cutoff / 2e5) == pytest.approx(0, abs=step)
     assert cut.hurst == pytest.approx(0.8, abs=1e-8)
     assert cut(np.array([5e3, 3e5])).tolist() == [0, 0]
 
@@ -142,31 +142,31 @@ def test_a_limit_inside_a_bin_does_not_bend_the_law(bend):
     density[229] /= 2
     fit = fit_spectrum(PowerSpectrum(q, density, "C2D", *(np.full(300, 100.0),) * 2, q[0], q[-1]))
     assert fit.hurst == pytest.approx(0.8, abs=1e-9)
-    assert fit.short_wavelength == pytest.approx(2 * math.pi / math.sqrt(q[229] * q[230]), rel=1e-12)
-    assert fit.rolloff_wavelength == (pytest.approx(2 * math.pi / q[100], rel=1e-12) if bend else None)
+    assert fit.short_cutoff == pytest.approx(2 * math.pi / math.sqrt(q[229] * q[230]), rel=1e-12)
+    assert fit.rolloff == (pytest.approx(2 * math.pi / q[100], rel=1e-12) if bend else None)
 
 
 @pytest.mark.parametrize("hurst", [0.3, 0.8])
 def test_ends_of_periodic_surfaces(hurst):
     """A limit lies between the last wave without and the first wave with the law, 1/6.4 apart."""
-    cut = hurst_exponent(gaussian(256, hurst, 1, cutoff_wavelength=40e-6))
-    assert 256e-6 / 6.4 * 0.97 < cut.cutoff_wavelength < 256e-6 / 6.08
-    short = hurst_exponent(gaussian(256, hurst, 1, short_wavelength=8e-6))
-    assert 256e-6 / 33 < short.short_wavelength <= 8e-6
+    cut = hurst_exponent(gaussian(256, hurst, 1, long_cutoff=40e-6))
+    assert 256e-6 / 6.4 * 0.97 < cut.long_cutoff < 256e-6 / 6.08
+    short = hurst_exponent(gaussian(256, hurst, 1, short_cutoff=8e-6))
+    assert 256e-6 / 33 < short.short_cutoff <= 8e-6
     assert short.hurst == pytest.approx(hurst, abs=4 * short.standard_error)
-    rolled = hurst_exponent(gaussian(256, hurst, 1, rolloff_wavelength=40e-6))
+    rolled = hurst_exponent(gaussian(256, hurst, 1, rolloff=40e-6))
     # 64 independent waves in the plateau know its level to 1/8, and through the slope its end to 1/8/(2H + 2).
-    assert math.log(rolled.rolloff_wavelength / 40e-6) == pytest.approx(0, abs=4 / 8 / (2 * hurst + 2))
+    assert math.log(rolled.rolloff / 40e-6) == pytest.approx(0, abs=4 / 8 / (2 * hurst + 2))
     assert rolled.hurst == pytest.approx(hurst, abs=4 * rolled.standard_error)
 
 
 def test_ends_of_cut_out_surfaces():
     """Under a window a limit is known to a wave or so."""
-    short = hurst_exponent(gaussian(256, 0.6, 1, True, short_wavelength=8e-6))
-    assert 256e-6 / short.short_wavelength == pytest.approx(32, abs=1)
+    short = hurst_exponent(gaussian(256, 0.6, 1, True, short_cutoff=8e-6))
+    assert 256e-6 / short.short_cutoff == pytest.approx(32, abs=1)
     assert short.hurst == pytest.approx(0.6, abs=4 * short.standard_error)
-    cut = hurst_exponent(gaussian(256, 0.6, 1, True, cutoff_wavelength=40e-6))
-    assert 256e-6 / cut.cutoff_wavelength == pytest.approx(6.4, abs=1)
+    cut = hurst_exponent(gaussian(256, 0.6, 1, True, long_cutoff=40e-6))
+    assert 256e-6 / cut.long_cutoff == pytest.approx(6.4, abs=1)
     assert cut.hurst == pytest.approx(0.6, abs=4 * cut.standard_error)
 
 

@@ -44,9 +44,9 @@ def test_one_wave_has_its_power_in_one_place():
 @pytest.mark.parametrize("length", [1.0, 2.0])
 def test_spectrum_to_surface_to_spectrum(length):
     """And L = 1 against L = 2 in metres: C2D scales as m^4 (thesis, eq. 2.7)."""
-    n, law = 64, SelfAffineSpectrum(0.7, rolloff_wavelength=length / 4)
+    n, law = 64, SelfAffineSpectrum(0.7, rolloff=length / 4)
     grid = rc.Grid((n, n), length / n, True)
-    surface = rc.self_affine(grid, 0.7, 1e-2, np.random.default_rng(3), rolloff_wavelength=length / 4)
+    surface = rc.self_affine(grid, 0.7, 1e-2, np.random.default_rng(3), rolloff=length / 4)
     waves = power_map(surface)
     q = np.hypot(waves.qy[:, None], waves.qx)
     keep = (q > 0) & (np.arange(n) != n // 2)[:, None] & (np.arange(n // 2 + 1) != n // 2)

@@ -25,9 +25,7 @@ def test_a_power_law_has_closed_moments():
 def test_they_are_those_of_the_surface():
     """A band well inside the grid; what the trapezium of rings makes of its sharp ends is a ring in 12 or 64."""
     grid = rc.Grid((256, 256), 1e-6, True)
-    surface = rc.self_affine(
-        grid, 0.5, 1e-6, np.random.default_rng(0), cutoff_wavelength=20e-6, short_wavelength=4e-6
-    )
+    surface = rc.self_affine(grid, 0.5, 1e-6, np.random.default_rng(0), long_cutoff=20e-6, short_cutoff=4e-6)
     expected, found = surface_moments(surface), spectrum_moments(power_spectrum(surface))
     for name in ("m0", "m2", "m4"):
         assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1 / 12)

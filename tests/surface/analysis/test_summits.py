@@ -63,7 +63,7 @@ def test_summits_of_a_random_surface_are_those_of_nayak():
     or less, their mean height by sqrt(m0/N), its square by sqrt(2/N). A point for a maximum errs by 1 to 2 %.
     """
     grid = rc.Grid((512, 512), 1e-6, True)
-    law = {"short_wavelength": 16e-6, "rolloff_wavelength": 40e-6}
+    law = {"short_cutoff": 16e-6, "rolloff": 40e-6}
     surface = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(2), amplitudes="gaussian", **law)
     shape = SelfAffineSpectrum(0.8, **law)
     moments = grid_moments(shape, grid)

@@ -10,7 +10,7 @@ from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.halfspace.operators.ring import ring
-from roughcontact.halfspace.operators.singly_periodic import HalfPeriodicOperator, half_periodic
+from roughcontact.halfspace.operators.singly_periodic import SinglyPeriodicOperator, singly_periodic
 from roughcontact.halfspace.sums.methods import Sum, summed
 from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
@@ -28,7 +28,7 @@ def half_space(
     Parameters
     ----------
     grid : Grid
-        Free, periodic, or periodic along one axis (see `half_periodic` for what its depths count from).
+        Free, periodic, or periodic along one axis (see `singly_periodic` for what its depths count from).
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     method : {"fft", "dense", "moving-grid", "multilevel"}
@@ -48,11 +48,11 @@ def half_space(
             "a half-space needs a grid of two axes; rings have ring(grid, modulus), and a line must name its own "
             "operator: operator=line(grid, modulus), or foundation(grid, modulus)"
         )
-    operator: FreeOperator | PeriodicOperator | HalfPeriodicOperator
+    operator: FreeOperator | PeriodicOperator | SinglyPeriodicOperator
     if all(grid.periodic):
         operator = PeriodicOperator(grid, Periodic(grid, value))
     elif any(grid.periodic):
-        operator = half_periodic(grid, value)
+        operator = singly_periodic(grid, value)
     else:
         operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":

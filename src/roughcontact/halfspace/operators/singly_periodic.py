@@ -21,7 +21,7 @@ from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
 from roughcontact.theory.tools.numeric import numeric
 
-__all__ = ["HalfPeriodicOperator", "Row", "half_periodic"]
+__all__ = ["Row", "SinglyPeriodicOperator", "singly_periodic"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
@@ -78,7 +78,7 @@ class Row:
 
 
 @dataclass(frozen=True, eq=False)
-class HalfPeriodicOperator:
+class SinglyPeriodicOperator:
     """A convolution that wraps around along one axis and is padded by zeros along the other.
 
     Positive definite, and no pressure lifts any cell: displacements vanish at the reference length, which no cell
@@ -154,7 +154,7 @@ class HalfPeriodicOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self.influence, cells, self.positive)
 
-    def restrict(self, window: tuple[slice, ...]) -> HalfPeriodicOperator | FreeOperator:
+    def restrict(self, window: tuple[slice, ...]) -> SinglyPeriodicOperator | FreeOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
         part = self.grid.window(window)
         if part.shape == self.grid.shape:
@@ -162,18 +162,18 @@ class HalfPeriodicOperator:
         if part.shape[self._row.axis] < self.grid.shape[self._row.axis]:
             return FreeOperator(part, self.influence, self.positive)
         # A window that holds the whole period keeps it.
-        return HalfPeriodicOperator(Grid(part.shape, part.spacing, self.grid.periodic), self.influence)
+        return SinglyPeriodicOperator(Grid(part.shape, part.spacing, self.grid.periodic), self.influence)
 
-    def coarsened(self, grid: Grid) -> HalfPeriodicOperator:
+    def coarsened(self, grid: Grid) -> SinglyPeriodicOperator:
         """Return the same body on `grid`, whose cells are larger."""
         row = Row(grid, self._row.modulus, self._row.reference)
-        return HalfPeriodicOperator(grid, Tables(row, grid.shape))
+        return SinglyPeriodicOperator(grid, Tables(row, grid.shape))
 
 
 @numeric
-def half_periodic(
+def singly_periodic(
     grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
-) -> HalfPeriodicOperator:
+) -> SinglyPeriodicOperator:
     """Return the half-space under loads that repeat themselves along one axis and are alone along the other.
 
     Parameters
@@ -212,4 +212,4 @@ def half_periodic(
             f"the reference length must be finite and at least the longest distance on the grid, {longest:g} m, not "
             f"{reference:g}: with a shorter one a load would lift cells far away"
         )
-    return HalfPeriodicOperator(grid, Tables(Row(grid, value, reference), grid.shape))
+    return SinglyPeriodicOperator(grid, Tables(Row(grid, value, reference), grid.shape))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
-from roughcontact.halfspace.operators.singly_periodic import HalfPeriodicOperator
+from roughcontact.halfspace.operators.singly_periodic import SinglyPeriodicOperator
 from roughcontact.halfspace.sums.moving_grid import MovingGridOperator
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
@@ -12,10 +12,10 @@ from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 __all__ = ["Sum", "Summed", "summed"]
 
 Sum = Literal["fft", "moving-grid", "multilevel"]
-Summed = FreeOperator | PeriodicOperator | HalfPeriodicOperator | MovingGridOperator | MultilevelOperator
+Summed = FreeOperator | PeriodicOperator | SinglyPeriodicOperator | MovingGridOperator | MultilevelOperator
 
 
-def summed(operator: FreeOperator | PeriodicOperator | HalfPeriodicOperator, method: str) -> Summed:
+def summed(operator: FreeOperator | PeriodicOperator | SinglyPeriodicOperator, method: str) -> Summed:
     """Return the same body with its sum done by `method`.
 
     Raises

@@ -67,9 +67,9 @@ class RoughSquare(Parameters):
             self.hurst,
             self.rms,
             rng,
-            rolloff_wavelength=self._length(self.rolloff),
-            cutoff_wavelength=self._length(self.cutoff),
-            short_wavelength=self._length(self.shortest),
+            rolloff=self._length(self.rolloff),
+            long_cutoff=self._length(self.cutoff),
+            short_cutoff=self._length(self.shortest),
             amplitudes=self.amplitudes,
         )
 

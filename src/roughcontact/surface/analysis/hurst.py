@@ -41,11 +41,11 @@ class HurstFit:
         Where the law has this density [rad/m].
     kind : {"C2D", "C1D"}
         Which density: of the surface or of its profiles.
-    rolloff_wavelength : float or None
+    rolloff : float or None
         Waves longer than this [m] have its amplitude (thesis, fig. 34).
-    cutoff_wavelength : float or None
+    long_cutoff : float or None
         Waves longer than this [m] are outside the law.
-    short_wavelength : float or None
+    short_cutoff : float or None
         Waves shorter than this [m] are outside the law.
     misfit : float
         Mean square of the deviations in units of their expected scatter: near 1 where the law holds, for
@@ -60,9 +60,9 @@ class HurstFit:
     density: float
     wavenumber: float
     kind: Literal["C2D", "C1D"]
-    rolloff_wavelength: float | None
-    cutoff_wavelength: float | None
-    short_wavelength: float | None
+    rolloff: float | None
+    long_cutoff: float | None
+    short_cutoff: float | None
     misfit: float
     band: tuple[float, float]
 
@@ -75,12 +75,12 @@ class HurstFit:
     def __call__(self, wavenumber: npt.ArrayLike) -> Array:
         """Return the density of the law at the `wavenumber` [rad/m], zero outside its limits."""
         q = np.asarray(wavenumber, dtype=np.float64)
-        bent = q if self.rolloff_wavelength is None else np.maximum(q, 2 * np.pi / self.rolloff_wavelength)
+        bent = q if self.rolloff is None else np.maximum(q, 2 * np.pi / self.rolloff)
         law = self.density * (bent / self.wavenumber) ** -self.exponent
-        if self.cutoff_wavelength is not None:
-            law = np.where(q < 2 * np.pi / self.cutoff_wavelength, 0.0, law)
-        if self.short_wavelength is not None:
-            law = np.where(q > 2 * np.pi / self.short_wavelength, 0.0, law)
+        if self.long_cutoff is not None:
+            law = np.where(q < 2 * np.pi / self.long_cutoff, 0.0, law)
+        if self.short_cutoff is not None:
+            law = np.where(q > 2 * np.pi / self.short_cutoff, 0.0, law)
         return np.asarray(law)
 
 
@@ -188,9 +188,9 @@ def fit_spectrum(
         density=math.exp(slope.level),
         wavenumber=math.exp(centre),
         kind=band.kind,
-        rolloff_wavelength=2 * math.pi / math.exp(bend) if limits.bend else None,
-        cutoff_wavelength=_wavelength(edges[0]),
-        short_wavelength=_wavelength(edges[1]),
+        rolloff=2 * math.pi / math.exp(bend) if limits.bend else None,
+        long_cutoff=_wavelength(edges[0]),
+        short_cutoff=_wavelength(edges[1]),
         misfit=_misfit(q, ratio, band.freedom[inside]),
         band=(float(band.wavenumber[0]), float(band.wavenumber[-1])),
     )

@@ -130,9 +130,9 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
         density=math.exp(parameters[0] - 2 * (parameters[1] + 1) * reference),
         wavenumber=math.exp(reference),
         kind="C2D",
-        rolloff_wavelength=low if limit == "rolloff" else None,
-        cutoff_wavelength=low if limit == "cutoff" else None,
-        short_wavelength=None,
+        rolloff=low if limit == "rolloff" else None,
+        long_cutoff=low if limit == "cutoff" else None,
+        short_cutoff=None,
         misfit=misfit,
         band=(2 * math.pi / float(distance.max()), 2 * math.pi / float(distance.min())),
     )
