@@ -90,7 +90,7 @@ def test_each_multipole_that_is_left_out_falls_faster(aspect, angle, orders):
             square = mpmath.mpf(x) ** 2 + mpmath.mpf(y) ** 2
             c, total = mpmath.mpf(x) ** 2 / square, mpmath.mpf(0)
             for m, polynomial in enumerate(multipoles[:orders]):
-                total += mpmath.polyval([mpmath.mpf(t) for t in polynomial[::-1]], c) / square**m
+                total += sum(mpmath.mpf(t) * c**k for k, t in enumerate(polynomial)) / square**m
             return float(total * aspect / mpmath.sqrt(square) / exact_number(x, y, 1.0, aspect) - 1)
 
     # The multipole after the first that is left out is some R^-2 of it. Coefficients are rounded to 1e-16 of one:

@@ -72,7 +72,8 @@ def body_on(
     """
     if operator is None:
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
-    if not isinstance(operator, Operator):
+    # Not `isinstance`, which from Python 3.12 on misses members that `__getattr__` finds.
+    if not all(hasattr(operator, name) for name in ("grid", "weights", "apply", "as_matrix", "restrict")):
         raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
