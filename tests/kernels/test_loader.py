@@ -17,7 +17,7 @@ from roughcontact.kernels.processor import VARIABLE
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
-FAMILIES = ("fourier", "judging", "passes", "scaling", "tiles")
+FAMILIES = ("fft", "judging", "passes", "scaling", "tile_kernels")
 
 
 def test_code_is_translated_once(kept, translated, works):
@@ -185,7 +185,7 @@ def test_from_a_zip_archive_the_package_runs_and_knows_its_texts(tmp_path):
         "import roughcontact as rc\n"
         "from roughcontact.kernels import loader\n"
         f"assert rc.__file__.startswith({str(archive)!r}) and loader.is_available()\n"
-        f"assert loader._key('tiles', 'float64').hex() == {loader._key('tiles', 'float64').hex()!r}"
+        f"assert loader._key('tile_kernels', 'float64').hex() == {loader._key('tile_kernels', 'float64').hex()!r}"
     )
     environment = {**os.environ, "PYTHONPATH": str(archive)}
     subprocess.run([sys.executable, "-c", script], check=True, timeout=60, env=environment)

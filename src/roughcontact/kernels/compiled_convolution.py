@@ -99,7 +99,7 @@ class Convolution:
         """Return the convolution of a field, padded by zeros, cut back to its own shape."""
         if plane.shape != self.shape:  # machine code looks at nothing twice
             raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
-        convolve = functions("fourier", self.precision)["convolve"]
+        convolve = functions("fft", self.precision)["convolve"]
         (ny, nx), (my, mx), lanes = self.shape, self.lengths, self.multiplier.shape[-1]
         half, blocks, rows = mx // 2, len(self.multiplier), -(-ny // lanes) * lanes
         given = np.ascontiguousarray(plane, dtype=self.precision)

@@ -18,7 +18,14 @@ from roughcontact.threads import once
 
 __all__ = ["address", "code_for", "functions", "is_available", "takes"]
 
-COMMON = ("code", "layout", "loader", "stencil", "totals", "values")  # modules whose text all code depends on
+COMMON = (
+    "code",
+    "constants",
+    "loader",
+    "stencil",
+    "totals",
+    "values",
+)  # modules whose text all code depends on
 _POINTER = ctypes.c_void_p
 _ENGINES: list[Any] = []  # they own the code that runs
 _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
@@ -96,11 +103,10 @@ def address(array: Any) -> int:
 
 def _families() -> Mapping[str, Any]:
     """Return the modules that write code, imported late and by names that bundlers of programs see."""
-    from roughcontact.kernels import fft as fourier
-    from roughcontact.kernels import judging, passes, scaling
-    from roughcontact.kernels import tile_kernels as tiles
+    from roughcontact.kernels import fft, judging, passes, scaling, tile_kernels
 
-    return {"fourier": fourier, "judging": judging, "passes": passes, "scaling": scaling, "tiles": tiles}
+    families = fft, judging, passes, scaling, tile_kernels
+    return {family.__name__.rpartition(".")[2]: family for family in families}
 
 
 @cache

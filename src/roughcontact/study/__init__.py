@@ -18,8 +18,8 @@ _ROOMS = {
     "Store": "store",
     "Row": "row",
     "Summary": "summary",
-    "StudyError": "errors",
-    "StoreError": "errors",
+    "StudyError": "study_errors",
+    "StoreError": "study_errors",
     "Task": "task",
     "Outcome": "task",
     "Executor": "task",
@@ -38,8 +38,8 @@ _ROOMS = {
     "on_common": "common",
     "fit_power_laws": "fit",
     "law_at": "fit",
-    "force_window": "window",
-    "resolved_window": "window",
+    "force_window": "fit_window",
+    "resolved_window": "fit_window",
 }
 # Public names that are modules themselves.
 _MODULES = ("statistics",)

@@ -42,7 +42,7 @@ def asperity_study(scale: Scale) -> Study:
     """Return the study: 25 surfaces of each of seven fractal dimensions."""
     return Study(
         name={"small": "asperities-small", "thesis": "asperities"}[scale],
-        case="roughcontact.study.cases.asperities_case:CASE",
+        case="asperities",
         samples={"small": 8, "thesis": 25}[scale],
         parameters={
             "points": POINTS[scale],

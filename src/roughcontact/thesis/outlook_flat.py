@@ -187,8 +187,8 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
     found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
     for row in range(shape[0]):
         longest = {
-            f"{name}_wavelength": float(value)
-            for name in ("cutoff", "rolloff")
+            keyword: float(value)
+            for keyword, name in (("long_cutoff", "cutoff"), ("rolloff", "rolloff"))
             if np.isfinite(value := exported[name].values[row])
         }
         surface = self_affine(

@@ -14,7 +14,7 @@ def test_a_case_of_the_package_is_found_by_its_name(name):
 
 def test_every_case_of_the_package_has_a_name():
     files = resources.files("roughcontact.study.cases").iterdir()
-    found = {file.name.removesuffix(".py") for file in files if "\nCASE = " in _text(file)}
+    found = {file.name.removesuffix("_case.py") for file in files if "\nCASE = " in _text(file)}
     assert found == set(CASES)
 
 

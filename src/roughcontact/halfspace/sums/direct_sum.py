@@ -52,7 +52,7 @@ class DirectSum:
         given = np.ascontiguousarray(pressure, dtype=precision)
         starts, shifts, loaded = list_loaded(given)
         sums, counters = np.empty(given.shape, precision), np.zeros(2 * APART, np.int64)
-        sum_all = functions("tiles", precision)["sum_all"]
+        sum_all = functions("tile_kernels", precision)["sum_all"]
 
         def join(_: int) -> None:
             sum_all(

@@ -85,7 +85,7 @@ class TileSum:
 
     def apply(self, values: Single) -> Single:
         """Return the sum, shape (tiles, SIDE * SIDE)."""
-        code, size = functions("tiles", "float32"), len(self.map.places)
+        code, size = functions("tile_kernels", "float32"), len(self.map.places)
         given = np.ascontiguousarray(values, dtype=np.float32)
         waves: Single = self.parts.far.apply(self.nodes.spread(given))
         sums = np.ascontiguousarray(self.nodes.gather(waves))

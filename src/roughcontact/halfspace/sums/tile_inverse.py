@@ -52,7 +52,7 @@ class TileInverse:
 
     def apply(self, displacement: Single) -> Single:
         """Return the pressure [Pa] under a displacement [m] that is zero outside the region."""
-        code, size = functions("tiles", "float32"), len(self.places)
+        code, size = functions("tile_kernels", "float32"), len(self.places)
         # One tile more, of zeros, stands for all that are not there.
         field = np.zeros((size + 1, SIDE * SIDE), dtype=np.float32)
         field[:size] = displacement

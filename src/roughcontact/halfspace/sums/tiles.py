@@ -144,7 +144,7 @@ def list_loaded(values: Field) -> tuple[Indices, Indices, Field]:
     precision, room = values.dtype.name, values.size + 1
     starts, shifts = np.empty(len(values) + 1, np.int64), np.empty(room, np.int64)
     loaded = np.empty(room, precision)
-    list_cells = functions("tiles", precision)["list_cells"]
+    list_cells = functions("tile_kernels", precision)["list_cells"]
     list_cells(len(values), address(values), address(starts), address(shifts), address(loaded))
     return starts, shifts, loaded
 
