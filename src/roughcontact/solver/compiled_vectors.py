@@ -11,7 +11,8 @@ from roughcontact.cached import cached_property
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.kernels import buffers as room
 from roughcontact.kernels import planes
-from roughcontact.kernels.active_cells import Located, Region, lower, take_in, zeros_with_margins
+from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
 from roughcontact.solver.bounded import Bounded, Measured, Preconditioned
 from roughcontact.solver.inner_operator import Driver
@@ -32,10 +33,10 @@ class CompiledFields:
     held = None
 
     def __init__(self, driver: Driver, weight: float, inside: Field, lacking: Field, base: Field) -> None:
-        self._inside = Located.of(inside)  # with margins
+        self._inside = Operand(inside)  # with margins
         self._r, self._base = (self._located(field) for field in (lacking, base))
         self._change, self._t, self._v = self._zeros(), self._zeros(), self._r
-        self._error, self._z = Located.of(zeros_with_margins(inside.shape, inside.dtype)), self._r
+        self._error, self._z = Operand(zeros_with_margins(inside.shape, inside.dtype)), self._r
         self._driver, self._weight = driver, weight
         self._relief = driver.relief
         self._shares, self._lost = False, 0.0
@@ -56,14 +57,14 @@ class CompiledFields:
         """Return the fields of a solve that begins with a trial, and their unit; see `scaled_fields`."""
         start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in trial)
         region, precision = np.ascontiguousarray(region, dtype=bool), driver.narrow(np.empty(0)).dtype
-        levels = planes.levels(separation, displacement, region)
+        levels = planes.level_range(separation, displacement, region)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(region.shape, precision)
         lacking, base = (room.empty(region.shape, precision) for _ in range(2))
         given = separation, displacement, start, region
-        planes.narrow(*given, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
+        planes.scale_down(*given, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
         return cls(driver, weight, inside, lacking, base), unit
 
     @property
@@ -95,7 +96,7 @@ class CompiledFields:
         """Return the area of the region."""
         self._shares = False
         fields = self._base, self._change, self._inside, self._r
-        self._carried, self._count, self._lack = self._region.run("carried", 3, *fields)
+        self._carried, self._count, self._lack = self._region.run("masked_sums", 3, *fields)
         return self._weight * self._count
 
     def level(self, most: float) -> None:
@@ -110,7 +111,7 @@ class CompiledFields:
     def excess(self) -> float:
         """Return how far pressures are out of bounds."""
         fields = self._base, self._change, self._inside
-        return self._region.run("excess", 1, *fields, largest=True)[0]
+        return self._region.run("max_violation", 1, *fields, largest=True)[0]
 
     def share(self) -> float:
         """Have changes shared; return the sum of the shares."""
@@ -118,7 +119,7 @@ class CompiledFields:
         if self._resultant is None:
             # The inverse with its relief answers to a constant with a part of this: only ratios count.
             constant = self._of_constant, self._inside, self._inside, self._v, self._inside, 0.0
-            self._resultant = self._sums("weigh", 4, *constant)[2]
+            self._resultant = self._sums("correct_and_dot", 4, *constant)[2]
         return self._resultant
 
     def precondition(self) -> Preconditioned:
@@ -126,18 +127,18 @@ class CompiledFields:
         self._z = self._inverse(self._error)
         constant = self._of_constant if self._relief or self._shares else self._z
         fields = self._z, self._inside, self._error, self._v, constant
-        return Preconditioned(*self._sums("weigh", 4, *fields, self._relief))
+        return Preconditioned(*self._sums("correct_and_dot", 4, *fields, self._relief))
 
     def turn(self, beta: float) -> Field:
         """Turn t; return it."""
-        self._region.run("turn", 0, self._t, self._z, beta)
+        self._region.run("xpay", 0, self._t, self._z, beta)
         return self.t
 
     def bound(self, beta: float, shift: float, step: float) -> Bounded:
         """Turn t, take a step of it as far as cells may go; return what comes of it."""
         shared, by = (self._of_constant, shift) if self._shares else (self._z, 0.0)
         fields = self._base, self._change, self._inside, self._t, self._z, shared
-        gone, lifted, force, uniform = self._region.run("bound", 4, *fields, beta, by, step)
+        gone, lifted, force, uniform = self._region.run("project_step", 4, *fields, beta, by, step)
         self._lost, self._count = self._lost + gone, self._count - gone
         if self._lost > FEW * self._count:
             self._forget_constant()
@@ -154,45 +155,47 @@ class CompiledFields:
         carried, rounding = self._carried + added, ROUNDINGS * float(np.finfo(self.t.dtype).eps)
         some = carried > rounding * abs(self._carried)
         share, alike = (added / carried, 0.0) if some else (0.0, added / self._count)
-        self._region.run("share_out", 0, *fields, share, alike)
+        self._region.run("subtract_affine", 0, *fields, share, alike)
 
     def measure(self, v: Field) -> Measured:
         """Take v; return what there is to know of it and of t."""
         self._v = self._located(v)
-        return Measured(*self._sums("measure", 6, self._t, self._v, self._inside, self._r))
+        return Measured(*self._sums("dot_products", 6, self._t, self._v, self._inside, self._r))
 
     def advance(self, alpha: float, mean: float) -> float:
         """Go along t; return the largest lack inside."""
-        lower(self.r, self.v, alpha, mean)
+        subtract_shifted(self.r, self.v, alpha, mean)
         return self._advanced(alpha)
 
     def take_in(self, least: float) -> float:
         """Free the cells that lack more; return the largest lack."""
         # What is listed no more is never looked at again.
-        self._region.run("forget", 0, self._t, self._inside)
-        worst = take_in(self.inside, self.r, least)
+        self._region.run("multiply", 0, self._t, self._inside)
+        worst = mask_above(self.inside, self.r, least)
         if worst:
             self._changed()
         return worst
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure that there is now."""
-        return planes.widen(np.ascontiguousarray(start, dtype=np.float64), self.change, self.inside, unit)
+        return planes.add_scaled(
+            np.ascontiguousarray(start, dtype=np.float64), self.change, self.inside, unit
+        )
 
-    def _located(self, field: Field) -> Located:
+    def _located(self, field: Field) -> Operand:
         if field.shape != self.inside.shape:  # machine code looks at nothing twice
             raise ValueError(f"a field of shape {field.shape} where {self.inside.shape} is expected")
-        return Located.of(np.ascontiguousarray(field, dtype=self.inside.dtype))
+        return Operand(np.ascontiguousarray(field, dtype=self.inside.dtype))
 
-    def _zeros(self) -> Located:
-        return Located.of(room.zeros(self.inside.shape, self.inside.dtype))
-
-    @cached_property
-    def _region(self) -> Region:
-        return Region(self.inside, (self._base.field, self.change))
+    def _zeros(self) -> Operand:
+        return Operand(room.zeros(self.inside.shape, self.inside.dtype))
 
     @cached_property
-    def _of_constant(self) -> Located:
+    def _region(self) -> ActiveCells:
+        return ActiveCells(self.inside, (self._base.field, self.change))
+
+    @cached_property
+    def _of_constant(self) -> Operand:
         """What the inverse answers to a constant on the region."""
         return self._inverse(self._inside)
 
@@ -207,14 +210,14 @@ class CompiledFields:
 
     def _advanced(self, alpha: float) -> float:
         fields = self._change, self._r, self._error, self._t, self._inside
-        return self._region.run("advance", 1, *fields, alpha, largest=True)[0]
+        return self._region.run("axpy_and_max", 1, *fields, alpha, largest=True)[0]
 
-    def _inverse(self, field: Located) -> Located:
+    def _inverse(self, field: Operand) -> Operand:
         """Return about the pressure under a field that is zero outside the region and has margins."""
         local: LocalInverse | None = getattr(self._driver, "local_inverse", None)
         if local is None:
             return self._located(self._driver.approximate_inverse(field.field))
         return self._located(local.on(self._region, field.field))
 
-    def _sums(self, name: str, count: int, *arguments: Located | float) -> list[float]:
+    def _sums(self, name: str, count: int, *arguments: Operand | float) -> list[float]:
         return [self._weight * one for one in self._region.run(name, count, *arguments)]

@@ -128,7 +128,7 @@ def _weak(operator: Operator, separation: Array, state: State, known: float) -> 
     if isinstance(own, float) and trial.fits_machine_code(
         math.inf
     ):  # one pass, and nearly always none is found
-        seen = planes.look(*trial)
+        seen = planes.extremes(*trial)
         assert seen is not None  # it was certified
         if min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement:
             return None

@@ -70,7 +70,7 @@ def guess_region(terms: Terms, trial: Trial, *, depth: float, allowed: float, ow
     """
     pressure, displacement, separation = trial
     if trial.fits_machine_code(terms.hardness):
-        region, count, wrong = planes.mark(*trial, depth=depth, least=-allowed, own=own)
+        region, count, wrong = planes.predict_active(*trial, depth=depth, least=-allowed, own=own)
         return Guess(region, count, wrong, region | (pressure > 0) if wrong else region)
     xp, carrying = namespace(pressure), pressure > 0
     gap = displacement + separation - depth
@@ -85,7 +85,7 @@ def guess_region(terms: Terms, trial: Trial, *, depth: float, allowed: float, ow
 
 
 def _judged_at_once(judge: Judge, terms: Terms, trial: Trial) -> Verdict:
-    seen = planes.look(*trial)
+    seen = planes.extremes(*trial)
     if seen is None or (not seen.count and terms.depth is None):
         return Verdict(math.nan if terms.depth is None else terms.depth, math.inf, math.nan)
     depth = seen.level / seen.count if terms.depth is None else terms.depth
