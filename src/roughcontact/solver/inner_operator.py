@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
-from roughcontact.convolution import Convolution
 from roughcontact.halfspace.operators.operator import (
     Invertible,
     Linear,
@@ -21,6 +20,7 @@ from roughcontact.halfspace.operators.operator import (
 from roughcontact.halfspace.sums.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.halfspace.sums.tiles import Tiles
+from roughcontact.transforms import Convolution
 
 __all__ = ["Driver", "Plane", "driver_on", "factorised", "first_product"]
 

@@ -1,17 +1,14 @@
 """Multi-level multi-integration: its error, its symmetry, and what it is made of."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.halfspace.sums import compiled
+from roughcontact.halfspace.sums import near_sum
 from roughcontact.halfspace.sums.levels import Hierarchy, Kernel, descend
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.transfer import Nodes, coarse_count, interpolation, offset_weights
-from roughcontact.kernels.processor import VARIABLE, is_off
+from roughcontact.kernels import loader
 
 # What is said of order 8 with near 10: of the largest displacement, and of every displacement by itself under a
 # pressure that is nowhere negative.
@@ -247,57 +244,30 @@ class TestNearField:
             down = weights[y % taps[0], x % taps[1]]
             expected[y, x] += (down * box[reach:]).sum() + sign * (down[1:] * box[:reach][::-1]).sum()
         if way == "compiled":
-            if is_off():
-                pytest.skip("no machine code is wanted")
-            compiled.compiled_loops()(field, weights, sign, total)
+            if not loader.is_available():
+                pytest.skip("no machine code here")
+            near_sum.add_near(field, weights, sign, total)
         else:
-            compiled.add_near_by_products(field, weights, sign, total)
+            near_sum.add_near_by_products(field, weights, sign, total)
         np.testing.assert_allclose(total, expected, rtol=0, atol=1e-14 * weights.sum())
 
 
-def test_the_same_without_numba(monkeypatch):
+def test_rows_in_several_portions_are_summed_as_in_one(monkeypatch):
+    rng = np.random.default_rng(0)
+    field, weights = rng.random((70, 45)), rng.random((2, 2, 5, 7))
+    totals = np.zeros((2, 70, 45))
+    near_sum.add_near(field, weights, -1, totals[0])
+    monkeypatch.setattr(near_sum, "CELLS", 1)
+    near_sum.add_near(field, weights, -1, totals[1])
+    np.testing.assert_array_equal(*totals)
+
+
+def test_the_same_without_machine_code(monkeypatch):
     operator = rc.half_space(rc.Grid((80, 60), 1.0), 1.0, "multilevel")
     pressure = np.random.default_rng(0).random((80, 60))
-    with_numba = operator.apply(pressure)
-    monkeypatch.setattr(compiled, "compiled_loops", lambda: None)
-    np.testing.assert_allclose(operator.apply(pressure), with_numba, rtol=1e-13)
-
-
-def test_without_numba_there_are_no_loops(monkeypatch):
-    monkeypatch.setitem(sys.modules, "numba", None)
-    assert compiled.compiled_loops.__wrapped__() is None
-
-
-def test_no_loops_are_compiled_where_no_machine_code_is_wanted(monkeypatch):
-    monkeypatch.setenv(VARIABLE, "off")
-    assert compiled.compiled_loops.__wrapped__() is None
-
-
-def test_code_that_cannot_be_kept_is_compiled_anew(monkeypatch):
-    """Numba says so where it may write neither beside the module nor into a folder of the user's."""
-
-    def njit(cache=False, **settings):
-        if cache:
-            raise RuntimeError("no locator available")
-        return lambda function: function
-
-    monkeypatch.delenv(VARIABLE, raising=False)
-    monkeypatch.setattr("numba.njit", njit)
-    loops, total = compiled.compiled_loops.__wrapped__(), np.zeros((2, 3))
-    loops(np.ones((2, 3)), np.ones((1, 1, 2, 3)), 1, total)
-    np.testing.assert_array_equal(total, [[4, 6, 4], [4, 6, 4]])
-
-
-def test_numba_is_loaded_by_the_first_product_and_not_before():
-    script = (
-        "import sys, roughcontact as rc\n"
-        "rc.press, rc.line\n"
-        "operator = rc.half_space(rc.Grid((40, 30), 1.0), 1.0, 'multilevel')\n"
-        "operator.exact.apply(__import__('numpy').ones((40, 30)))\n"
-        "sys.stdout.write(str('numba' in sys.modules))"
-    )
-    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert answer.stdout == "False"
+    with_code = operator.apply(pressure)
+    monkeypatch.setattr(loader, "is_available", lambda: False)
+    np.testing.assert_allclose(operator.apply(pressure), with_code, rtol=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
@@ -20,6 +19,7 @@ from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
 from roughcontact.theory.tools.domain import moderate
 from roughcontact.theory.tools.numeric import numeric
+from roughcontact.transforms import Convolution
 
 __all__ = ["LayerOperator", "layer"]
 

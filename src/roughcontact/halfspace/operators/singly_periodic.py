@@ -10,9 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import fast_even_length
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
 from roughcontact.halfspace.influence.tables import Love, Tables
@@ -20,6 +18,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
 from roughcontact.theory.tools.numeric import numeric
+from roughcontact.transforms import Convolution, fast_even_length, padded_length
 
 __all__ = ["Row", "SinglyPeriodicOperator", "singly_periodic"]
 
