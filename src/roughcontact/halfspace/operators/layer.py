@@ -18,8 +18,7 @@ from roughcontact.halfspace.influence.tables import Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 __all__ = ["LayerOperator", "layer"]
 
