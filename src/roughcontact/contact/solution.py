@@ -31,8 +31,8 @@ from roughcontact.solver.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.solver.optimality import UNITS
 from roughcontact.solver.status import Status
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     import xarray

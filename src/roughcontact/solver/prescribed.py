@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.material import number
 from roughcontact.solver.conjugate_gradients import relax
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.direct import DENSE_LIMIT, solve_cells
@@ -22,6 +21,7 @@ from roughcontact.solver.region import checked_region
 from roughcontact.solver.subdomain import Place, bounding_box, embed, take
 from roughcontact.solver.vectors import fields_on
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import scalar
 
 __all__ = ["Prescribed", "prescribe", "prescribed_displacement"]
 
@@ -176,7 +176,7 @@ def _check(name: str, given: Any, region: Mask) -> None:
     if is_array(given) and given.ndim == 0:
         return
     if not is_array(given):
-        number(name, given)
+        scalar(given, name)
         return
     if tuple(given.shape) != tuple(region.shape):
         raise ValueError(
