@@ -18,7 +18,7 @@ from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
 from roughcontact.solver.state import Tangent
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = [
     "CELLS",

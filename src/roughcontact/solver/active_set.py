@@ -33,7 +33,7 @@ from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
 from roughcontact.solver.state import State, Tangent
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
 

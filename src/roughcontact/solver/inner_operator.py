@@ -14,14 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
-from roughcontact.convolution import Convolution
-from roughcontact.halfspace.operators.operator import (
-    Invertible,
-    Linear,
-    Operator,
-    keeps_precision,
-    self_influence,
-)
+from roughcontact.halfspace.operators.operator import Linear, Operator, capabilities, self_influence
 from roughcontact.halfspace.sums.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.halfspace.sums.tiles import Tiles
@@ -43,7 +36,7 @@ Mask = npt.NDArray[np.bool_]
 SINGLE_RANGE = 1e-25
 
 
-class InnerOperator(Linear, Invertible, Protocol):
+class InnerOperator(Linear, Protocol):
     """A symmetric map between some cells, in some precision, its preconditioner, and the way there and back."""
 
     @property
@@ -54,6 +47,10 @@ class InnerOperator(Linear, Invertible, Protocol):
     @property
     def diagonal_correction(self) -> float:
         """theta: part of M0^-1 1 that is subtracted from the diagonal of M0^-1 (the Schur correction)."""
+        ...
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return M0^-1 of a displacement [m]: a pressure [Pa] that would cause about this; symmetric and definite."""
         ...
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
@@ -84,7 +81,7 @@ class FullGrid:
     @property
     def local_inverse(self) -> LocalInverse | None:
         """The truncated inverse that preconditions in machine code, if there is one."""
-        return getattr(self.operator, "local_inverse", None)
+        return capabilities(self.operator).local_inverse()
 
     @property
     def diagonal_correction(self) -> float:
@@ -113,8 +110,9 @@ class FullGrid:
         Of an operator without one that is the displacement, over about what all cells together do to one: a pressure in
         any unit, and no step along it is much too long.
         """
-        if isinstance(self.operator, Invertible):
-            return self.operator.approximate_inverse(displacement)
+        inverse = capabilities(self.operator).approximate_inverse
+        if inverse is not None:
+            return inverse(displacement)
         return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
 
 
@@ -130,8 +128,8 @@ class SingleFullGrid(FullGrid):
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        quick: Convolution | None = getattr(self.operator, "quick", None)
-        return self.operator.apply(pressure) if quick is None else quick.apply(pressure)
+        convolution = capabilities(self.operator).single_convolution
+        return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
 
 def inner_operator_on(
@@ -144,8 +142,9 @@ def inner_operator_on(
         return FullGrid(operator)
     tiles = _tiles_of(operator, support)
     if tiles is not None:
-        on_tiles: PatchOperator = _patches(operator).on(tiles)
-        return on_tiles
+        mesh = capabilities(operator).particle_mesh()
+        assert mesh is not None  # the tiles are its own
+        return mesh.on(tiles)
     return previous if isinstance(previous, FullGrid) else _full_grid(operator)
 
 
@@ -170,23 +169,16 @@ def first_product(
 
 def direct_limit(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
     """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    if _patches(operator) is None:
+    if capabilities(operator).particle_mesh() is None:
         return limit
     rough = tolerance >= tuning.ROUGH_TOLERANCE
     return min(limit, tuning.DIRECT_ROUGHLY if rough else tuning.DIRECT_BESIDE_TILES)
 
 
-def _patches(operator: Operator) -> Any:
-    """Return what works on tiles of this operator; None if there is no such thing."""
-    return getattr(operator, "patches", None)
-
-
 def _tiles_of(operator: Operator, region: Mask) -> Tiles | None:
     """Return the tiles of a region; None where the whole grid costs less."""
-    if not is_numpy(region) or _patches(operator) is None:
-        return None
-    tiles: Tiles | None = _patches(operator).tiles(region)
-    return tiles
+    mesh = capabilities(operator).particle_mesh() if is_numpy(region) else None
+    return None if mesh is None else mesh.tiles(region)
 
 
 def _fits_single(operator: Operator) -> bool:
@@ -195,5 +187,5 @@ def _fits_single(operator: Operator) -> bool:
 
 
 def _full_grid(operator: Operator) -> FullGrid:
-    single = keeps_precision(operator) and math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
+    single = capabilities(operator).single_precision and math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
     return SingleFullGrid(operator) if single else FullGrid(operator)

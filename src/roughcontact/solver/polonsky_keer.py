@@ -16,7 +16,7 @@ from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
 from roughcontact.solver.state import State
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["PolonskyKeer"]
 

@@ -11,8 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
-from roughcontact.halfspace.operators.operator import Listable, Operator, is_semidefinite
-from roughcontact.material import number
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
 from roughcontact.solver.control import checked_tolerance
@@ -28,6 +27,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import scalar
 
 __all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
 
@@ -156,7 +156,7 @@ def _subdomain(operator: Operator, region: Mask) -> Subdomain | None:
     """Return where a solve on a region costs least: on its cells, of a list, or in its box; None for the whole."""
     if not is_numpy(region):  # elsewhere than on the host a box costs a transfer for each of its sides
         return None
-    if getattr(operator, "listed", False):
+    if capabilities(operator).listed:
         return np.flatnonzero(region)
     box = bounding_box(region)
     assert box is not None  # some cell is in the region
@@ -170,8 +170,9 @@ def _part(operator: Operator, subdomain: Subdomain) -> Operator:
     """Return the operator between the cells of a subdomain."""
     if isinstance(subdomain, tuple):
         return operator.restrict(subdomain)
-    assert isinstance(operator, Listable)  # of others no list is made
-    return operator.between(subdomain)
+    submatrix = capabilities(operator).submatrix
+    assert submatrix is not None  # of others no list is made
+    return submatrix(subdomain)
 
 
 def _check(name: str, given: Any, region: Mask) -> None:
@@ -179,7 +180,7 @@ def _check(name: str, given: Any, region: Mask) -> None:
     if is_array(given) and given.ndim == 0:
         return
     if not is_array(given):
-        number(name, given)
+        scalar(given, name)
         return
     if tuple(given.shape) != tuple(region.shape):
         raise ValueError(

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
-from roughcontact.halfspace.operators.operator import Listable, Operator, is_positive
+from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Terms
@@ -82,7 +82,7 @@ class SubdomainSolver:
     ) -> tuple[State, Subdomain]:
         """Solve from a pressure [Pa] on the whole grid and a depth [m]; return the state and its subdomain."""
         pressure, depth = start
-        if not (is_positive(self.operator) and is_numpy(separation)):
+        if not (capabilities(self.operator).positive and is_numpy(separation)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
             return solve_refined(solver, self.operator, separation, terms, pressure), whole
@@ -120,23 +120,25 @@ class SubdomainSolver:
 
     def _between(self, cells: npt.NDArray[np.intp]) -> Operator:
         """Return the operator between the cells of a list, as part of the box that holds them, which is kept."""
-        assert isinstance(self.operator, Listable)  # no list is made of others
+        submatrix = capabilities(self.operator).submatrix
+        assert submatrix is not None  # no list is made of others
         if self.operator.grid.ndim == 1:
-            return self.operator.between(cells)
+            return submatrix(cells)
         shape = self.operator.grid.shape
         indices = np.unravel_index(cells, shape)
         box = self._with_margin(tuple(slice(int(i.min()), int(i.max()) + 1) for i in indices))
         part = self.operator_on(box)
-        if not isinstance(part, Listable):
-            return self.operator.between(cells)
+        part_submatrix = capabilities(part).submatrix
+        if part_submatrix is None:
+            return submatrix(cells)
         inside = tuple(i - s.start for i, s in zip(indices, box, strict=True))
-        return part.between(np.ravel_multi_index(inside, part.grid.shape))
+        return part_submatrix(np.ravel_multi_index(inside, part.grid.shape))
 
     def _subdomain(self, candidates: Mask) -> Subdomain:
         """Return the box of the candidates for contact, or their list where a direct sum costs less."""
         box = bounding_box(candidates)
         assert box is not None  # the lowest separation at least is one
-        if isinstance(self.operator, Listable) and self._is_list_cheaper(candidates[box]):
+        if capabilities(self.operator).submatrix and self._is_list_cheaper(candidates[box]):
             return np.flatnonzero(candidates)
         return self._with_margin(box)
 
@@ -154,7 +156,7 @@ class SubdomainSolver:
         if count * count / 4 < tuning.LOOKUPS * padded:
             return True
         few = count <= tuning.LIST_FILLING * candidates.size
-        if not few or getattr(self.operator, "patches", None) is None:
+        if not few or capabilities(self.operator).particle_mesh() is None:
             return False
         # Inner products are taken on tiles, exact ones on the box if need be, and all else follows the list.
         if candidates.size > tuning.LARGE_BOX:
