@@ -16,8 +16,7 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of, is_sem
 from roughcontact.material import Solid
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.prescribed import prescribe
-from roughcontact.solver.region import checked_region
+from roughcontact.solver.prescribed import checked_region, prescribe
 from roughcontact.solver.state import Tangent
 from roughcontact.validation import numeric
 
@@ -27,10 +26,10 @@ __all__ = [
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
+    "elastic_contact",
     "frozen_contact",
     "full_contact_stiffness",
     "is_resolved",
-    "yields_not",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -60,7 +59,7 @@ class FrozenContact:
     tangent: Array
 
 
-def yields_not(pressure: Array, hardness: float) -> Mask:
+def elastic_contact(pressure: Array, hardness: float) -> Mask:
     """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
     return (pressure > 0) & (pressure < hardness)
 

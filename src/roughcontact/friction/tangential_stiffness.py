@@ -16,7 +16,7 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.solver.region import checked_region
+from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]

@@ -287,7 +287,7 @@ def test_it_drives_by_its_tiles():
     assert isinstance(driver.forward, DirectSum)
     pressure = np.where(region, pressure_on(900), 0.0)
     exact = operator.as_matrix() @ pressure
-    found = driver.scatter(driver.apply(driver.narrow(driver.gather(pressure))))
+    found = driver.scatter(driver.apply(driver.scaled(driver.gather(pressure))))
     single = (np.count_nonzero(region) + 3) * np.finfo(np.float32).eps
     limit = single * np.abs(operator.as_matrix()) @ np.abs(pressure)
     assert (np.abs(found - exact) <= limit)[region].all()
