@@ -24,12 +24,12 @@ from cases import CASES
 
 import roughcontact as rc
 from roughcontact.kernels import buffers
-from roughcontact.solver.trial import Trial
+from roughcontact.solver.optimality import Iterate
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {
     "memory that is kept": (buffers, "SMALL", buffers.LARGE),
-    "judging in one pass": (Trial, "fits_machine_code", lambda *_: False),
+    "judging in one pass": (Iterate, "fits_machine_code", lambda *_: False),
 }
 
 

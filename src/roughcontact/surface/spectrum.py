@@ -13,8 +13,7 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import moderate, numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
@@ -150,7 +149,7 @@ class SelfAffineSpectrum:
         if not (math.isfinite(rms) and rms > 0):
             raise ValueError(f"rms must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
-        m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
+        m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
             raise ValueError(
                 f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "

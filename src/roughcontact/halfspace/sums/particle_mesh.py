@@ -113,7 +113,7 @@ class PatchOperator:
         Area of a cell [m^2].
     forward : TileSum or DirectSum
     inverse : TileInverse
-    gain : float
+    contraction : float
         How far a round of a solve takes an error down; exact products find what it gets wrong.
     """
 
@@ -121,8 +121,8 @@ class PatchOperator:
     weights: float
     forward: TileSum | DirectSum
     inverse: TileInverse
-    gain: float = 3e-5
-    relief: ClassVar[float] = RELIEF
+    contraction: float = 3e-5
+    diagonal_correction: ClassVar[float] = RELIEF
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return a field of the plane on the tiles, another value beyond the edge."""
@@ -132,7 +132,7 @@ class PatchOperator:
         """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
         return self.tiles.scatter(values)
 
-    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+    def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return numbers over a unit, in single precision."""
         return over(values, unit, "float32")
 
