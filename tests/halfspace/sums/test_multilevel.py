@@ -79,7 +79,7 @@ def test_error_of_every_entry():
 
     That they are positive, too, is what the window of contact rests on.
     """
-    operator = rc.half_space(rc.Grid((36, 30), (1.0, 1.2)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((36, 30), (1.0, 1.2)), 2.0, method="multilevel")
     assert len(operator._hierarchy.levels) == 2
     loads = np.eye(operator.grid.size).reshape(-1, *operator.grid.shape)
     matrix = np.array([operator.apply(load).ravel() for load in loads])
@@ -102,7 +102,7 @@ def test_error_falls_with_order_and_reach():
 
 @pytest.mark.parametrize("shape", [(90, 70), (40, 300)])
 def test_symmetric_and_linear_to_rounding(shape):
-    operator = rc.half_space(rc.Grid(shape, (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid(shape, (0.3, 0.5)), 2.0, method="multilevel")
     p, q = np.random.default_rng(0).standard_normal((2, *shape))
     u, v = operator.apply(p), operator.apply(q)
     size = np.linalg.norm(p) * np.linalg.norm(u)
@@ -113,7 +113,7 @@ def test_symmetric_and_linear_to_rounding(shape):
 
 
 def test_equal_to_its_restriction():
-    operator = rc.half_space(rc.Grid((80, 90), (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((80, 90), (0.3, 0.5)), 2.0, method="multilevel")
     window = (slice(20, 80), slice(5, 71))
     inside = np.zeros((80, 90))
     inside[window] = np.random.default_rng(0).random((60, 66))
@@ -123,7 +123,7 @@ def test_equal_to_its_restriction():
 
 def test_what_else_it_can_do_is_exact():
     """Matrices, lists of cells and inverses are those of the transforms; coarser cells are summed the same way."""
-    operator = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, method="multilevel")
     cells = np.array([3, 77, 500, 1199])
     np.testing.assert_array_equal(operator.as_matrix(cells), operator.exact.as_matrix(cells))
     np.testing.assert_array_equal(operator.submatrix(cells).as_matrix(), operator.exact.as_matrix(cells))
@@ -136,8 +136,8 @@ def test_what_else_it_can_do_is_exact():
 
 def test_scale_laws():
     p = np.random.default_rng(0).random((40, 30))
-    base = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, "multilevel").apply(p)
-    small = rc.half_space(rc.Grid((40, 30), (3e-7, 5e-7)), 2e11, "multilevel").apply(p)
+    base = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, method="multilevel").apply(p)
+    small = rc.half_space(rc.Grid((40, 30), (3e-7, 5e-7)), 2e11, method="multilevel").apply(p)
     np.testing.assert_allclose(small, 1e-17 * base, rtol=1e-12)
 
 
@@ -263,7 +263,7 @@ def test_rows_in_several_portions_are_summed_as_in_one(monkeypatch):
 
 
 def test_the_same_without_machine_code(monkeypatch):
-    operator = rc.half_space(rc.Grid((80, 60), 1.0), 1.0, "multilevel")
+    operator = rc.half_space(rc.Grid((80, 60), 1.0), 1.0, method="multilevel")
     pressure = np.random.default_rng(0).random((80, 60))
     with_code = operator.apply(pressure)
     monkeypatch.setattr(loader, "is_available", lambda: False)
