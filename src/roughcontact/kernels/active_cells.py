@@ -12,6 +12,7 @@ from roughcontact.kernels.buffers import empty, zeros
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
 from roughcontact.kernels.loader import code_for
+from roughcontact.kernels.planes import run_on_plane
 from roughcontact.threads import spread
 
 __all__ = [
@@ -94,23 +95,13 @@ class ActiveCells:
 
 def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
-    run, size = code_for("vector_kernels", r)["subtract_shifted"], PART * WIDTH // r.itemsize
-    if r.size <= size:
-        run(r.size, r, v, alpha, mean)
-        return
-    r, v = r.reshape(-1), v.reshape(-1)
-
-    def part(start: int) -> None:
-        run(min(size, r.size - start), r[start:], v[start:], alpha, mean)
-
-    spread(part, range(0, r.size, size), SEVERAL)
+    run_on_plane(code_for("vector_kernels", r)["subtract_shifted"], 0, 0, r, v, alpha, mean)
 
 
 def mask_above(mask: Field, r: Field, least: float) -> float:
     """Set a mask to one where r is above `least`, and above zero; return the largest r where it was not, or 0."""
-    most, given = np.zeros(1), np.ascontiguousarray(r, dtype=mask.dtype)
-    code_for("vector_kernels", mask)["mask_above"](mask.size, mask, given, least, most)
-    return float(most[0])
+    run = code_for("vector_kernels", mask)["mask_above"]
+    return run_on_plane(run, 1, 1, mask, np.ascontiguousarray(r, dtype=mask.dtype), least)[0]
 
 
 def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
