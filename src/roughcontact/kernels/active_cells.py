@@ -1,4 +1,4 @@
-"""Regions of a field for machine code: work follows the cells inside."""
+"""Kernels on the cells of a region: work follows these, not the field."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ class ActiveCells:
     ----------
     inside : array
     pressed : pair of arrays, optional
-        A pressure and its change: cells that carry something are gone through as well.
+        A pressure and its change: cells where their sum is not zero are listed as well.
     """
 
     def __init__(self, inside: Field, pressed: tuple[Field, Field] | None = None) -> None:
         self.inside = inside
-        self._code, self._blocks = (code_for(f, inside) for f in ("vector_kernels", "block_kernels"))
+        self._code = code_for("vector_kernels", inside)
         lanes = WIDTH // inside.itemsize
         self._whole = inside.size // lanes * lanes
         groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
@@ -90,7 +90,7 @@ class ActiveCells:
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
         """Run a kernel on the blocks that these cells are of."""
         plan = 0, self._count, self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
-        self._blocks[name](self._groups, *plan, field, blocks)
+        code_for("block_kernels", field)[name](self._groups, *plan, field, blocks)
 
 
 def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:

@@ -77,8 +77,8 @@ class LevelRange(NamedTuple):
 def extremes(pressure: Array, displacement: Array, separation: Array) -> Extremes | None:
     """Return the extremes; None where some pressure or displacement is no finite number.
 
-    What passes of NumPy over the same fields cost is 6 % of a press of half of 512 x 512 periodic cells on two threads,
-    as `predict_active` and `level_range` do the same (benchmarks/pairs.py, "flat-half").
+    This pass and that of `predict_active` save 6 % of a press with half of 512 x 512 periodic cells in contact, on two
+    threads, over the passes that NumPy takes (benchmarks/pairs.py, "flat-half").
     """
     run = code_for("plane_kernels", pressure)["extremes"]
     found = run_on_plane(run, 7, 10, pressure, displacement, separation)
@@ -109,29 +109,25 @@ def level_range(separation: Array, displacement: Array, region: Mask) -> LevelRa
 
 
 def scale_down(
-    separation: Array,
-    displacement: Array,
     pressure: Array,
+    displacement: Array,
+    separation: Array,
     region: Mask,
+    into: tuple[Field, Field, Field],
     *,
     depth: float,
     unit: float,
-    inside: Field,
-    lacking: Field,
-    base: Field,
 ) -> None:
     """Write, in a unit: one inside a region and zero elsewhere, the residual of a depth, and the pressure."""
-    fields = separation, displacement, pressure, region
-    run = code_for("plane_kernels", inside)["scale_down"]
-    run_on_plane(run, 0, 0, *fields, depth, 1 / unit, inside, lacking, base)
+    fields = pressure, displacement, separation, depth, 1 / unit, region
+    run_on_plane(code_for("plane_kernels", into[0])["scale_down"], 0, 0, *fields, *into)
 
 
 def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
     """Return a pressure with its change, in a unit, zero where it would be negative and outside."""
     answer = empty(pressure.shape, np.float64)
-    run_on_plane(
-        code_for("plane_kernels", inside)["add_scaled"], 0, 0, pressure, change, inside, unit, answer
-    )
+    run = code_for("plane_kernels", inside)["add_scaled"]
+    run_on_plane(run, 0, 0, pressure, change, inside, unit, answer)
     return answer
 
 
