@@ -28,6 +28,16 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     method : {"harmonic", "nearest"}
         The solution of Laplace's equation through the measured heights around, like a soap film (at the edge of a
         free map it meets the edge at right angles); or the height of the nearest measured point.
+
+    Returns
+    -------
+    Surface
+        The surface without missing points; the surface itself if it has none.
+
+    Raises
+    ------
+    ValueError
+        If there is no such `method`.
     """
     if method not in ("harmonic", "nearest"):
         raise ValueError(f"method must be 'harmonic' or 'nearest', not {method!r}")

@@ -36,6 +36,15 @@ class RadialProfile:
     ------
     ValueError
         If the heights do not fit the rings, are infinite, or hold no number.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(100, radius=1e-4)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / (2 * 1e-3), rings)
+    >>> solution = rc.press(ball, 1e9, force=1e-2, operator=rc.ring(rings, 1e9))
+    >>> f"Hertz: {(0.75 * 1e-2 / 1e9) ** (2 / 3) / 1e-3 ** (1 / 3) * 1e9:.0f} nm, here {solution.depth * 1e9:.0f} nm"
+    'Hertz: 383 nm, here 383 nm'
     """
 
     heights: Array

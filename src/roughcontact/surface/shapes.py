@@ -54,6 +54,11 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the apex.
+
     Raises
     ------
     ValueError
@@ -74,6 +79,11 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
         Radius R [m].
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -98,6 +108,11 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
         Direction along which the cylinder lies.
     centre : tuple of float, optional
         A point ``(y, x)`` of its crest [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -125,6 +140,11 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the apex.
+
     Raises
     ------
     ValueError
@@ -147,6 +167,11 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
         Coefficient Q > 0 [m^(1-n)].
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the apex.
 
     Raises
     ------
@@ -172,6 +197,11 @@ def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
+
     Raises
     ------
     ValueError
@@ -192,6 +222,11 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
         Radii, ``0 <= inner < outer`` [m].
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -223,6 +258,11 @@ def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
+
     Raises
     ------
     ValueError
@@ -248,6 +288,11 @@ def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
         Length of a side [m].
     centre : tuple of float, optional
         Its centroid ``(y, x)`` [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -284,6 +329,11 @@ def wave(
         Direction along which the height changes. A line has its own only, "x".
     centre : tuple of float, optional
         Place ``(y, x)`` of a crest [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
+        Heights [m], 0 at the crests.
 
     Raises
     ------

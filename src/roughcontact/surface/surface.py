@@ -1,4 +1,4 @@
-"""Heights on a grid, and how to level them."""
+"""Heights on a grid."""
 
 from __future__ import annotations
 
@@ -66,6 +66,17 @@ class Surface:
     ValueError
         If the heights do not fit the grid, are infinite, hold no measured point, or have a range below 1e-50 m (but
         for 0) or above 1e50 m, where products lose digits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid(shape=(2, 3), spacing=1e-6)
+    >>> surface = rc.Surface(np.array([[0.0, 1e-9, np.nan], [2e-9, 3e-9, 4e-9]]), grid)
+    >>> surface.missing, f"{surface.rms:.3g} m"
+    (1, '1.41e-09 m')
+    >>> surface.levelled("mean").provenance
+    ('mean height removed',)
     """
 
     heights: Array

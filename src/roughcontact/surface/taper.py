@@ -34,6 +34,16 @@ def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> S
         See `taper`.
     share : float
         For ``"tukey"``: the part of the length that is bent, both ends together, from 0 to 1.
+
+    Returns
+    -------
+    Surface
+        The tapered heights, about zero.
+
+    Raises
+    ------
+    ValueError
+        If there is no such `window`, or `share` lies outside 0 to 1.
     """
     heights = surface.heights - np.nanmean(surface.heights)
     loss = 1.0

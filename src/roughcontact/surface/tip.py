@@ -24,7 +24,8 @@ Array = npt.NDArray[np.float64]
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
     """Return the surface as a tip records it that follows without force: the heights of its lowest point.
 
-    Peaks come out wider, valleys narrower, and those too narrow for the tip are not reached (thesis, section 2.1).
+    Peaks come out wider, valleys narrower, and the tip does not reach into those too narrow for it (thesis, section
+    2.1).
 
     Parameters
     ----------
@@ -32,6 +33,11 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     tip_radius : float
         Radius of the tip at its apex [m].
     tip : {"sphere", "paraboloid"}
+
+    Returns
+    -------
+    Surface
+        The recorded heights; missing points stay missing.
 
     Raises
     ------

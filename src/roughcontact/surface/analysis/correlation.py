@@ -20,7 +20,7 @@ Array = npt.NDArray[np.float64]
 class LagCurve:
     """A function of the lag alone.
 
-    Parameters
+    Attributes
     ----------
     lag : array, shape (n,)
         Mean length of the lags in each bin [m].
@@ -39,7 +39,7 @@ class LagCurve:
 class LagMap:
     """A function of the lag vector, zero lag in the middle.
 
-    Parameters
+    Attributes
     ----------
     value : array, shape (my, mx) or (m,)
         Mean over all pairs of measured points that far apart [m^2]; NaN where there is none.
@@ -54,7 +54,13 @@ class LagMap:
     lags: tuple[Array, ...]
 
     def radial(self) -> LagCurve:
-        """Return the average over all directions, in rings as wide as the larger spacing."""
+        """Return the average over all directions.
+
+        Returns
+        -------
+        LagCurve
+            In rings as wide as the larger spacing, up to half the shorter side.
+        """
         step = max(float(np.diff(axis).max(initial=0.0)) for axis in self.lags)
         length = np.sqrt(sum(axis**2 for axis in np.meshgrid(*self.lags, indexing="ij", sparse=True)))
         reach = min(float(axis[-1]) for axis in self.lags if axis.size > 1)
@@ -68,11 +74,29 @@ class LagMap:
 
 
 def autocorrelation(surface: Surface) -> LagMap:
-    """Return ``<h(x + r) h(x)>`` of the heights above their mean [m^2], the mean square at zero lag.
+    """Return the autocorrelation ``<h(x + r) h(x)>`` of the heights above their mean.
 
     Along periodic axes lags go round; along free axes only pairs inside the surface count, and each lag is
     divided by their number, so that no bias comes from the edges. Pairs with a missing point are left out.
-    Lags reach to half the length.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    LagMap
+        The mean square [m^2] at zero lag; lags reach to half the length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> lags = rc.autocorrelation(surface)
+    >>> lags.value.shape, f"rms {lags.value[32, 32] ** 0.5:.3g} m"
+    ((65, 65), 'rms 1e-06 m')
     """
     heights, known = _centred(surface)
     shape = _padded(surface)
@@ -81,10 +105,28 @@ def autocorrelation(surface: Surface) -> LagMap:
 
 
 def structure_function(surface: Surface) -> LagMap:
-    """Return ``<(h(x + r) - h(x))^2>`` [m^2] of the pairs of measured points a lag r apart.
+    """Return the structure function ``<(h(x + r) - h(x))^2>`` of the heights.
 
-    Lags as in `autocorrelation`. It needs no mean and suffers less from long waves. By transforms, whose rounding
-    is 1e-16 of the mean square height: `structure_profile` is exact for the smallest steps of a smooth surface.
+    It needs no mean and suffers less from long waves than the autocorrelation. It is computed by transforms, whose
+    rounding is 1e-16 of the mean square height: `structure_profile` is exact for the smallest steps of a smooth
+    surface.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    LagMap
+        Mean over the pairs of measured points [m^2], at the lags of `autocorrelation`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid((64, 64), 1e-6, periodic=True), amplitude=1e-6, wavelength=32e-6)
+    >>> lags = rc.structure_function(wave)
+    >>> f"{lags.value[32, 48]:.3g} m^2"  # half a wave away from zero lag: (2 amplitudes)^2 / 2
+    '2e-12 m^2'
     """
     heights, known = _centred(surface)
     shape = _padded(surface)
@@ -107,10 +149,22 @@ def structure_profile(
     lags : array of int, optional
         Lags in whole cells; by default all from 1 to a quarter of the length, about 20 to a factor of ten.
 
+    Returns
+    -------
+    LagCurve
+        One value [m^2] for each lag.
+
     Raises
     ------
     ValueError
         If a lag does not fit the surface, or has no pair of measured points.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid(64, 1e-6, periodic=True), amplitude=1e-6, wavelength=32e-6)
+    >>> f"{rc.structure_profile(wave, lags=[16]).value[0]:.3g} m^2"  # half a wave: (2 amplitudes)^2 / 2
+    '2e-12 m^2'
     """
     along = surface.grid.ndim - 1 if axis == "x" else 0
     if axis not in ("x", "y") or (axis == "y" and surface.grid.ndim == 1):

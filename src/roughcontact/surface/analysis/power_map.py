@@ -22,7 +22,7 @@ Array = npt.NDArray[np.float64]
 class PowerMap:
     """C2D of every wave of a real surface: half a plane, since opposite waves have the same power.
 
-    Parameters
+    Attributes
     ----------
     density : array, shape (ny, nx//2 + 1)
         C2D [m^4].
@@ -48,7 +48,17 @@ class PowerMap:
         return float(once * cell)
 
     def centred(self) -> tuple[Array, Array, Array]:
-        """Return ``(qy, qx, density)`` of the whole plane, wavenumbers increasing, zero in the middle."""
+        """Return the whole plane of waves, zero in the middle.
+
+        Returns
+        -------
+        qy : array, shape (ny,)
+            Wavenumbers along y [rad/m], increasing.
+        qx : array, shape (nx,)
+            Wavenumbers along x [rad/m], increasing.
+        density : array, shape (ny, nx)
+            C2D [m^4].
+        """
         # The wave -q has the power of q.
         ny, rest = self.density.shape[0], range(self.qx.size, self.columns)
         mirrored = self.density[np.ix_((-np.arange(ny)) % ny, [self.columns - i for i in rest])]
@@ -74,11 +84,22 @@ def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto
     Returns
     -------
     PowerMap
+        C2D of every wave.
 
     Raises
     ------
     ValueError
         If the surface is a line or too small, has missing points, or an option is unknown.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> waves = rc.power_map(surface)
+    >>> waves.density.shape, f"rms {waves.variance**0.5:.3g} m"
+    ((64, 33), 'rms 1e-06 m')
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 2:

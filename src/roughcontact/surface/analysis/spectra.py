@@ -61,6 +61,22 @@ def power_spectrum(
     ------
     ValueError
         If points are missing, an option is unknown, or a line is asked for its rings.
+
+    Notes
+    -----
+    Rings: thesis, eqs 2.13 and 2.14; profiles: eqs 2.10 and 2.11.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> spectrum = rc.power_spectrum(surface)
+    >>> spectrum.kind, spectrum.wavenumber.size
+    ('C2D', 32)
+    >>> f"{rc.fit_spectrum(spectrum).hurst:.1f}"
+    '0.8'
     """
     ndim = surface.grid.ndim
     if direction == "auto":

@@ -20,7 +20,7 @@ _Heights = Callable[[int, int], Array]
 class Summits:
     """The points of a surface that stand above their eight neighbours.
 
-    Parameters
+    Attributes
     ----------
     rows, columns : array of int, shape (n,)
         Where they are.
@@ -82,6 +82,14 @@ def find_summits(surface: Surface) -> Summits:
     -----
     Number and curvature depend on the spacing D of the points. They are those of the surface itself only if its
     shortest waves are well resolved (q D below pi/8 or so); on a fractal they belong to the instrument.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> summits = rc.find_summits(rc.shapes.wave(grid, 1e-6, wavelength=32e-6, axis="both", centre=(0.5e-6, 0.5e-6)))
+    >>> summits.count, f"{summits.density * grid.area:.0f}"
+    (4, '4')
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 3:

@@ -18,7 +18,7 @@ __all__ = ["ArealParameters", "areal_parameters"]
 class ArealParameters:
     """Field parameters of a scale-limited surface (clauses of ISO 25178-2:2021).
 
-    Parameters
+    Attributes
     ----------
     Sq : float
         Root mean square height [m], 4.2.2.
@@ -39,7 +39,7 @@ class ArealParameters:
         Infinite if it does not within half the length of the surface.
     Str : float
         Texture aspect ratio [-], 4.3.3: Sal over the longest such distance. NaN where that distance exceeds half the
-        length of the surface: the aspect ratio cannot be told then, only that it is small.
+        length of the surface: the aspect ratio is small then, and no more is known of it.
     Sdq : float
         Root mean square gradient [-], 4.4.2.
     Sdr : float
@@ -63,8 +63,8 @@ class ArealParameters:
 def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters:
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 
-    Heights count above their mean. The standard wants a scale-limited surface: level and filter it first, since
-    nothing is removed here but the mean. Missing points are left out, as are pairs and triangles that hold one.
+    Heights count above their mean. The standard wants a scale-limited surface: remove its tilt and filter it first,
+    since nothing is removed here but the mean. Missing points are left out, as are pairs and triangles that hold one.
 
     Parameters
     ----------
@@ -72,6 +72,11 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
         On a grid of two axes.
     decay : float
         The level of the autocorrelation for Sal and Str.
+
+    Returns
+    -------
+    ArealParameters
+        Heights [m], lengths [m] and ratios [-] by the names of the standard.
 
     Raises
     ------
@@ -81,7 +86,15 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
     Notes
     -----
     Sdq and Sdr are those of the triangles between neighbouring points, cut along both diagonals: an edge along
-    x sees of a wave q the share ``sin(q D/2)/(q D/2)``. Sdq of a rough surface hangs on the spacing.
+    x keeps of a wave q the fraction ``sin(q D/2)/(q D/2)``. Sdq of a rough surface depends on the spacing.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid((64, 64), 1e-6, periodic=True), amplitude=1e-6, wavelength=32e-6)
+    >>> parameters = rc.areal_parameters(wave)
+    >>> f"Sq = {parameters.Sq:.3g} m, Sz = {parameters.Sz:.2g} m, Sku = {parameters.Sku:.2f}"
+    'Sq = 7.07e-07 m, Sz = 2e-06 m, Sku = 1.50'
     """
     if surface.grid.ndim != 2 or min(surface.grid.shape) < 2:
         raise ValueError(f"areal parameters need a surface of 2 x 2 points, not shape {surface.grid.shape}")
