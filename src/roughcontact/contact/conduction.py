@@ -94,8 +94,17 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense, the contact is that of a line, whose conductance per length hangs on the
-        reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
+        If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
+        reference length, or if it is a curve under a hardness, whose stiffness leaves out cells that conduct.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8))
+    >>> f"{copper['electrical_resistance'] * 1e3:.1f} mOhm"
+    '2.0 mOhm'
     """
     materials = Conductors(resistivities, conductivities)
     if of not in ("stiffness", "interfacial_stiffness"):

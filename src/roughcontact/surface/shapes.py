@@ -57,7 +57,6 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the apex.
 
     Raises
     ------
@@ -83,7 +82,6 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -112,7 +110,6 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -143,7 +140,6 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the apex.
 
     Raises
     ------
@@ -171,7 +167,6 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
     Returns
     -------
     Surface
-        Heights [m], 0 at the apex.
 
     Raises
     ------
@@ -200,7 +195,6 @@ def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -226,7 +220,6 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -261,7 +254,6 @@ def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -292,7 +284,6 @@ def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
     Returns
     -------
     Surface
-        Heights [m], 0 at the top and NaN where the body is absent.
 
     Raises
     ------
@@ -333,7 +324,6 @@ def wave(
     Returns
     -------
     Surface
-        Heights [m], 0 at the crests.
 
     Raises
     ------
