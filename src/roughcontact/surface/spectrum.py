@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -16,27 +15,9 @@ from roughcontact.surface.wave_grid import Support
 from roughcontact.theory.tools.domain import moderate
 from roughcontact.theory.tools.numeric import numeric, require_numbers
 
-__all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
+__all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
 Array = npt.NDArray[np.float64]
-
-
-class RadialSpectrum(Protocol):
-    """What theories ask of an isotropic spectrum: its values, its band and its moments."""
-
-    @property
-    def q_min(self) -> float:
-        """Smallest wavenumber [rad/m]; 0 if there is none."""
-
-    @property
-    def q_max(self) -> float:
-        """Largest wavenumber [rad/m]; infinite if there is none."""
-
-    def __call__(self, wavenumber: Array) -> Array:
-        """Return C2D [m^4] at the wavenumbers [rad/m]; zero outside the band."""
-
-    def moments(self) -> Moments:
-        """Return the moments of the continuous spectrum."""
 
 
 @dataclass(frozen=True, slots=True)

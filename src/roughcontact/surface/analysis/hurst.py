@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
-from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 from roughcontact.theory.tools.numeric import numeric
 
@@ -102,7 +102,7 @@ def hurst_exponent(
     limit: Limit = "auto",
     q_min: float | None = None,
     q_max: float | None = None,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
 ) -> HurstFit:
     """Return the Hurst exponent of a surface or line from its power spectrum, with its standard error.
 
@@ -115,7 +115,7 @@ def hurst_exponent(
     q_min, q_max : float, optional
         The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
         should be cut where its instrument no longer follows, see `PowerSpectrum`.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `power_spectrum`.
 
     Returns

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.surface.analysis.preprocess import Level, power_left, tapered, tapers
-from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
 from roughcontact.surface.surface import Surface
+from roughcontact.surface.wave_grid import wave_vectors
 
 __all__ = ["PowerMap", "power_map"]
 
@@ -68,14 +68,14 @@ class PowerMap:
         return np.fft.fftshift(self.qy), qx, whole
 
 
-def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto") -> PowerMap:
+def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level = "auto") -> PowerMap:
     """Return the two-dimensional power spectrum C2D of a surface (thesis, eqs 2.13 and 2.14).
 
     Parameters
     ----------
     surface : Surface
         On a grid of two axes, without missing points.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         Along both axes; "auto" is none along periodic and Hann along free axes.
         The power that a window takes away is put back on the average.
     level : {"auto", "none", "mean", "plane"}
@@ -105,12 +105,10 @@ def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto
     if grid.ndim != 2 or min(grid.shape) < 2:
         raise ValueError(f"a spectrum map needs a surface of at least 2 x 2 points, not shape {grid.shape}")
     windows = tapers(surface, window)
-    density = _power(tapered(surface, windows, level, "a power spectrum"))
-    (ny, nx), (dy, dx) = grid.shape, grid.spacing
+    density = _power(prepared(surface, windows, level, "a power spectrum"))
     density *= grid.area / (2 * math.pi * grid.size) ** 2 / power_left(windows)
-    qy = 2 * np.pi * scipy.fft.fftfreq(ny, dy)
-    qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
-    return PowerMap(density, qy, qx, nx)
+    qy, qx = (component.ravel() for component in wave_vectors(grid.shape, grid.spacing))
+    return PowerMap(density, qy, qx, grid.shape[1])
 
 
 def _power(work: Array) -> Array:

@@ -13,8 +13,8 @@ import numpy.typing as npt
 from scipy.optimize import least_squares
 from scipy.special import chdtri
 
+from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
-from roughcontact.surface.analysis.tapered_structure import tapered_structure
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 

@@ -10,14 +10,14 @@ import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Summits", "find_summits"]
+__all__ = ["MeasuredSummits", "find_summits"]
 
 Array = npt.NDArray[np.float64]
 _Heights = Callable[[int, int], Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Summits:
+class MeasuredSummits:
     """The points of a surface that stand above their eight neighbours.
 
     Attributes
@@ -59,7 +59,7 @@ class Summits:
         return np.asarray(1 / np.sqrt(self.curvature.prod(axis=1)))
 
 
-def find_summits(surface: Surface) -> Summits:
+def find_summits(surface: Surface) -> MeasuredSummits:
     """Return the summits of a surface: points higher than all eight neighbours.
 
     Parameters
@@ -69,7 +69,7 @@ def find_summits(surface: Surface) -> Summits:
 
     Returns
     -------
-    Summits
+    MeasuredSummits
         With curvatures from central differences. The few whose smaller curvature is not positive by these
         (saddles between grid lines) are left out.
 
@@ -116,7 +116,7 @@ def find_summits(surface: Surface) -> Summits:
     curvature = _principal(lambda i, j: at(i, j)[rows, columns], grid.spacing)
     dome = curvature[:, 1] > 0
     shift = [0 if p else 1 for p in grid.periodic]
-    return Summits(
+    return MeasuredSummits(
         rows=rows[dome] + shift[0],
         columns=columns[dome] + shift[1],
         height=centre[rows, columns][dome] - float(np.nanmean(surface.heights)),
