@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-from roughcontact.theory.tools.domain import moderate, scalar, shown
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import moderate, require_numbers, scalar
 
-__all__ = ["Solid", "as_modulus", "number", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +45,9 @@ class Solid:
     def shear_modulus(self) -> float:
         """Shear modulus, E / 2(1 + nu) [Pa]."""
         return self.young_modulus / (2 * (1 + self.poisson_ratio))
+
+
+Bodies = Solid | tuple[Solid, Solid]
 
 
 def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
@@ -127,24 +128,27 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
             raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
         value = reduced_modulus(*modulus)
     else:
-        value = number("reduced modulus", modulus)
+        value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
 
 
-def number(name: str, value: Any) -> float:
-    """Return one real number.
+def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
+    """Return the two bodies of a contact; None for a rigid one.
 
     Raises
     ------
     ValueError
-        If it is none: a text, a list, nothing. The command line reads units, this does not.
+        If what is given is neither a Solid nor two of them.
     """
-    try:
-        return scalar(value, name)
-    except ValueError as error:
-        raise ValueError(f"the {name} must be one number in SI units, not {shown(value)}") from error
+    if isinstance(bodies, Solid):
+        return bodies, None
+    if isinstance(bodies, tuple) and len(bodies) == 2:
+        return bodies
+    raise ValueError(
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
+    )
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide import advance
 from roughcontact.friction.slip_problem import (
-    Bodies,
     Load,
     Pull,
     Shift,
@@ -20,8 +19,8 @@ from roughcontact.friction.slip_problem import (
 )
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.material import Bodies
+from roughcontact.validation import number, numeric
 
 __all__ = ["Loads", "load_cycle", "slide_path"]
 

@@ -11,11 +11,11 @@ import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide_path import Loads, slide_path
-from roughcontact.friction.slip_problem import Bodies
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     import xarray

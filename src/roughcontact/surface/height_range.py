@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
-from roughcontact.theory.tools.domain import moderate
+from roughcontact.validation import moderate
 
 __all__ = ["is_elsewhere", "own_heights"]
 

@@ -19,7 +19,7 @@ from roughcontact.surface.wave_grid import (
     wave_powers,
     wavenumbers,
 )
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
 
@@ -100,7 +100,7 @@ class Moments:
         return replace(self, dimension=1)
 
 
-def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") -> Moments:
+def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square") -> Moments:
     """Return the moments of `spectrum` as sums over the waves of `grid`.
 
     They are those of every surface with exact amplitudes that is synthesised on the grid with that spectrum,
@@ -108,10 +108,10 @@ def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") ->
 
     Parameters
     ----------
-    spectrum : callable or PlanarSpectrum
-        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     grid : Grid
         One period; of a nodal grid without its last row and column.
+    spectrum : callable or PlanarSpectrum
+        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     support : {"square", "disc"}
         See `self_affine`.
 
@@ -131,14 +131,16 @@ def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") ->
     >>> import roughcontact as rc
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> spectrum = rc.SelfAffineSpectrum(hurst=0.8).scaled(1e-6, grid)
-    >>> f"{rc.grid_moments(spectrum, grid).rms_height:.3g} m"
+    >>> f"{rc.grid_moments(grid, spectrum).rms_height:.3g} m"
     '1e-06 m'
     """
     powers = wave_powers(spectrum, grid.shape, grid.spacing, support) * multiplicity(grid.shape)
     return _summed(powers, grid)
 
 
-def surface_moments(surface: Surface, derivative: Literal["spectral", "difference"] | None = None) -> Moments:
+def surface_moments(
+    surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
+) -> Moments:
     """Return the moments of the heights of a surface or a line.
 
     Parameters

@@ -12,8 +12,7 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import moderate, numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
@@ -149,7 +148,7 @@ class SelfAffineSpectrum:
         if not (math.isfinite(rms) and rms > 0):
             raise ValueError(f"rms must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
-        m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
+        m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
             raise ValueError(
                 f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "
@@ -196,7 +195,7 @@ class StretchedSpectrum:
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> spectrum = rc.StretchedSpectrum(rc.SelfAffineSpectrum(0.8, long_cutoff=16e-6), ratio=4)
     >>> surface = rc.synthesise(grid, spectrum, np.random.default_rng(1), rms=1e-6)
-    >>> along, across = (rc.structure_profile(surface, axis, [1]).value.item() for axis in "xy")
+    >>> along, across = (rc.structure_profile(surface, axis, lags=[1]).value.item() for axis in "xy")
     >>> along < across
     True
     """

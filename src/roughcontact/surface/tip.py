@@ -11,8 +11,7 @@ import numpy.typing as npt
 import scipy.ndimage
 
 from roughcontact.grid import Grid
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

@@ -81,7 +81,7 @@ def test_profiles_are_rows_of_the_map(periodic, axis):
     surface = noise((12, 11), periodic, holes=5)
     jumps = structure_function(surface)
     lags = np.array([1, 2, 5])
-    profile = structure_profile(surface, axis, lags)
+    profile = structure_profile(surface, axis, lags=lags)
     row = jumps.value[6, 5 + lags] if axis == "x" else jumps.value[6 + lags, 5]
     np.testing.assert_allclose(profile.value, row, rtol=1e-12)
     np.testing.assert_allclose(profile.lag, lags * (0.25 if axis == "x" else 0.5))
@@ -112,13 +112,13 @@ def test_lags_that_do_not_fit_are_refused():
     surface = noise((6, 7), False)
     for bad in ([0], [7], [1.5]):
         with pytest.raises(ValueError, match="lags must be"):
-            structure_profile(surface, "x", np.array(bad))
-    with pytest.raises(ValueError, match="axis must be"):
+            structure_profile(surface, "x", lags=np.array(bad))
+    with pytest.raises(ValueError, match="direction must be"):
         structure_profile(noise((9,), False), "y")
     lonely = np.full((1, 9), np.nan)
     lonely[0, 0] = lonely[0, 8] = 1.0
     with pytest.raises(ValueError, match="no two measured"):
-        structure_profile(rc.Surface(lonely, rc.Grid((1, 9), 1.0)), "x", [2])
+        structure_profile(rc.Surface(lonely, rc.Grid((1, 9), 1.0)), "x", lags=[2])
 
 
 def walk(shape=(40, 96), periodic=False):
@@ -130,7 +130,7 @@ def walk(shape=(40, 96), periodic=False):
 def test_along_a_periodic_axis_all_pairs_count_alike(axis):
     surface = walk(periodic=True)
     values, share = tapered_structure(surface, axis, STEPS)
-    np.testing.assert_allclose(values, structure_profile(surface, axis, STEPS).value, rtol=1e-13)
+    np.testing.assert_allclose(values, structure_profile(surface, axis, lags=STEPS).value, rtol=1e-13)
     assert share == 1
 
 
@@ -146,7 +146,7 @@ def test_every_lag_sees_the_same_part_of_a_free_axis():
     # A sum is its integral but for 1/720 of the jumps of the third derivative (Euler-Maclaurin, at the middles of
     # cells 7/8 of that): at the ends of a ramp 3 w'' (x^6)' = 3 (pi^2/72)(6/x) x^6, some 0.03 of 80 cells' mean x^6.
     np.testing.assert_allclose(values, exact, rtol=1e-5)
-    plain = structure_profile(surface, "x", STEPS).value
+    plain = structure_profile(surface, "x", lags=STEPS).value
     assert np.abs(plain / exact - 1).min() > 0.03
 
 

@@ -19,8 +19,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 __all__ = ["LayerOperator", "layer"]
 

@@ -17,7 +17,7 @@ from roughcontact.halfspace.sums.methods import Sum, Summed, summed
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["LineOperator", "line"]
 

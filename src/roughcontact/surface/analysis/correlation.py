@@ -148,15 +148,15 @@ def structure_function(surface: Surface) -> LagMap:
 
 
 def structure_profile(
-    surface: Surface, axis: Literal["x", "y"] = "x", lags: npt.ArrayLike | None = None
+    surface: Surface, direction: Literal["x", "y"] = "x", *, lags: npt.ArrayLike | None = None
 ) -> LagCurve:
-    """Return the structure function along one axis, from differences of heights.
+    """Return the structure function along x or y, from differences of heights.
 
     Parameters
     ----------
     surface : Surface
         May have missing points: pairs with one are left out.
-    axis : {"x", "y"}
+    direction : {"x", "y"}
     lags : array of int, optional
         Lags in whole cells; by default all from 1 to a quarter of the length, about 20 to a factor of ten.
 
@@ -177,9 +177,9 @@ def structure_profile(
     >>> f"{rc.structure_profile(wave, lags=[16]).value[0]:.3g} m^2"  # half a wave: (2 amplitudes)^2 / 2
     '2e-12 m^2'
     """
-    along = surface.grid.ndim - 1 if axis == "x" else 0
-    if axis not in ("x", "y") or (axis == "y" and surface.grid.ndim == 1):
-        raise ValueError(f"axis must be 'x', or 'y' on a surface, not {axis!r}")
+    along = surface.grid.ndim - 1 if direction == "x" else 0
+    if direction not in ("x", "y") or (direction == "y" and surface.grid.ndim == 1):
+        raise ValueError(f"direction must be 'x', or 'y' on a surface, not {direction!r}")
     size = surface.grid.shape[along]
     steps = default_lags(size) if lags is None else np.asarray(lags)
     if steps.ndim != 1 or steps.dtype.kind not in "iu" or (steps < 1).any() or (steps >= size).any():

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["HeightHistogram", "height_histogram"]
 
@@ -68,7 +68,7 @@ class HeightHistogram:
 
 
 @numeric
-def height_histogram(surface: Surface, bins: int = 100) -> HeightHistogram:
+def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     """Return the histogram of the heights above their mean.
 
     Parameters

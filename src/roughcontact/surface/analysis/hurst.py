@@ -15,7 +15,7 @@ from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
@@ -110,7 +110,7 @@ def hurst_exponent(
     ----------
     surface : Surface
         Without missing points. On a grid of two axes the surface counts as isotropic.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law may end, see `fit_spectrum`.
     q_min, q_max : float, optional
         The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
@@ -161,7 +161,7 @@ def fit_spectrum(
     spectrum : PowerSpectrum
         In bins narrow against the law: ``power_spectrum(..., per_decade=200)``. In rings one wave wide the
         first few are not.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level;
         and, but for "none", whether it ends in another level toward short waves. With "auto" each end
         is there only if the likelihood gains more by it than by chance.
@@ -188,8 +188,8 @@ def fit_spectrum(
     >>> f"H = {rc.fit_spectrum(spectrum, limit='none').hurst:.1f}"
     'H = 0.8'
     """
-    if limit not in ("auto", "none", "rolloff", "cutoff"):
-        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'cutoff', not {limit!r}")
+    if limit not in ("auto", "none", "rolloff", "long_cutoff"):
+        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
         raise ValueError(

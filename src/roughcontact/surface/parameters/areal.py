@@ -12,7 +12,7 @@ from scipy.ndimage import map_coordinates, spline_filter
 from roughcontact.surface.analysis.correlation import autocorrelation
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["ArealParameters", "areal_parameters", "gradient_and_area"]
 
