@@ -7,17 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.solution import Solution
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Solid, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.validation import number
+from roughcontact.validation import Array, number, positive_scalar
 
 __all__ = [
     "Bodies",
@@ -30,8 +29,6 @@ __all__ = [
     "make_problem",
     "shear_body",
 ]
-
-Array = npt.NDArray[np.float64]
 
 Bodies = Solid | tuple[Solid, Solid]
 """Two solids; one has a rigid partner."""
@@ -75,7 +72,7 @@ class SlipProblem:
         The one direction (x, y), a unit vector, in which traction may act; without one it may turn.
     operator : ShearOperator
         Displacement [m] from traction [Pa] on the whole grid.
-    interface : Interface
+    interface : ContactCells
         The same on the cells in contact.
     tolerance : float
         Largest residual of a solution.
@@ -86,12 +83,11 @@ class SlipProblem:
     friction: float
     along: tuple[float, float] | None
     operator: ShearOperator
-    interface: Interface
+    interface: ContactCells
     tolerance: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.friction) and self.friction > 0):
-            raise ValueError(f"the friction coefficient must be positive and finite, not {self.friction}")
+        positive_scalar(self.friction, "the friction coefficient")
         checked_tolerance(self.tolerance)
 
     @property
@@ -156,7 +152,7 @@ def make_problem(
         )
     body = shear_body(pressed.problem.grid, bodies, operator)
     direction = None if along is None else _unit(along)
-    interface = Interface.of(body, pressed.contact, direction)
+    interface = ContactCells.of(body, pressed.contact, direction)
     return SlipProblem(pressed, bodies, float(friction), direction, body, interface, tolerance)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.slip_cg import Freedom, corrected
 from roughcontact.friction.slip_problem import Bodies, shear_body
 from roughcontact.grid import Grid
@@ -17,10 +17,10 @@ from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.region import checked_region
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
@@ -104,7 +104,7 @@ def frozen_shear(
     """Return what `tangential_stiffness` does, with whatever residual was reached."""
     if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
-    interface = Interface.of(operator, region)
+    interface = ContactCells.of(operator, region)
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
@@ -120,7 +120,7 @@ def frozen_shear(
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
     """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)

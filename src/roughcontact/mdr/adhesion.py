@@ -14,22 +14,20 @@ together before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import sample_radii
 from roughcontact.mdr.indentation import Indentation
 from roughcontact.mdr.recovery import spring_energy
-from roughcontact.mdr.roots import bisect
-from roughcontact.validation import numeric, scalar
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, numeric, scalar
 
 __all__ = ["Adhesion", "Control", "PullOff", "jkr"]
-
-Array = npt.NDArray[np.float64]
 
 SPAN = (1e-15, 1e6)  # contact radii of a body without end that are looked at [m]
 PER_DECADE = 200
@@ -158,19 +156,20 @@ class Control:
 
     def level(self, radius: float | Array) -> Array:
         """Return c of the equilibria at contact radii [m]."""
-        if self.machine_stiffness == 0:
-            return self.adhesion.force(radius)
-        if self.machine_stiffness == math.inf:
-            return self.adhesion.depth(radius)
-        return self.adhesion.depth(radius) + self.compliance * self.adhesion.force(radius)
+        return self._combined(self.adhesion.force, self.adhesion.depth, radius)
 
     def slope(self, radius: Array) -> Array:
         """Return dc/da; an equilibrium is stable where it is positive."""
+        return self._combined(self.adhesion.force_slope, self.adhesion.depth_slope, radius)
+
+    def _combined(
+        self, force: Callable[[Array], Array], depth: Callable[[Array], Array], radius: float | Array
+    ) -> Array:
+        """Return what the force and the depth at contact radii make of c."""
+        radius = np.asarray(radius, dtype=np.float64)
         if self.machine_stiffness == 0:
-            return self.adhesion.force_slope(radius)
-        if self.machine_stiffness == math.inf:
-            return self.adhesion.depth_slope(radius)
-        return self.adhesion.depth_slope(radius) + self.compliance * self.adhesion.force_slope(radius)
+            return force(radius)
+        return depth(radius) + (self.compliance * force(radius) if self.compliance else 0.0)
 
     def turns(self) -> tuple[Array, Array]:
         """Return the radii at which c turns [m], from 0 to the end of the body, and c there."""

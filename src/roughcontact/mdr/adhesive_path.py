@@ -11,11 +11,9 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
-from roughcontact.validation import number, numeric, shown
+from roughcontact.validation import Array, number, numeric, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.validation import moderate, scalar
+from roughcontact.validation import Array, moderate, positive_scalar, scalar
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
-Array = npt.NDArray[np.float64]
 ROUNDING = 1e-9  # a point on the edge of the window belongs to it, whatever its last digit
 
 
@@ -52,10 +50,7 @@ def calibrated_lambda(
             f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
-        scalar(value, name)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
-        moderate(value, name)
+        moderate(positive_scalar(value, name), name)
     steepness = 2 * min(hurst + 1, 3)
     return lambda_rms(hurst, modes) * math.pow(line_prefactor / surface_prefactor, steepness)
 

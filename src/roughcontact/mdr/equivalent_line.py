@@ -8,15 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.validation import scalar, shown
+from roughcontact.validation import Array, positive_scalar, shown
 
 __all__ = ["LineSpectrum", "TabulatedSpectrum", "line_spectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +49,7 @@ class LineSpectrum:
                 "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
                 "roughcontact.surface_spectrum"
             )
-        scalar(self.factor, "factor")
-        if not (math.isfinite(self.factor) and self.factor > 0):
-            raise ValueError(f"factor must be positive and finite, not {self.factor}")
+        positive_scalar(self.factor, "factor")
 
     @property
     def dimension(self) -> int:

@@ -10,10 +10,10 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.material import Solid, as_modulus
+from roughcontact.validation import Array
 
 __all__ = ["Foundation", "foundation"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 

@@ -8,18 +8,15 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
-from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
+from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile, checked_radii
 from roughcontact.mdr.disc import disc_radius
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
-from roughcontact.mdr.roots import last_below
-from roughcontact.validation import number
+from roughcontact.theory.tools.roots import last_below
+from roughcontact.validation import Array, number
 
 __all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve", "indented"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -64,15 +61,15 @@ class Indentation:
 
     def pressure(self, r: float | Array) -> Array:
         """Return the pressure [Pa] at the radii `r` [m]; infinite at a sharp tip and at a loaded edge."""
-        return pressure(self.profile, self.modulus, self.contact_radius, self.depth, _radii(r))
+        return pressure(self.profile, self.modulus, self.contact_radius, self.depth, checked_radii(r))
 
     def displacement(self, r: float | Array) -> Array:
         """Return the displacement of the half-space's surface [m], into the body, at the radii `r` [m]."""
-        return surface_displacement(self.profile, self.contact_radius, self.depth, _radii(r))
+        return surface_displacement(self.profile, self.contact_radius, self.depth, checked_radii(r))
 
     def gap(self, r: float | Array) -> Array:
         """Return the gap [m] at the radii `r` [m]: 0 in the contact, infinite beyond the body's edge."""
-        r = _radii(r)
+        r = checked_radii(r)
         outside = self.displacement(r) + self.profile.height(r) - self.depth
         return np.where(r <= self.contact_radius, 0.0, outside)
 
@@ -221,7 +218,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     if not (np.isfinite(loads).all() and (loads >= 0).all()):
         raise ValueError(f"loads must be finite and not negative; {name} is {loads}")
     if name == "contact_radius":
-        return _at_radii(profile, loads)
+        return _atchecked_radii(profile, loads)
     if name == "force":
         value, target = _reduced_force(profile), loads / (2 * modulus)
     else:
@@ -247,7 +244,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     return depth, radius
 
 
-def _at_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
+def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
     wrong = radii[(radii < profile.flat) | (radii > profile.radius)]
     if len(wrong):
         raise ValueError(
@@ -276,10 +273,3 @@ def _reduced_force(profile: Profile) -> Callable[[Array], Array]:
 
 def _force(profile: Profile, modulus: float, depth: float | Array, radius: float | Array) -> Array:
     return np.asarray(2 * modulus * (depth * np.asarray(radius) - profile.transform_integral(radius)))
-
-
-def _radii(r: float | Array) -> Array:
-    radii = np.asarray(number(r, "radii [m]"))
-    if not (radii >= 0).all():
-        raise ValueError(f"radii must not be negative [m], but one is {radii[~(radii >= 0)].flat[0]:g}")
-    return radii

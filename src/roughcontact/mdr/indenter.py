@@ -11,13 +11,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.mdr.transform_tables import from_function, from_samples, from_two_functions
 from roughcontact.theory import rough_sphere
-from roughcontact.validation import numeric, scalar
+from roughcontact.validation import Array, numeric, positive_scalar, scalar
 
 __all__ = [
     "cone",
@@ -33,8 +32,6 @@ __all__ = [
     "sampled_transform",
     "sphere",
 ]
-
-Array = npt.NDArray[np.float64]
 
 MOST_WAVES = 2000  # of ripples: each takes two panels of a table or fewer
 
@@ -221,6 +218,4 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
-        scalar(value, name)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
+        positive_scalar(value, name)

@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import hyp2f1, zeta
 
-from roughcontact.validation import numeric, scalar, whole
+from roughcontact.validation import Array, numeric, scalar, whole
 
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
-
-Array = npt.NDArray[np.float64]
 
 # B_2j / 2j, the coefficients of Euler and Maclaurin's correction in terms of Taylor coefficients.
 _BERNOULLI = (1 / 12, -1 / 120, 1 / 252, -1 / 240, 1 / 132)

@@ -15,15 +15,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.validation import number, shown
+from roughcontact.validation import Array, number, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
-
-Array = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12  # of the largest value: what a fall must exceed to count
 

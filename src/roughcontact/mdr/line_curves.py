@@ -12,11 +12,10 @@ import numpy.typing as npt
 from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
 from roughcontact.contact.stiffness import CELLS, SATURATED
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
-from roughcontact.validation import pair
+from roughcontact.validation import Array, pair
 
 __all__ = ["LineCurves", "Mean"]
 
-Array = npt.NDArray[np.float64]
 Mean: TypeAlias = Literal["arithmetic", "geometric"]
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.material import Solid
@@ -19,11 +18,9 @@ from roughcontact.surface.analysis.cut import surface_spectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric, shown
+from roughcontact.validation import Array, numeric, shown
 
 __all__ = ["scan_curves", "scan_spectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @numeric

@@ -12,11 +12,10 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.wave_grid import Spectrum, multiplicity, wave_powers
-from roughcontact.validation import numeric, shown, whole
+from roughcontact.validation import Array, numeric, positive_scalar, shown, whole
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
-Array = npt.NDArray[np.float64]
 Waves = npt.NDArray[np.complex128]
 
 # Heights of a batch: 8 MB, enough that NumPy asks for large pages.
@@ -105,8 +104,8 @@ def _amplitude(grid: Grid, spectrum: Spectrum, rms: float | None) -> Array:
     """Return B [m] at every wavenumber (thesis, eq. 2.11)."""
     if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a line has a grid of one axis: Grid(n, spacing)")
-    if rms is not None and not (math.isfinite(rms) and rms > 0):
-        raise ValueError(f"rms must be positive and finite [m], not {rms}")
+    if rms is not None:
+        positive_scalar(rms, "rms")
     if not callable(spectrum):
         raise ValueError(f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}")
     powers = wave_powers(spectrum, grid.shape, grid.spacing)

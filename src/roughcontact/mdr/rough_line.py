@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,11 +10,10 @@ import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.validation import number, numeric, scalar
+from roughcontact.validation import Array, number, numeric, positive_scalar
 
 __all__ = ["checked_lines", "loading_curves"]
 
-Array = npt.NDArray[np.float64]
 Counts = npt.NDArray[np.int32]
 
 # Heights that are worked on in one go: few enough to stay in a core's cache with all that comes of them.
@@ -64,9 +62,7 @@ def loading_curves(
     cancels, and forces stay in order where heights are equal. A spring counts as in contact if it carries load.
     """
     lines = checked_lines(heights)
-    scalar(spacing, "spacing")
-    if not (math.isfinite(spacing) and spacing > 0):
-        raise ValueError(f"spacing must be positive and finite [m], not {spacing}")
+    positive_scalar(spacing, "spacing")
     loads, by_force = _loads(forces, depths)
     reduced = as_modulus(modulus)
     spring = reduced * spacing

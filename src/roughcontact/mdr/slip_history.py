@@ -17,12 +17,11 @@ import numpy.typing as npt
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
-from roughcontact.mdr.roots import bisect
-from roughcontact.validation import number, numeric, scalar, whole
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, number, numeric, positive_scalar, whole
 
 __all__ = ["SlipHistory", "slip_history"]
 
-Array = npt.NDArray[np.float64]
 History = float | Sequence[float] | Array
 
 
@@ -96,9 +95,8 @@ def slip_history(
     Between two states all loads change in proportion, and each step is exact for each spring.
     """
     normal, tangential, loads = _histories(normal_force, depth, force, displacement)
-    E, G, mu = as_modulus(modulus), scalar(shear_modulus, "shear_modulus"), scalar(friction, "friction")
-    if not (G > 0 and mu > 0):
-        raise ValueError(f"shear_modulus and friction must be positive, not {G} and {mu}")
+    E = as_modulus(modulus)
+    G, mu = positive_scalar(shear_modulus, "shear_modulus"), positive_scalar(friction, "friction")
     whole(springs, "springs")
     curve = indented(profile, E, normal, loads[0] if normal == "force" else np.maximum(loads[0], 0))
     depths = curve.depth if normal == "force" else loads[0]

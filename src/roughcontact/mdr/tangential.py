@@ -11,15 +11,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.mdr.indentation import Indentation, indent
-from roughcontact.validation import scalar, shown
+from roughcontact.validation import Array, positive_scalar, scalar, shown
 
 __all__ = ["PartialSlip", "partial_slip"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -131,9 +126,7 @@ def partial_slip(
             f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}"
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
-        value = scalar(value, name)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
+        positive_scalar(value, name)
     if (force is None) == (displacement is None):
         raise ValueError("give exactly one of force and displacement")
     given = scalar(force if displacement is None else displacement, "tangential load")

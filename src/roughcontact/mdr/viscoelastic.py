@@ -16,10 +16,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
-from roughcontact.validation import number, scalar, shown
+from roughcontact.validation import Array, number, scalar, shown
 
 __all__ = [
     "Creep",
@@ -32,8 +31,6 @@ __all__ = [
     "standard_solid",
     "viscous",
 ]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,19 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
-from roughcontact.validation import number, numeric, whole
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, number, numeric, whole
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
