@@ -101,6 +101,18 @@ def sliding_friction(
 
     No time is stepped: see `sliding_state`. The depth that belongs to the force is found by Newton's method, which
     converges from one side, since the force is convex in the depth.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import sliding_friction
+    >>> wave = 1e-6 * np.cos(np.linspace(0, 2 * np.pi, 256, endpoint=False))
+    >>> curves = sliding_friction.sliding_friction(
+    ...     wave, 1e-6, 1e7, relaxation_time=1e-3, force=1e-3, speeds=[1e-6, 2e-6]
+    ... )
+    >>> first, second = curves.friction_coefficient[0]
+    >>> round(float(second / first), 3)  # at low speed the dampers' force grows with it
+    2.0
     """
     lines = checked_lines(heights)
     stiffness = as_modulus(modulus)

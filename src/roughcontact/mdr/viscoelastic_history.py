@@ -79,6 +79,16 @@ def depth_history(
     ------
     ValueError
         If the history makes no sense, or jumps into a dashpot.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = viscoelastic_history.depth_history(
+    ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
+    ... )
+    >>> round(float(held.force[1] / held.force[2]), 4)  # the force relaxes by E_0/E_inf
+    10.0
     """
     checked_material(material)
     t, d = _history(times, depths)
@@ -132,6 +142,18 @@ def force_history(
     ------
     ValueError
         If the history makes no sense.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft, t = viscoelastic.standard_solid(1e8, 1e9, 1.0), np.linspace(0, 20, 41)
+    >>> held = viscoelastic_history.force_history(
+    ...     indenter.paraboloid(1e-2), soft, t, np.ones(41), springs=100
+    ... )
+    >>> creep = soft.creep()
+    >>> round(float((held.depth[-1] / held.depth[0]) ** 1.5), 1), round(float(creep(20.0) / creep(0.0)), 1)
+    (8.8, 8.8)
     """
     checked_material(material)
     t, F = _history(times, forces)

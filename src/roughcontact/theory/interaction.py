@@ -121,7 +121,7 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.theory import interaction, persson
-    >>> waves = rc.SelfAffineSpectrum(0.8, 1e-5, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> waves = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> law = interaction.finite_body(persson.law(waves, 1e11, 1e-6), 1e11, 1e-6)
     >>> bool(law.predict("stiffness", 1.0) < law.predict("interfacial_stiffness", 1.0))  # springs in series
     True

@@ -98,7 +98,7 @@ def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> t
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.theory import persson
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, 1e-6, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> q, fraction = persson.magnified_fraction(1e6, 1e11, spectrum)
     >>> bool(fraction[0] > fraction[-1])  # less of it the closer one looks
     True
@@ -277,7 +277,7 @@ def law(spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separ
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.theory import persson
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, 1e-6, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> area = persson.law(spectrum, 1e11, 1e-6).predict("contact_area", [1.0, 2.0])
     >>> round(float(area[1] / area[0]), 2)  # in proportion to the force while it is small
     2.0

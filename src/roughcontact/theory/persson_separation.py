@@ -158,7 +158,7 @@ def decay_length(spectrum: Spectrum, *, gamma: float = GAMMA) -> float:
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.theory import persson_separation as separation
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, 1e-6, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> u0 = separation.decay_length(spectrum)
     >>> stiffness = separation.stiffness(1.0, 1e11, spectrum)
     >>> round(float(stiffness) * u0, 4)  # K = A0 p/u0 at low load
@@ -193,7 +193,7 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
     >>> import math
     >>> import roughcontact as rc
     >>> from roughcontact.theory import persson_separation as separation
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, 1e-6, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> scale, u0 = separation.reference_pressure(1e11, spectrum), separation.decay_length(spectrum)
     >>> gap = float(separation.mean_gap(1.0, 1e11, spectrum))
     >>> round(scale * math.exp(-gap / u0), 3)  # the pressure of 1 Pa

@@ -100,7 +100,7 @@ class Waves:
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.theory.waves import Waves
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, 1e-6, long_cutoff=1e-3, short_cutoff=1e-5)
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
     >>> round(Waves.of_spectrum(spectrum).m0 / spectrum.moments().m0, 6)
     1.0
     """
