@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from roughcontact.validation import moderate, require_numbers, scalar
 
-__all__ = ["Solid", "as_modulus", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,9 @@ class Solid:
     def shear_modulus(self) -> float:
         """Shear modulus, E / 2(1 + nu) [Pa]."""
         return self.young_modulus / (2 * (1 + self.poisson_ratio))
+
+
+Bodies = Solid | tuple[Solid, Solid]
 
 
 def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
@@ -77,6 +80,23 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
+
+
+def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
+    """Return the two bodies of a contact; None for a rigid one.
+
+    Raises
+    ------
+    ValueError
+        If what is given is neither a Solid nor two of them.
+    """
+    if isinstance(bodies, Solid):
+        return bodies, None
+    if isinstance(bodies, tuple) and len(bodies) == 2:
+        return bodies
+    raise ValueError(
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
+    )
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

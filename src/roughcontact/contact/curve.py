@@ -14,7 +14,7 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law, compared
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness, is_resolved
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.status import Status
@@ -56,7 +56,7 @@ class Curve:
     rms : float
         Root mean square height of the surface [m].
     periodic : tuple of bool
-    cell_stiffness, saturation : float
+    cell_stiffness, full_contact_stiffness : float
         Stiffness of one cell, and of all measured cells in contact [N/m].
     nominal_area : float
         Area of all cells [m^2], of rings about a hole without it; length of a line [m].
@@ -83,7 +83,7 @@ class Curve:
     rms: float
     periodic: tuple[bool, ...]
     cell_stiffness: float
-    saturation: float
+    full_contact_stiffness: float
     nominal_area: float
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
@@ -93,11 +93,11 @@ class Curve:
 
     @property
     def resolved(self) -> npt.NDArray[np.bool_]:
-        """Mask of points above the one-cell artefact, below saturation, and solved to their tolerance."""
+        """Mask of points between the one-cell artefact and full contact, solved to their tolerance."""
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
         if self.geometry is Geometry.LINE:
             return solved & is_resolved(self.contact_area, self.spacing[0], self.lengths[0])
-        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.saturation)
+        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.full_contact_stiffness)
 
     @property
     def length(self) -> float:
@@ -251,7 +251,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
-        saturation=saturation(problem),
+        full_contact_stiffness=full_contact_stiffness(problem),
         nominal_area=problem.grid.area,
         geometry=problem.geometry,
         hardness=problem.hardness,

@@ -24,7 +24,7 @@ _POINTS = (
     *("force", "depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy"),
     *("residual", "stiffness_residual"),
 )
-_SCALES = ("modulus", "rms", "cell_stiffness", "saturation", "nominal_area")
+_SCALES = ("modulus", "rms", "cell_stiffness", "full_contact_stiffness", "nominal_area")
 _SIZES = ("lengths", "spacing", "periodic")
 _REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
 

@@ -13,7 +13,6 @@ from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_problem import (
-    Bodies,
     Load,
     Pull,
     Shift,
@@ -25,6 +24,7 @@ from roughcontact.friction.slip_problem import (
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, number, numeric

@@ -10,9 +10,9 @@ import numpy as np
 
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide import Loads, slide_path
-from roughcontact.friction.slip_problem import Bodies
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
 from roughcontact.validation import Array, numeric
 

@@ -64,7 +64,7 @@ def combined(
     target = grid
     if target is None:
         target = upper.grid if upper.grid.cell_area < lower.grid.cell_area * (1 - _SAME) else lower.grid
-    below, above = (resampled(body, target, interpolation) for body in (lower, turned))
+    below, above = (resampled(body, target, interpolation=interpolation) for body in (lower, turned))
     heights = below.heights + above.heights
     if np.isnan(heights).all():
         raise ValueError("the two surfaces have no measured point in common: nothing can touch")
@@ -72,7 +72,7 @@ def combined(
     return Surface(heights, target, (*below.provenance, line))
 
 
-def resampled(surface: Surface, grid: Grid, interpolation: Interpolation = "cubic") -> Surface:
+def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
     """Return the heights interpolated at the cell centres of another grid with the same middle.
 
     Parameters

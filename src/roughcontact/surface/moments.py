@@ -93,7 +93,7 @@ class Moments:
         return replace(self, dimension=1)
 
 
-def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") -> Moments:
+def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square") -> Moments:
     """Return the moments of `spectrum` as sums over the waves of `grid`.
 
     They are those of every surface with exact amplitudes that is synthesised on the grid with that spectrum,
@@ -101,10 +101,10 @@ def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") ->
 
     Parameters
     ----------
-    spectrum : callable or PlanarSpectrum
-        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     grid : Grid
         One period; of a nodal grid without its last row and column.
+    spectrum : callable or PlanarSpectrum
+        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     support : {"square", "disc"}
         See `self_affine`.
     """
@@ -112,7 +112,9 @@ def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") ->
     return _summed(powers, grid)
 
 
-def surface_moments(surface: Surface, derivative: Literal["spectral", "difference"] | None = None) -> Moments:
+def surface_moments(
+    surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
+) -> Moments:
     """Return the moments of the heights of a surface or a line.
 
     Parameters

@@ -149,7 +149,7 @@ class SelfAffineSpectrum:
         if not (math.isfinite(rms) and rms > 0):
             raise ValueError(f"rms must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
-        m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
+        m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
             raise ValueError(
                 f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "

@@ -74,7 +74,7 @@ def test_profiles_are_rows_of_the_map(periodic, axis):
     surface = noise((12, 11), periodic, holes=5)
     jumps = structure_function(surface)
     lags = np.array([1, 2, 5])
-    profile = structure_profile(surface, axis, lags)
+    profile = structure_profile(surface, axis, lags=lags)
     row = jumps.value[6, 5 + lags] if axis == "x" else jumps.value[6 + lags, 5]
     np.testing.assert_allclose(profile.value, row, rtol=1e-12)
     np.testing.assert_allclose(profile.lag, lags * (0.25 if axis == "x" else 0.5))
@@ -105,10 +105,10 @@ def test_lags_that_do_not_fit_are_refused():
     surface = noise((6, 7), False)
     for bad in ([0], [7], [1.5]):
         with pytest.raises(ValueError, match="lags must be"):
-            structure_profile(surface, "x", np.array(bad))
-    with pytest.raises(ValueError, match="axis must be"):
+            structure_profile(surface, "x", lags=np.array(bad))
+    with pytest.raises(ValueError, match="direction must be"):
         structure_profile(noise((9,), False), "y")
     lonely = np.full((1, 9), np.nan)
     lonely[0, 0] = lonely[0, 8] = 1.0
     with pytest.raises(ValueError, match="no two measured"):
-        structure_profile(rc.Surface(lonely, rc.Grid((1, 9), 1.0)), "x", [2])
+        structure_profile(rc.Surface(lonely, rc.Grid((1, 9), 1.0)), "x", lags=[2])

@@ -17,7 +17,7 @@ def noise(shape=(40, 96), periodic=False):
 def test_along_a_periodic_axis_all_pairs_count_alike(axis):
     surface = noise(periodic=True)
     values, share = tapered_structure(surface, axis, STEPS)
-    np.testing.assert_allclose(values, structure_profile(surface, axis, STEPS).value, rtol=1e-13)
+    np.testing.assert_allclose(values, structure_profile(surface, axis, lags=STEPS).value, rtol=1e-13)
     assert share == 1
 
 
@@ -33,7 +33,7 @@ def test_every_lag_sees_the_same_part_of_a_free_axis():
     # A sum is its integral but for 1/720 of the jumps of the third derivative (Euler-Maclaurin, at the middles of
     # cells 7/8 of that): at the ends of a ramp 3 w'' (x^6)' = 3 (pi^2/72)(6/x) x^6, some 0.03 of 80 cells' mean x^6.
     np.testing.assert_allclose(values, exact, rtol=1e-5)
-    plain = structure_profile(surface, "x", STEPS).value
+    plain = structure_profile(surface, "x", lags=STEPS).value
     assert np.abs(plain / exact - 1).min() > 0.03
 
 

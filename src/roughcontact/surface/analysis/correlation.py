@@ -95,15 +95,15 @@ def structure_function(surface: Surface) -> LagMap:
 
 
 def structure_profile(
-    surface: Surface, axis: Literal["x", "y"] = "x", lags: npt.ArrayLike | None = None
+    surface: Surface, direction: Literal["x", "y"] = "x", *, lags: npt.ArrayLike | None = None
 ) -> LagCurve:
-    """Return the structure function along one axis, from differences of heights.
+    """Return the structure function along x or y, from differences of heights.
 
     Parameters
     ----------
     surface : Surface
         May have missing points: pairs with one are left out.
-    axis : {"x", "y"}
+    direction : {"x", "y"}
     lags : array of int, optional
         Lags in whole cells; by default all from 1 to a quarter of the length, about 20 to a factor of ten.
 
@@ -112,9 +112,9 @@ def structure_profile(
     ValueError
         If a lag does not fit the surface, or has no pair of measured points.
     """
-    along = surface.grid.ndim - 1 if axis == "x" else 0
-    if axis not in ("x", "y") or (axis == "y" and surface.grid.ndim == 1):
-        raise ValueError(f"axis must be 'x', or 'y' on a surface, not {axis!r}")
+    along = surface.grid.ndim - 1 if direction == "x" else 0
+    if direction not in ("x", "y") or (direction == "y" and surface.grid.ndim == 1):
+        raise ValueError(f"direction must be 'x', or 'y' on a surface, not {direction!r}")
     size, periodic = surface.grid.shape[along], surface.grid.periodic[along]
     steps = default_lags(size) if lags is None else np.asarray(lags)
     if steps.ndim != 1 or steps.dtype.kind not in "iu" or (steps < 1).any() or (steps >= size).any():
@@ -127,7 +127,7 @@ def structure_profile(
         )
         jumps = jumps[~np.isnan(jumps)]
         if jumps.size == 0:
-            raise ValueError(f"no two measured points lie {step} cells apart along {axis}")
+            raise ValueError(f"no two measured points lie {step} cells apart along {direction}")
         values[i], pairs[i] = np.mean(jumps**2), 2 * jumps.size
     return LagCurve(steps.astype(np.float64) * surface.grid.spacing[along], values, pairs)
 

@@ -52,7 +52,7 @@ class HeightHistogram:
 
 
 @numeric
-def height_histogram(surface: Surface, bins: int = 100) -> HeightHistogram:
+def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     """Return the histogram of the heights above their mean, missing points ignored.
 
     Raises

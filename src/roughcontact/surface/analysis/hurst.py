@@ -99,7 +99,7 @@ def hurst_exponent(
     ----------
     surface : Surface
         Without missing points. On a grid of two axes the surface counts as isotropic.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law may end, see `fit_spectrum`.
     q_min, q_max : float, optional
         The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
@@ -139,7 +139,7 @@ def fit_spectrum(
     spectrum : PowerSpectrum
         In bins narrow against the law: ``power_spectrum(..., per_decade=200)``. In rings one wave wide the
         first few are not.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level;
         and, but for "none", whether it ends in another level toward short waves. With "auto" each end
         is there only if the likelihood gains more by it than by chance.
@@ -155,8 +155,8 @@ def fit_spectrum(
     ValueError
         If the band holds fewer than four bins, or no power.
     """
-    if limit not in ("auto", "none", "rolloff", "cutoff"):
-        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'cutoff', not {limit!r}")
+    if limit not in ("auto", "none", "rolloff", "long_cutoff"):
+        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
         raise ValueError(

@@ -15,7 +15,7 @@ __all__ = ["spectrum_moments"]
 
 @numeric
 def spectrum_moments(
-    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
+    spectrum: PowerSpectrum, *, q_min: float | None = None, q_max: float | None = None
 ) -> Moments:
     """Return the profile moments m0, m2 and m4 that the waves between `q_min` and `q_max` contribute.
 
