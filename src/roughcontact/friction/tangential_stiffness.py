@@ -80,6 +80,10 @@ def tangential_stiffness(
     tolerance : float
         Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
+    Returns
+    -------
+    TangentialStiffness
+
     Raises
     ------
     ValueError
@@ -87,6 +91,16 @@ def tangential_stiffness(
         axes, or if the tolerance is none.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> strip = np.zeros((16, 16), bool)
+    >>> strip[6:10, 2:14] = True  # four by twelve cells, the longer side along x
+    >>> along, across = np.diag(rc.tangential_stiffness(strip, rc.Grid((16, 16), 1e-6), rc.Solid(1e9, 0.3)).matrix)
+    >>> bool(along < across)
+    True
     """
     body = shear_body(grid, bodies, operator)
     cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
