@@ -14,7 +14,7 @@ from roughcontact.friction.slide_path import Loads, slide_path
 from roughcontact.friction.slip_problem import Bodies
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.validation import numeric
 
 if TYPE_CHECKING:

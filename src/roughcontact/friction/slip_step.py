@@ -19,8 +19,8 @@ from roughcontact.friction.coulomb import (
     within,
 )
 from roughcontact.friction.multiplier import common_displacement
+from roughcontact.solver.control import Status
 from roughcontact.solver.optimality import UNITS
-from roughcontact.solver.status import Status
 
 __all__ = ["Slipped", "State", "Step"]
 
