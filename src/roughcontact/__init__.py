@@ -85,7 +85,7 @@ _ROOMS = {
     "Depth": "solver.control",
     "ContactProblem": "contact.problem",
     "Solution": "contact.solution",
-    "Status": "solver.status",
+    "Status": "solver.control",
     "ConvergenceError": "contact.convergence",
     "ActiveSet": "solver.active_set",
     "PolonskyKeer": "solver.polonsky_keer",
@@ -171,9 +171,9 @@ if TYPE_CHECKING:
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
     from roughcontact.solver.control import Depth as Depth
     from roughcontact.solver.control import Force as Force
+    from roughcontact.solver.control import Status as Status
     from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
-    from roughcontact.solver.status import Status as Status
     from roughcontact.surface import shapes as shapes
     from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
     from roughcontact.surface.analysis.correlation import structure_function as structure_function

@@ -17,7 +17,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness, is_resolved
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.statistics.power_law import PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import number

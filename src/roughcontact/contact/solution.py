@@ -27,9 +27,9 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
+from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS
-from roughcontact.solver.status import Status
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import numeric

@@ -14,10 +14,9 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
-from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
-from roughcontact.solver.state import Tangent
 from roughcontact.validation import numeric
 
 __all__ = [

@@ -16,7 +16,7 @@ from roughcontact.files.content import content
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.netcdf import Variable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 
 __all__ = ["read_curve"]
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import ROUNDING
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.statistics.ensemble_fit import fit_ensemble, law_error
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.study.bootstrap import counts_of, interval, resampled_laws

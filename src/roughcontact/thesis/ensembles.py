@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.study.common import on_common
 from roughcontact.study.fit import fit_power_laws
 from roughcontact.study.fit_window import Window, window_of

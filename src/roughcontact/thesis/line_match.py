@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.mdr.calibration import force_ratio
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.study.bootstrap import counts_of
 

@@ -14,7 +14,7 @@ from roughcontact.friction.slip_curve import SlipCurve, slide_curve
 from roughcontact.friction.tangential_stiffness import tangential_stiffness
 from roughcontact.labels.labelled import variable, words
 from roughcontact.material import Solid
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.study.case import Case
 from roughcontact.study.cases.force_range import ForceRange
 from roughcontact.study.cases.surfaces import RoughSquare
