@@ -5,8 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_either, read_line
+from roughcontact.files.read import channels, read_either, read_line
 
 HEIGHTS = np.random.default_rng(3).standard_normal(40).cumsum()
 

@@ -9,8 +9,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 OWN = {
     "ISO5436-sample1.x3p": {},

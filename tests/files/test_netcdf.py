@@ -9,8 +9,7 @@ import xarray
 from scipy.io import netcdf_file
 
 import roughcontact as rc
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 HEIGHTS = np.arange(12.0).reshape(3, 4)
 

@@ -10,8 +10,7 @@ import psutil
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 COUNTS = np.array([[5, -7, 100, 3], [8, 0, 2, -40], [1, 2, 3, 4]])
 STEP = 0.25  # exact in single precision

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_of, variable, word, words
+from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 
 if TYPE_CHECKING:
     import xarray
@@ -72,12 +72,12 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     """
     kind = curve.geometry
     data = {name: variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_POINTS}
-    data["status"] = variable("status", ("load",), words(curve.status))
+    data["status"] = variable("status", ("load",), [each.value for each in curve.status])
     data["secant_stiffness"] = variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
     data |= {name: variable(name, (), getattr(curve, name), kind) for name in _CURVE_SCALES}
     if math.isfinite(curve.hardness):
         data["hardness"] = variable("hardness", (), curve.hardness, kind)
-    data |= sizes(curve.lengths, curve.spacing, curve.periodic)
+    data |= sizes(curve)
     return dataset_of(data, {}, "normal contact stiffness of a rough surface against load", kind)
 
 
@@ -99,13 +99,11 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     data["spot_load"] = variable("spot_load", ("spot",), spots.loads, kind)
     data |= {name: variable(name, (), getattr(solution, name), kind) for name in _SOLUTION_SCALARS}
     data["spots"] = variable("spots", (), spots.count)
-    data["status"] = variable("status", (), word(solution.status))
+    data["status"] = variable("status", (), solution.status.value)
     data |= {name: variable(name, (), value, kind) for name, value in _scales(solution).items()}
-    data |= sizes(grid.lengths, grid.spacing, grid.periodic)
-    coordinates = {
-        axis: variable(axis, (axis,), values) for axis, values in zip(axes, grid.coordinates, strict=True)
-    }
-    coordinates["spot"] = (("spot",), np.arange(1, spots.count + 1), {"long_name": "number of the spot"})
+    data |= sizes(grid)
+    spot = (("spot",), np.arange(1, spots.count + 1), {"long_name": "number of the spot"})
+    coordinates = centres(grid, kind) | {"spot": spot}
     dataset = dataset_of(data, coordinates, "contact of a rough surface under load", kind)
     if solution.notes:
         dataset.attrs["notes"] = "\n".join(solution.notes)
@@ -119,7 +117,7 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     """
     names = (*_CURVE_POINTS, "secant_stiffness", *_CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(curve, name)) for name in names}
-    record["status"] = words(curve.status)
+    record["status"] = [each.value for each in curve.status]
     return record | {"geometry": curve.geometry.value, "units": units_of(record, curve.geometry)}
 
 
@@ -131,7 +129,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     grid, kind = solution.problem.grid, solution.problem.geometry
     record = {name: plain_values(getattr(solution, name)) for name in _SOLUTION_SCALARS}
     record["spots"] = int(solution.spots.count)
-    record["status"] = word(solution.status)
+    record["status"] = solution.status.value
     record["notes"] = list(solution.notes)
     record |= {name: plain_values(value) for name, value in _scales(solution).items()}
     record |= {

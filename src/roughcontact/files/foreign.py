@@ -15,13 +15,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from roughcontact.files.bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.file_memory import BYTES_PER_POINT, require_memory
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
-from roughcontact.files.limited_stream import BoundedStream
 
 __all__ = ["list_foreign", "read_foreign"]
 

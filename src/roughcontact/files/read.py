@@ -8,14 +8,15 @@ import warnings
 from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
+from roughcontact.files.channels import Channel
 from roughcontact.files.content import content
-from roughcontact.files.dispatch import either, height_map, line_scan
+from roughcontact.files.dispatch import channels_of, either, height_map, line_scan
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import length_factor
 from roughcontact.surface.surface import Surface
 
-__all__ = ["read", "read_either", "read_line"]
+__all__ = ["channels", "read", "read_either", "read_line"]
 
 
 def read(
@@ -124,6 +125,18 @@ def read_either(
     may be either, such as a text of two columns under a header of a map, counts as a map.
     """
     return _read(path, either, None, channel, unit, size, periodic)
+
+
+def channels(path: str | os.PathLike[str]) -> tuple[Channel, ...]:
+    """Return the channels of a file in its order: name, shape, unit, size [m], and whether they are heights.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    """
+    file, data = content(path)
+    return channels_of(data, file)
 
 
 def _read(

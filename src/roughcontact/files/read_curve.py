@@ -14,7 +14,7 @@ import numpy.typing as npt
 from roughcontact.contact.curve import Curve
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.netcdf import Variable, opened
+from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.status import Status
 
@@ -68,7 +68,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
 
 
 def _numbers(
-    variables: Mapping[str, Variable], name: str, shape: tuple[int, ...], file: str
+    variables: Mapping[str, StoredVariable], name: str, shape: tuple[int, ...], file: str
 ) -> npt.NDArray[np.float64]:
     variable = variables[name]
     if variable.shape != shape or variable.dtype.kind not in "biuf":
@@ -81,7 +81,7 @@ def _numbers(
     return np.asarray(variable.load(), dtype=np.float64)
 
 
-def _statuses(variable: Variable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
+def _statuses(variable: StoredVariable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
     words = [_word(value) for value in variable.load().reshape(-1).tolist()]
     known = {status.value: status for status in Status}
     unknown = [word for word in words if word not in known]

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from roughcontact import __version__
-from roughcontact.files.write import WriteError, write_netcdf
+from roughcontact.files.aside import WriteError
+from roughcontact.files.write import write_netcdf
 from roughcontact.study.gathering import Gathering
 from roughcontact.study.layout import layout_of
 from roughcontact.study.long_table import write_long_csv
