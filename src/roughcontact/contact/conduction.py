@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
-from roughcontact.contact.dataset import check_conducting
 from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import variable
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
 from roughcontact.theory.tools.domain import number
 
-__all__ = ["Conductors", "conductance"]
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Conductors", "conductance", "with_conductance"]
 
 Array = npt.NDArray[np.float64]
 
@@ -98,8 +102,7 @@ def conductance(
         reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
     """
     materials = Conductors(resistivities, conductivities)
-    if of not in ("stiffness", "interfacial_stiffness"):
-        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")
+    _require_side(of)
     if not isinstance(contact, Curve | Solution):
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
@@ -109,5 +112,57 @@ def conductance(
         elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
-    check_conducting(scales.geometry, scales.hardness < math.inf)
+    _require_conducting(scales.geometry, scales.hardness < math.inf)
     return materials.of(np.asarray(getattr(contact, of), dtype=np.float64), scales.modulus)
+
+
+def with_conductance(
+    dataset: xarray.Dataset, conductors: Conductors, of: str = "stiffness"
+) -> xarray.Dataset:
+    """Return the dataset of a curve with what it conducts as further columns along ``load``.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As `curve_dataset` makes it, or as it was read from a file.
+    conductors : Conductors
+        The two bodies.
+    of : {"stiffness", "interfacial_stiffness"}
+        See `roughcontact.conductance`.
+
+    Raises
+    ------
+    ValueError
+        If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
+    """
+    _require_side(of)
+    missing = [name for name in ("force", of, "modulus") if name not in dataset]
+    if missing or dataset[of].dims != ("load",):
+        raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
+    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
+    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
+    return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
+
+
+def _require_conducting(geometry: Geometry, yielding: bool) -> None:
+    """Refuse a curve whose stiffness does not tell what its contact conducts.
+
+    Raises
+    ------
+    ValueError
+        If it is that of a line, or of a body that gives way.
+    """
+    if geometry is Geometry.LINE:
+        raise ValueError(
+            "a line contact has no conductance of its own: it hangs on how far away the bodies end"
+        )
+    if yielding:
+        raise ValueError(
+            "under a hardness the cells that give way conduct, but the stiffness of a curve leaves them out: take "
+            "the conductance of each solution of loading_path"
+        )
+
+
+def _require_side(of: str) -> None:
+    if of not in ("stiffness", "interfacial_stiffness"):
+        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")

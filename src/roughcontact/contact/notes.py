@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughcontact.arrays import namespace
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
+from roughcontact.statistics.fit_window import CELLS
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution

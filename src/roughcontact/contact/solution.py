@@ -14,11 +14,9 @@ from roughcontact.contact.notes import notes_on
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.stiffness import (
-    CELLS,
     FrozenContact,
     cell_stiffness,
     frozen_contact,
-    is_resolved,
     saturation,
     yields_not,
 )
@@ -30,6 +28,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.solver.optimality import UNITS
 from roughcontact.solver.status import Status
+from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread

@@ -22,13 +22,10 @@ from roughcontact.solver.state import Tangent
 from roughcontact.theory.tools.numeric import numeric
 
 __all__ = [
-    "CELLS",
-    "SATURATED",
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
     "frozen_contact",
-    "is_resolved",
     "saturation",
     "yields_not",
 ]
@@ -36,8 +33,6 @@ __all__ = [
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -129,11 +124,6 @@ def contact_stiffness(
             f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
         )
     return frozen.stiffness
-
-
-def is_resolved(size: Array, cell: float, whole: float) -> Mask:
-    """Return whether stiffnesses (of a line contact: widths) stand above a few cells and below saturation."""
-    return np.asarray((size >= CELLS * cell) & (size < SATURATED * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughcontact.files.bounds import BYTES_TO_LOOK, require_memory
+from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length

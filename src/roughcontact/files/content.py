@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path
 from typing import IO, BinaryIO
 
-from roughcontact.files.bounds import BYTES_PER_POINT, require_memory
+from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.numpy_files import read_npy_header
 

@@ -15,8 +15,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from roughcontact.files.bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
+from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import Array, HeightMap, as_heights

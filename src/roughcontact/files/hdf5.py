@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.bounds import BYTES_PER_POINT, require_memory
+from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ReadError
 
 if TYPE_CHECKING:

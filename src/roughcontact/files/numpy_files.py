@@ -12,12 +12,13 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.bounds import unzip
 from roughcontact.files.channels import Channel, pick
+from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.surface.surface import Surface
 
-__all__ = ["list_npz", "read_npy", "read_npy_header", "read_npz"]
+__all__ = ["list_npz", "npy_bytes", "npz_bytes", "read_npy", "read_npy_header", "read_npz"]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
 _MEANINGS = ("spacing", "size", "unit", "periodic", "history")
@@ -214,3 +215,24 @@ def _spacing(
             counts = (shape[-1],) * len(shape) if value.size == 1 else shape
             return tuple(length / n for length, n in zip(given, counts, strict=True))
     return None
+
+
+def npy_bytes(surface: Surface) -> bytes:
+    """Return the heights of a surface as a ``.npy`` file."""
+    stream = BytesIO()
+    np.save(stream, surface.heights)
+    return stream.getvalue()
+
+
+def npz_bytes(surface: Surface) -> bytes:
+    """Return a surface with all that it knows as a ``.npz`` file."""
+    stream = BytesIO()
+    np.savez_compressed(
+        stream,
+        heights=surface.heights,
+        spacing=np.array(surface.grid.spacing),
+        unit=np.array("m"),
+        periodic=np.array(surface.grid.periodic),
+        history=np.array(surface.provenance, dtype=np.str_),
+    )
+    return stream.getvalue()

@@ -17,9 +17,10 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
+from roughcontact.files.numpy_files import npy_bytes, npz_bytes
 from roughcontact.files.provenance import provenance
-from roughcontact.files.text import text_of
-from roughcontact.files.write import write_csv, write_netcdf
+from roughcontact.files.text import text_bytes
+from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
@@ -63,20 +64,19 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     WriteError
         If the extension is none of these or not one for this value, or if the file cannot be written.
     """
-    if isinstance(what, Surface):
-        require_surface_file(path)
-        with written_aside(path) as aside:
-            _OF_A_SURFACE[_kind(path)](what, aside)
-    elif isinstance(what, Solution | TangentialSolution):
-        hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
-        _require_kind(path, type(what).__name__, _OF_A_SOLUTION, hint)
-        with written_aside(path) as aside:
-            _OF_A_SOLUTION[_kind(path)](what, aside)
-    elif isinstance(what, Curve | SlipCurve):
-        _require_kind(path, type(what).__name__, _OF_A_CURVE)
-        _OF_A_CURVE[_kind(path)](what.to_dataset(), path)
-    else:
+    if isinstance(what, Curve | SlipCurve):
+        kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
+        _OF_A_CURVE[kind](what.to_dataset(), path)
+        return
+    if not isinstance(what, Surface | Solution | TangentialSolution):
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
+    formats: Mapping[str, Callable[[Any], bytes]] = (
+        _OF_A_SURFACE if isinstance(what, Surface) else _OF_A_SOLUTION
+    )
+    hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
+    kind = _require_kind(path, type(what).__name__, formats, hint)
+    with written_aside(path) as aside:
+        aside.write_bytes(formats[kind](what))
 
 
 def require_surface_file(path: str | os.PathLike[str]) -> None:
@@ -91,63 +91,36 @@ def require_surface_file(path: str | os.PathLike[str]) -> None:
     require_target(path)
 
 
-def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> None:
-    if _kind(path) not in known:
+def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> str:
+    kind = Path(path).suffix.casefold()
+    if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
+    return kind
 
 
-def _kind(path: str | os.PathLike[str]) -> str:
-    return Path(path).suffix.casefold()
+def _vti(surface: Surface) -> bytes:
+    return _vti_bytes({"heights": surface.heights}, surface.grid)
 
 
-def _x3p(surface: Surface, aside: Path) -> None:
-    aside.write_bytes(x3p_bytes(surface))
-
-
-def _vti(surface: Surface, aside: Path) -> None:
-    aside.write_bytes(_vti_bytes({"heights": surface.heights}, surface.grid))
-
-
-def _text(surface: Surface, aside: Path) -> None:
-    aside.write_text(text_of(surface), encoding="utf-8", newline="\n")
-
-
-def _npy(surface: Surface, aside: Path) -> None:
-    with open(aside, "wb") as stream:  # a stream, since a path would be given an extension
-        np.save(stream, surface.heights)
-
-
-def _npz(surface: Surface, aside: Path) -> None:
-    grid = surface.grid
-    with open(aside, "wb") as stream:
-        np.savez_compressed(
-            stream,
-            heights=surface.heights,
-            spacing=np.array(grid.spacing),
-            unit=np.array("m"),
-            periodic=np.array(grid.periodic),
-            history=np.array(surface.provenance, dtype=np.str_),
-        )
-
-
-def _netcdf(surface: Surface, aside: Path) -> None:
+def _netcdf(surface: Surface) -> bytes:
     grid = surface.grid
     geometry = Geometry.of(grid)
     data = sizes(grid) | {"heights": variable("heights", geometry.axes, surface.heights)}
     dataset = dataset_of(data, centres(grid, geometry), "heights of a surface", geometry)
-    write_netcdf(dataset, aside, provenance(surface))
+    return netcdf_bytes(dataset.assign_attrs(provenance(surface)))
 
 
-def _solution(solution: Solution | TangentialSolution, aside: Path) -> None:
+def _solution(solution: Solution | TangentialSolution) -> bytes:
     problem = _pressed(solution).problem
-    write_netcdf(solution.to_dataset(), aside, provenance(problem.surface, modulus=problem.modulus))
+    lines = provenance(problem.surface, modulus=problem.modulus)
+    return netcdf_bytes(solution.to_dataset().assign_attrs(lines))
 
 
-def _solution_vti(solution: Solution | TangentialSolution, aside: Path) -> None:
+def _solution_vti(solution: Solution | TangentialSolution) -> bytes:
     fields = _fields(_pressed(solution))
     if isinstance(solution, TangentialSolution):
         fields |= _tangential_fields(solution)
-    aside.write_bytes(_vti_bytes(fields, _pressed(solution).problem.grid))
+    return _vti_bytes(fields, _pressed(solution).problem.grid)
 
 
 def _pressed(solution: Solution | TangentialSolution) -> Solution:
@@ -213,10 +186,17 @@ def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
     return b"".join([head.encode(), *blocks, b"\n</AppendedData>\n</VTKFile>\n"])
 
 
-_OF_A_SURFACE: Mapping[str, Callable[[Surface, Path], None]] = MappingProxyType(
-    {".npz": _npz, ".nc": _netcdf, ".x3p": _x3p, ".txt": _text, ".npy": _npy, ".vti": _vti}
+_OF_A_SURFACE: Mapping[str, Callable[[Surface], bytes]] = MappingProxyType(
+    {
+        ".npz": npz_bytes,
+        ".nc": _netcdf,
+        ".x3p": x3p_bytes,
+        ".txt": text_bytes,
+        ".npy": npy_bytes,
+        ".vti": _vti,
+    }
 )
-_OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution, Path], None]] = MappingProxyType(
+_OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.bounds import BYTES_PER_POINT, require_memory
+from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor

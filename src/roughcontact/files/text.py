@@ -12,7 +12,7 @@ from roughcontact.files.length_units import parse_length
 from roughcontact.files.numbers import last_digit, parse_table, stated_rows
 from roughcontact.surface.surface import Surface
 
-__all__ = ["read_text", "text_of"]
+__all__ = ["read_text", "text_bytes"]
 
 # The words of Gwyddion's header in the languages of its menus that Western files come in.
 _LABELS = {
@@ -102,7 +102,7 @@ def _rounding(text: str) -> float:
     return 0.5 * last_digit(number[0]) / float(number[0])
 
 
-def text_of(surface: Surface) -> str:
+def text_bytes(surface: Surface) -> bytes:
     """Return the heights [m] as rows separated by tabs, under the header that Gwyddion writes; NaN as ``nan``.
 
     A line scan becomes two columns, places of the cells' centres and heights. Every number has all its digits. The
@@ -125,4 +125,5 @@ def text_of(surface: Surface) -> str:
             f"# Rows: {surface.grid.shape[0]}",
             *history,
         ]
-    return "\n".join([*header, *("\t".join(map(repr, row)) for row in rows)]) + "\n"
+    lines = [*header, *("\t".join(map(repr, row)) for row in rows), ""]
+    return "\n".join(lines).encode()

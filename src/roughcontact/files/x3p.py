@@ -18,7 +18,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.bounds import unzip
+from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.surface.surface import Surface

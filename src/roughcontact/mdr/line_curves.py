@@ -9,9 +9,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
-from roughcontact.contact.stiffness import CELLS, SATURATED
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
+from roughcontact.statistics.fit_window import CELLS, SATURATED
+from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
 from roughcontact.theory.tools.domain import pair
 
 __all__ = ["LineCurves", "Mean"]

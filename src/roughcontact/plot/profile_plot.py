@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale
-from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,8 +52,4 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
     z = scale(float(np.nanmax(np.abs(surface.heights))), VARIABLES["heights"].unit)
     axes.plot(places * x.factor, heights * z.factor, color=_LINE, linewidth=1.0)
     axes.set_xlim(0.0, heights.size * step * x.factor)
-    axes.set_xlabel(f"x [{x.unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"{VARIABLES['heights'].label} [{z.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
-    axes.grid(True, color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
+    label_axes(axes, f"x [{x.unit}]", f"{VARIABLES['heights'].label} [{z.unit}]", grid=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,36 +19,13 @@ from roughcontact.study.long_table import write_long_csv
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.study.record import Row
     from roughcontact.study.store import Store
     from roughcontact.study.study import Study
 
-__all__ = ["CaseRow", "assemble", "export", "write_export"]
+__all__ = ["assemble", "export", "write_export"]
 
 _CONVENTIONS = {"Conventions": "CF-1.11"}
-
-
-class CaseRow(Protocol):
-    """What is known of one case, such as a row of a store."""
-
-    @property
-    def key(self) -> str:
-        """Its key."""
-
-    @property
-    def status(self) -> str:
-        """Either ``"done"`` or ``"failed"``."""
-
-    @property
-    def seconds(self) -> float:
-        """Wall time of the computation."""
-
-    @property
-    def version(self) -> str:
-        """The roughcontact that computed it."""
-
-    @property
-    def record(self) -> xarray.Dataset | None:
-        """What was computed; None of a failed case."""
 
 
 def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
@@ -64,7 +41,7 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     return assemble(store.study, store.rows(), seconds=seconds)
 
 
-def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) -> xarray.Dataset:
+def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xarray.Dataset:
     """Return the records of a study side by side.
 
     Dimensions are the names of the study's table in their order (``row`` first, where it has rows), ``sample``, and
@@ -81,7 +58,7 @@ def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) ->
     Parameters
     ----------
     study : Study
-    rows : iterable of CaseRow
+    rows : iterable of Row
         In any order; what does not belong to the study is left out.
     seconds : bool
         Whether to have the time that each case took. Without, exports of the same study are the same wherever and

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from roughcontact.study.parameters import Area, Energy, Force, Length, Pressure, Stiffness
+from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
 from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:

@@ -36,7 +36,8 @@ def test_the_curve_is_that_of_the_surface_and_tops_are_those_of_its_cells(limit,
     record = run(seed=5, **limit)
     plain = CURVE.run(CurveParameters(**(GIVEN | limit)), np.random.default_rng(5))
     assert record.drop_vars(["below", "peak"]).identical(plain)
-    lengths = {f"{name}_wavelength": part * 2e-3 for name, part in limit.items()}
+    called = {"cutoff": "long_cutoff", "rolloff": "rolloff"}
+    lengths = {called[name]: part * 2e-3 for name, part in limit.items()}
     grid = rc.Grid((32, 32), 2e-3 / 32)
     heights = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(5), **lengths).heights
     sides = list(pairwise(edges))

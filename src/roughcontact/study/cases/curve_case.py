@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from roughcontact.contact.curve import collect
+from roughcontact.contact.curve import POINTS, collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Positive, Pressure
 from roughcontact.study.cases.force_range import ForceRange
 from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
@@ -26,20 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["CASE", "CurveParameters", "run"]
 
-_POINTS = (
-    "force",
-    "depth",
-    "stiffness",
-    "interfacial_stiffness",
-    "contact_area",
-    "mean_gap",
-    "elastic_energy",
-    "spots",
-    "dimensionless_stiffness",
-    "residual",
-    "stiffness_residual",
-    "resolved",
-    "status",
+_ARRAYS = (
+    *(*POINTS, "spots", "dimensionless_stiffness"),
+    *("residual", "stiffness_residual", "resolved", "status"),
 )
 _SCALES = ("cell_stiffness", "saturation")
 _LIMIT = 1e-3  # of the displacement: enough for a saturation, of which nine tenths are a limit
@@ -105,7 +93,7 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
     )
     curve = collect(_saturated(path, parameters))
     whole = curve.to_dataset()
-    names = [*_POINTS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
+    names = [*_ARRAYS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
     record = whole[names].drop_vars("axis", errors="ignore")
     record["dimensionless_force"] = "load", forces, whole["dimensionless_force"].attrs
     for name, value, unit, words in (

@@ -12,13 +12,12 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
 from roughcontact.friction.slip_curve import SlipCurve, slide_curve
 from roughcontact.friction.tangential_stiffness import tangential_stiffness
-from roughcontact.labels.labelled import variable, words
+from roughcontact.labels.labelled import variable
 from roughcontact.material import Solid
 from roughcontact.solver.status import Status
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Positive, Pressure
 from roughcontact.study.cases.force_range import ForceRange
 from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
 
 if TYPE_CHECKING:
     import xarray
@@ -140,7 +139,7 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
                 "residual", ("load",), [_worst(*pair) for pair in zip(points, pulls, strict=True)]
             ),
             "status": variable(
-                "status", ("load",), words(_ended(*pair) for pair in zip(points, pulls, strict=True))
+                "status", ("load",), [_ended(*pair).value for pair in zip(points, pulls, strict=True)]
             ),
             "cell_stiffness": variable("cell_stiffness", (), cell_stiffness(points[0].problem.operator)),
         }

@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from roughcontact.grid import Grid
-from roughcontact.study.case import Parameters
-from roughcontact.study.parameters import Length, Positive
+from roughcontact.study.case import Length, Parameters, Positive
 from roughcontact.surface.fourier import self_affine
 from roughcontact.surface.shapes import paraboloid
 from roughcontact.surface.surface import Surface

@@ -12,9 +12,8 @@ from roughcontact.contact.curve import collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.labels.labelled import variable
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Positive, Pressure
 from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ import psutil
 import pytest
 
 import roughcontact as rc
-from roughcontact.files import bounds
-from roughcontact.files.bounds import BoundedStream, require_memory
+from roughcontact.files import file_bounds as bounds
 from roughcontact.files.content import needed
+from roughcontact.files.file_bounds import BoundedStream, require_memory
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import channels
 

@@ -1,4 +1,4 @@
-"""Which forces a power law is fitted to."""
+"""Which points of a loading curve the grid resolves, and which of them a power law is fitted to."""
 
 from __future__ import annotations
 
@@ -7,15 +7,23 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
-from roughcontact.contact.curve import FORCE_LIMIT
-from roughcontact.contact.stiffness import CELLS, SATURATED
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.statistics.power_law import FORCE_LIMIT
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Window", "force_window", "resolved_window", "window_of"]
+__all__ = ["CELLS", "SATURATED", "Window", "force_window", "is_resolved", "resolved_window", "window_of"]
+
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
+SATURATED = 0.9  # above this part of the saturation they are those of the finite size (eq. 4.14)
+
+
+def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
+    """Return whether stiffnesses (of a line contact: widths) stand above a few cells and below saturation."""
+    return np.asarray((size >= CELLS * cell) & (size < SATURATED * whole))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
