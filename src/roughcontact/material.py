@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-from roughcontact.theory.tools.domain import moderate, scalar, shown
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import moderate, require_numbers, scalar
 
-__all__ = ["Solid", "as_modulus", "number", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Solid", "as_modulus", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,24 +73,10 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
             raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
         value = reduced_modulus(*modulus)
     else:
-        value = number("reduced modulus", modulus)
+        value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
-
-
-def number(name: str, value: Any) -> float:
-    """Return one real number.
-
-    Raises
-    ------
-    ValueError
-        If it is none: a text, a list, nothing. The command line reads units, this does not.
-    """
-    try:
-        return scalar(value, name)
-    except ValueError as error:
-        raise ValueError(f"the {name} must be one number in SI units, not {shown(value)}") from error
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

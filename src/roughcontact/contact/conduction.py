@@ -15,7 +15,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     import xarray

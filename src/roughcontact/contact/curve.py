@@ -20,8 +20,8 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.solver.status import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
-from roughcontact.theory.tools.domain import number
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     import xarray

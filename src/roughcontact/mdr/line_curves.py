@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.statistics.fit_window import CELLS, SATURATED
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
-from roughcontact.theory.tools.domain import pair
+from roughcontact.validation import pair
 
 __all__ = ["LineCurves", "Mean"]
 
