@@ -27,11 +27,11 @@ class Channel:
     name : str
         Its name; the second of two equal names carries ``#2``.
     shape : tuple of int
-        Number of points (ny, nx); one number for a line scan.
+        Number of points (ny, nx); one number for a profile.
     unit : str or float, optional
         Unit of its values, or metres per unit.
     size : tuple of float, optional
-        Size (Ly, Lx) [m]; one length for a line scan.
+        Size (Ly, Lx) [m]; one length for a profile.
     is_height : bool
         Whether it can be read as heights.
     """

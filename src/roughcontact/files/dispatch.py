@@ -16,10 +16,10 @@ from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
-__all__ = ["channels_of", "either", "height_map", "line_scan"]
+__all__ = ["channels_of", "either", "height_map", "profile_of"]
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
-# Readers of ours whose files hold a single map or line scan, and those whose files hold channels.
+# Readers of ours whose files hold a single map or profile, and those whose files hold channels.
 _SINGLE = {
     ".npy": read_npy,
     **dict.fromkeys(_TEXTS, read_text),
@@ -41,7 +41,7 @@ def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:
         if kind in _TEXTS and (points := _points_on_a_line(data, file)):
             raise ReadError(
                 file,
-                f"it is a line scan of {points} heights, not a map ({error.problem})",
+                f"it is a profile of {points} heights, not a map ({error.problem})",
                 "read it by read_line",
             ) from None
         raise
@@ -56,14 +56,14 @@ def either(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     except ReadError:
         if _suffix(file) not in _TEXTS or not _points_on_a_line(data, file):
             raise
-        return line_scan(data, file, channel)
+        return profile_of(data, file, channel)
     if found.heights.ndim == 1 or (found.heights.shape[1] == 1 and _suffix(file) in _TEXTS):
-        return line_scan(data, file, channel)
+        return profile_of(data, file, channel)
     require_map(found, file)
     return found
 
 
-def line_scan(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def profile_of(data: bytes, file: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     kind = _suffix(file)
     if kind in _TEXTS:
@@ -74,7 +74,7 @@ def line_scan(data: bytes, file: str, channel: str | int | None) -> HeightMap:
         known = ", ".join([*_SINGLE, *_SEVERAL])
         raise ReadError(
             file,
-            f"line scans are not read from {kind or 'a file without extension'}",
+            f"profiles are not read from {kind or 'a file without extension'}",
             f"export it as one of {known}",
         )
     require_line(found, file)
@@ -114,7 +114,7 @@ def _only(found: HeightMap, channel: str | int | None, file: str) -> HeightMap:
 
 
 def _points_on_a_line(data: bytes, file: str) -> int:
-    """Return the number of heights of a text that is a line scan, or 0."""
+    """Return the number of heights of a text that is a profile, or 0."""
     try:
         return len(read_profile(data, file).heights)
     except ReadError:
@@ -122,7 +122,7 @@ def _points_on_a_line(data: bytes, file: str) -> int:
 
 
 def _only_channel(found: HeightMap) -> Channel:
-    """Describe the single map or line scan of a file."""
+    """Describe the single map or profile of a file."""
     shape = found.heights.shape
     size = None
     if found.spacing is not None:

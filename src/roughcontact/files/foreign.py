@@ -191,7 +191,7 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) ->
     if not any(map(_is_map, channels)):
         raise ReadError(
             file,
-            f"it holds no map but {describe(channels)}: a line scan cannot be pressed as a surface",
+            f"it holds no map but {describe(channels)}: a profile cannot be pressed as a surface",
             "give a two-dimensional map of heights",
         )
     heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
@@ -247,7 +247,7 @@ def _heights(reader: Any, index: int) -> Array:
 def _map(reader: Any, index: int, channel: Channel, file: str) -> HeightMap:
     if len(channel.shape) != 2:
         raise ReadError(
-            file, f"channel {channel.name!r} is a line scan", "give a two-dimensional map of heights"
+            file, f"channel {channel.name!r} is a profile", "give a two-dimensional map of heights"
         )
     require_memory(BYTES_PER_POINT * math.prod(channel.shape), file)
     info = reader.channels[index]

@@ -22,7 +22,7 @@ class HeightMap:
     Parameters
     ----------
     heights : array, shape (ny, nx) or (n,)
-        Heights of a map or of a line scan in `unit`; the first row is the top of the picture; NaN where nothing
+        Heights of a map or of a profile in `unit`; the first row is the top of the picture; NaN where nothing
         was measured.
     format : str
         Name of the format, for the provenance.
@@ -70,12 +70,12 @@ def require_map(found: HeightMap, file: str) -> None:
     """Refuse what is no map of at least 2 x 2 heights."""
     shape = found.heights.shape
     if len(shape) == 1:
-        raise ReadError(file, f"it is a line scan of {shape[0]} heights", f"{_MAP}, or use read_line")
+        raise ReadError(file, f"it is a profile of {shape[0]} heights", f"{_MAP}, or use read_line")
     if min(shape) < 2:
         points = " x ".join(map(str, shape))
         raise ReadError(
             file,
-            f"it holds {points} heights, a line scan at most",
+            f"it holds {points} heights, a profile at most",
             "give a two-dimensional map of at least 2 x 2 heights, or use read_line",
         )
 
@@ -85,9 +85,9 @@ def require_line(found: HeightMap, file: str) -> None:
     shape = found.heights.shape
     if len(shape) != 1:
         points = " x ".join(map(str, shape))
-        raise ReadError(file, f"it is a map of {points} heights, no line scan", "use read")
+        raise ReadError(file, f"it is a map of {points} heights, no profile", "use read")
     if shape[0] < 2:
-        raise ReadError(file, f"it holds {shape[0]} heights", "give a line scan of at least 2 heights")
+        raise ReadError(file, f"it holds {shape[0]} heights", "give a profile of at least 2 heights")
 
 
 _MAP = "give a two-dimensional map of heights, rows by columns"

@@ -60,7 +60,7 @@ class StoredVariable:
 
 
 def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
-    """Return one variable of two dimensions, or of one for a line scan.
+    """Return one variable of two dimensions, or of one for a profile.
 
     It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
     rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
@@ -90,7 +90,7 @@ def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
 
 
 def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
-    """Return the variables that can be maps or line scans."""
+    """Return the variables that can be maps or profiles."""
     with opened(data, file) as (variables, _):
         return _channels(variables)
 
@@ -152,7 +152,7 @@ def _values(variable: Any) -> npt.NDArray[Any]:
 
 
 def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
-    """Return what can be pressed: maps, and the line scan named ``heights``."""
+    """Return what can be pressed: maps, and the profile named ``heights``."""
     maps = {
         name: v
         for name, v in variables.items()

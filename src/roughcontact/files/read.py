@@ -1,4 +1,4 @@
-"""Read a measured surface, or a line scan, from a file."""
+"""Read a measured surface, or a profile, from a file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
 from roughcontact.files.channels import Channel
 from roughcontact.files.content import content
-from roughcontact.files.dispatch import channels_of, either, height_map, line_scan
+from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import length_factor
@@ -30,7 +30,7 @@ def read(
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
     ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc`` and ``.sur`` are read
-    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A line scan is
+    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A profile is
     refused: see `read_line`.
 
     Parameters
@@ -78,7 +78,7 @@ def read_line(
     size: Size | None = None,
     periodic: bool | None = None,
 ) -> Surface:
-    """Return the line scan in a file as a surface on a grid of one axis, heights [m] of shape (n,).
+    """Return the profile in a file as a surface on a grid of one axis, heights [m] of shape (n,).
 
     Texts (``.txt``, ``.csv``, ``.tsv``, ``.asc``) hold one column of heights, or places and heights, under any
     lines of words; ``.npy``, ``.npz``, ``.nc``, ``.x3p`` (profiles) and ``.pro`` (Digital Surf) are read as well.
@@ -108,7 +108,7 @@ def read_line(
     SurfaceWarning
         As for `read`.
     """
-    return _read(path, line_scan, 1, channel, unit, size, periodic)
+    return _read(path, profile_of, 1, channel, unit, size, periodic)
 
 
 def read_either(
@@ -119,7 +119,7 @@ def read_either(
     size: Size | None = None,
     periodic: bool | None = None,
 ) -> Surface:
-    """Return the map of heights in a file, or the line scan where it holds one instead.
+    """Return the map of heights in a file, or the profile where it holds one instead.
 
     For what serves both alike. The arguments, errors and warnings are those of `read` and `read_line`; a file that
     may be either, such as a text of two columns under a header of a map, counts as a map.

@@ -1,4 +1,4 @@
-"""Digital Surf's format, ``.sur`` for maps and ``.pro`` for line scans, plain or compressed."""
+"""Digital Surf's format, ``.sur`` for maps and ``.pro`` for profiles, plain or compressed."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _AGAIN = "copy the file again, or export it as X3P"
 
 
 def read_sur(data: bytes, file: str) -> HeightMap:
-    """Return the one map or line scan of the file; its heights are whole numbers of a stated step."""
+    """Return the one map or profile of the file; its heights are whole numbers of a stated step."""
     header = _header(data, file)
     ny, nx = int(header["ny"]), int(header["nx"])
     counts = _counts(data, header, file).reshape(ny, nx)

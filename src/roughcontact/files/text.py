@@ -46,7 +46,7 @@ def read_text(data: bytes, file: str) -> HeightMap:
         raise ReadError(
             file,
             f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
-            "name a list of x, y, z .xyz; read a line scan by read_line",
+            "name a list of x, y, z .xyz; read a profile by read_line",
         )
     spacing = None
     if header.width is not None and header.height is not None:
@@ -105,7 +105,7 @@ def _rounding(text: str) -> float:
 def text_bytes(surface: Surface) -> bytes:
     """Return the heights [m] as rows separated by tabs, under the header that Gwyddion writes; NaN as ``nan``.
 
-    A line scan becomes two columns, places of the cells' centres and heights. Every number has all its digits. The
+    A profile becomes two columns, places of the cells' centres and heights. Every number has all its digits. The
     provenance follows the header for people to read.
     """
     history = [f"# History: {' | '.join(line.splitlines())}" for line in surface.provenance]

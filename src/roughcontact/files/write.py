@@ -145,7 +145,7 @@ def units_remark(columns: Mapping[str, xarray.DataArray]) -> str:
 def scale_remark(values: xarray.DataArray) -> str:
     """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
     numbers = ", ".join(map(str, plain_cells(values.to_numpy()).reshape(-1).tolist()))
-    axes = f" ({', '.join(values['axis'].to_numpy().tolist())})" if values.dims else ""
+    axes = f" ({', '.join(map(str, values['axis'].to_numpy()))})" if values.dims else ""
     unit = values.attrs.get("units", "1")
     return f"{values.name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
 

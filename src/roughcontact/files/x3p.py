@@ -254,7 +254,7 @@ def parse_xml(main: bytes, file: str) -> _Node:
 
 
 def x3p_bytes(surface: Surface) -> bytes:
-    """Return the surface, or the line scan as a profile, as the bytes of an ``.x3p`` file.
+    """Return the surface, or a profile, as the bytes of an ``.x3p`` file.
 
     Heights are little-endian doubles [m], NaN where nothing was measured. ``md5checksum.hex`` holds the checksum of
     ``main.xml``, as in the samples of the standard, and ``main.xml`` that of the heights. The format has no word

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-__all__ = ["centres", "dataset_of", "plain_values", "sizes", "units_of", "variable"]
+__all__ = ["centres", "dataset_of", "described", "plain_values", "sizes", "units_of", "variable"]
 
 
 def variable(
@@ -25,6 +25,13 @@ def variable(
     unit = unit_of(name, geometry)
     attributes = {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
     return dimensions, np.asarray(values), attributes
+
+
+def described(
+    dimensions: str | tuple[str, ...], values: Any, words: str, unit: str = "1"
+) -> tuple[Any, Any, Any]:
+    """Return the triple that xarray takes as a variable, of a quantity that no table names."""
+    return dimensions, values, {"units": unit, "long_name": words}
 
 
 def sizes(grid: Any) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """Studies: a case computed for a table of parameters and many samples, stored so that it can go on at any time."""
 
+from types import ModuleType as _Module
+
 from roughcontact.study.case import Area as Area
 from roughcontact.study.case import Case as Case
 from roughcontact.study.case import Energy as Energy
@@ -27,3 +29,7 @@ from roughcontact.study.task import Executor as Executor
 from roughcontact.study.task import Outcome as Outcome
 from roughcontact.study.task import Summary as Summary
 from roughcontact.study.task import Task as Task
+
+__all__ = [
+    name for name, each in globals().items() if not (name.startswith("_") or isinstance(each, _Module))
+]

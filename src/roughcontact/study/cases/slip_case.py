@@ -12,7 +12,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
 from roughcontact.friction.slip_curve import SlipCurve, slide_curve
 from roughcontact.friction.tangential_stiffness import tangential_stiffness
-from roughcontact.labels.labelled import variable
+from roughcontact.labels.labelled import described, variable
 from roughcontact.material import Solid
 from roughcontact.solver.status import Status
 from roughcontact.study.case import Case, Positive, Pressure
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CASE", "SlipParameters", "run"]
 
+_SIDEWAYS = "tangential stiffness of the contact region"
 _LIMIT = 1e-5  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -114,23 +115,13 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
         | {
             "dimensionless_force": variable("dimensionless_force", ("load",), forces),
             "dimensionless_stiffness": variable("dimensionless_stiffness", ("load",), stiffness / scale),
-            "tangential_stiffness": (
-                "load",
-                sideways.mean(axis=1),
-                {
-                    "units": "N m-1",
-                    "long_name": "tangential stiffness of the contact region, mean over directions",
-                },
+            "tangential_stiffness": described(
+                "load", sideways.mean(axis=1), f"{_SIDEWAYS}, mean over directions", "N m-1"
             ),
-            "principal_stiffness": (
-                ("load", "principal"),
-                sideways,
-                {
-                    "units": "N m-1",
-                    "long_name": "tangential stiffness of the contact region along its two axes",
-                },
+            "principal_stiffness": described(
+                ("load", "principal"), sideways, f"{_SIDEWAYS} along its two axes", "N m-1"
             ),
-            "pulled": ("pull", pulled, {"units": "1", "long_name": "tangential force over mu F"}),
+            "pulled": described("pull", pulled, "tangential force over mu F"),
             "tangential_displacement": variable(
                 "tangential_displacement", ("load", "pull"), [each.displacement[:, 0] for each in pulls]
             ),
