@@ -86,7 +86,7 @@ def conductance(
         At least one of the two, see `Conductors`.
     of : {"stiffness", "interfacial_stiffness"}
         The conductance of the whole, the constriction towards the contact as a whole included, as two half-spaces
-        have it; or the share of the interface, against the mean gap.
+        have it; or that of the interface alone, against the mean gap.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense, the contact is that of a line, whose conductance per length hangs on the
+        If the materials make no sense, the contact is that of a line, whose conductance per length depends on the
         reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
     """
     materials = Conductors(resistivities, conductivities)
@@ -154,7 +154,7 @@ def _require_conducting(geometry: Geometry, yielding: bool) -> None:
     """
     if geometry is Geometry.LINE:
         raise ValueError(
-            "a line contact has no conductance of its own: it hangs on how far away the bodies end"
+            "a line contact has no conductance of its own: it depends on how far away the bodies end"
         )
     if yielding:
         raise ValueError(

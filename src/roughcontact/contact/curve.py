@@ -154,7 +154,8 @@ class Curve:
         Raises
         ------
         ValueError
-            If the window is none, or fewer than three points lie in it; the message names forces that would.
+            If the window does not go from a force to a larger one, or fewer than three points lie in it; the message
+            names forces that give more.
         """
         if window is None:
             limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
@@ -182,7 +183,7 @@ class Curve:
         theory : Law
             For example ``rc.theory.persson.law(...)``, or one of `rc.loading_laws`.
         quantities : sequence of str, optional
-            Names of quantities of this curve; without, all that the theory speaks of.
+            Names of quantities of this curve; without, all that the theory gives.
 
         Raises
         ------
@@ -201,9 +202,7 @@ class Curve:
             names = [name for name in names if hasattr(self, name)]
         for name in names:
             if not hasattr(self, name):
-                raise ValueError(
-                    f"a curve has no {name!r}; {theory.name} speaks of {sorted(theory.quantities)}"
-                )
+                raise ValueError(f"a curve has no {name!r}; {theory.name} gives {sorted(theory.quantities)}")
         return Comparison(
             theory.name,
             theory.source,

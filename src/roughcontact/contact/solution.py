@@ -241,7 +241,7 @@ class Solution:
 
     @property
     def above_cells(self) -> bool:
-        """Whether the contact is so large that the surface speaks, and not the grid."""
+        """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell
 

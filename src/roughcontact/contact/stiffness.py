@@ -112,7 +112,8 @@ def contact_stiffness(
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers, or if the tolerance is none.
+        If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
+        bounds.
     RuntimeError
         If the tolerance was not reached.
     """

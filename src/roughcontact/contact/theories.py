@@ -31,7 +31,7 @@ Array = npt.NDArray[np.float64]
 def loading_laws(
     surface: Surface, modulus: float | Solid | tuple[Solid, Solid], names: str | Sequence[str], **knowns: Any
 ) -> list[LoadingLaw]:
-    """Return theories of the contact of a surface, to be laid over its loading curve by `Curve.compare`.
+    """Return theories of the contact of a surface, to be compared with its loading curve by `Curve.compare`.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def loading_laws(
     Raises
     ------
     ValueError
-        If a name is none, the surface is a line, or a theory needs what the surface does not tell.
+        If a name is not one of these, the surface is a line, or a theory needs what the surface does not tell.
 
     Notes
     -----
@@ -115,7 +115,7 @@ def _waves(surface: Surface) -> Waves:
 
 
 def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[LoadingLaw]:
-    """Return laws that speak of the stiffness against the approach, those of them that speak of any."""
+    """Return laws that give the stiffness against the approach, where they give any."""
     of_interface = [
         "stiffness" not in law.quantities and "interfacial_stiffness" in law.quantities for law in found
     ]

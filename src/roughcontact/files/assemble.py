@@ -36,7 +36,7 @@ def assemble(
     size: Size | None,
     periodic: bool | tuple[bool, ...] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
-    """Return the surface of `found` and the doubts to speak aloud; the user's word goes before the file's."""
+    """Return the surface of `found` and the doubts to warn of; what the user states overrides the file."""
     _require(found, file, unit, size)
     require_memory(BYTES_TO_LOOK * found.heights.size, file)
     factor, unit_note = _factor(found, unit)
@@ -101,7 +101,7 @@ def _size_hint(found: HeightMap) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Remark:
-    """What the user states; spoken aloud where it contradicts the file."""
+    """What the user states; a warning where it contradicts the file."""
 
     text: str
     contradicts: bool

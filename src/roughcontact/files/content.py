@@ -17,7 +17,7 @@ from roughcontact.files.numpy_files import read_npy_header
 __all__ = ["content", "needed"]
 
 _COPY = "copy or export the file again"
-# Where the number of points cannot be told from outside, the file is taken for numbers of four bytes.
+# Where the number of points is not known from outside, the file is taken for numbers of four bytes.
 _TIMES_THE_FILE = BYTES_PER_POINT // 4
 _DAMAGED = (ValueError, OSError, EOFError, RuntimeError, struct.error, zlib.error, zipfile.BadZipFile)
 

@@ -12,10 +12,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.channels import Channel, names_a_height, names_something_else, pick
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5, require_memory_for
-from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.heightmap import (
+    Channel,
+    HeightMap,
+    as_heights,
+    names_a_height,
+    names_something_else,
+    pick,
+)
 from roughcontact.files.length_units import is_length, length_factor
 
 __all__ = ["StoredVariable", "list_netcdf", "opened", "read_netcdf"]

@@ -12,10 +12,9 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.channels import Channel, pick
 from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
 from roughcontact.surface.surface import Surface
 
 __all__ = ["list_npz", "npy_bytes", "npz_bytes", "read_npy", "read_npy_header", "read_npz"]

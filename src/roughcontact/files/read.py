@@ -8,11 +8,10 @@ import warnings
 from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
-from roughcontact.files.channels import Channel
 from roughcontact.files.content import content
 from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.heightmap import HeightMap
+from roughcontact.files.heightmap import Channel, HeightMap
 from roughcontact.files.length_units import length_factor
 from roughcontact.surface.surface import Surface
 
@@ -52,7 +51,7 @@ def read(
     Returns
     -------
     Surface
-        Not levelled; its provenance names the file, the format, the channel and the start of its SHA-256.
+        Its tilt is not removed; its provenance names the file, the format, the channel and the start of its SHA-256.
 
     Raises
     ------

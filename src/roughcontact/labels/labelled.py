@@ -53,8 +53,8 @@ def dataset_of(
     """Return the variables and coordinates as a dataset, with the names of the grid's axes."""
     import xarray
 
-    told = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
-    axis = (("axis",), list(geometry.axes), {"long_name": told})
+    words = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
+    axis = (("axis",), list(geometry.axes), {"long_name": words})
     attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
     return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
 

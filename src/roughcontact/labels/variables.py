@@ -46,7 +46,9 @@ _VARIABLES = {
         "N m-1", "difference of force over difference of depth between one load and the next"
     ),
     "contact_area": Variable("m2", "real contact area"),
-    "contact_fraction": Variable("1", "real contact area over nominal area"),
+    "contact_fraction": Variable(
+        "1", "relative real contact area, real over nominal", "relative real contact area"
+    ),
     "mean_gap": Variable("m", "gap averaged over the measured cells"),
     "elastic_energy": Variable("J", "elastic energy of the bodies"),
     "spots": Variable("1", "number of connected contact spots", "contact spots"),

@@ -178,7 +178,7 @@ def _draw_laws(
 ) -> None:
     """Draw what each of the theories says about a quantity between two `forces` [N].
 
-    A theory keeps its style from one picture to the next, whether or not it speaks of every quantity. The
+    A theory keeps its style from one picture to the next, whether or not it gives every quantity. The
     axes keep the limits that the computed points gave them.
     """
     x, y = scales

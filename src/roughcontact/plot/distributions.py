@@ -33,7 +33,7 @@ _BEYOND = 0.999  # quantile of the pressure where the axis ends: a few cells at 
 def pressure_distribution(
     axes: Axes, solution: Solution, theories: Mapping[str, Density] | None = None, bins: int = 60
 ) -> None:
-    """Draw the probability density of the pressure over the nominal area, without the share that carries none.
+    """Draw the probability density of the pressure over the nominal area, without the part that carries none.
 
     Parameters
     ----------

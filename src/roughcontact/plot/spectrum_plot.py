@@ -52,7 +52,7 @@ def spectrum_curve(
     """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
 
     Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
-    averaged to forty a decade. `law` is laid over the band that it was fitted in; vertical lines mark where it ends.
+    averaged to forty a decade. `law` is drawn over the band that it was fitted in; vertical lines mark where it ends.
     `label` says in the legend where the spectrum comes from.
     """
     shown = spectrum.rebinned(_DRAWN)

@@ -126,8 +126,8 @@ def fit_power_laws(
         name: values.assign_attrs(long_name=words, units="1")
         for (name, words), values in zip(_WORDS.items(), found, strict=True)
     }
-    told = {"mean": mean, "window": window.rule, "level": level, "replicates": replicates}
-    return xarray.Dataset(laws, attrs={"title": "power laws of mean stiffness over samples"} | told)
+    settings = {"mean": mean, "window": window.rule, "level": level, "replicates": replicates}
+    return xarray.Dataset(laws, attrs={"title": "power laws of mean stiffness over samples"} | settings)
 
 
 def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset:

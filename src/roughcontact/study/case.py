@@ -22,7 +22,7 @@ __all__ = ["Area", "Case", "Energy", "Force", "Length", "Parameters", "Positive"
 
 
 class Parameters(BaseModel):
-    """What a case may be told: a model whose fields have types and limits; unknown names are refused."""
+    """The parameters of a case: a model whose fields have types and limits; unknown names are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
