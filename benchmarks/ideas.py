@@ -12,9 +12,9 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.kernels import loader
-from roughcontact.solver import nested_iteration as cascade
-from roughcontact.solver.inner_operator import Plane
-from roughcontact.solver.restriction import lowest
+from roughcontact.solver import nested_iteration
+from roughcontact.solver.inner_operator import FullGrid
+from roughcontact.solver.nested_iteration import block_minimum
 
 EXTRAS = (
     "positive",
@@ -104,11 +104,15 @@ def main(n):
         "all": (EXTRAS,),
         "no inverse": without("approximate_inverse", "local_inverse", "particle_mesh"),
         "|q| by FFT": without("local_inverse"),
-        "no relief": (EXTRAS, (Plane, "relief", none), (PatchOperator, "relief", none)),
+        "no Schur": (
+            EXTRAS,
+            (FullGrid, "diagonal_correction", none),
+            (PatchOperator, "diagonal_correction", none),
+        ),
         "no window": without("positive"),
         "no list": without("submatrix"),
-        "summits": (EXTRAS, (cascade, "raised", lowest)),
-        "means": (EXTRAS, (cascade, "raised", means)),
+        "summits": (EXTRAS, (nested_iteration, "block_separation", block_minimum)),
+        "means": (EXTRAS, (nested_iteration, "block_separation", means)),
         "no tiles": without("particle_mesh"),
         "double": without("single_precision", "particle_mesh"),
         "no machine": (EXTRAS, (loader, "is_available", lambda: False)),

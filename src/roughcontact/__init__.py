@@ -21,7 +21,6 @@ _ROOMS = {
     "self_affine": "surface.fourier",
     "SelfAffineSpectrum": "surface.spectrum",
     "synthesise": "surface.fourier",
-    "RadialSpectrum": "surface.spectrum",
     "StretchedSpectrum": "surface.spectrum",
     "DirectionalSpectrum": "surface.spectrum",
     "Moments": "surface.moments",
@@ -220,7 +219,6 @@ if TYPE_CHECKING:
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.spectrum import DirectionalSpectrum as DirectionalSpectrum
-    from roughcontact.surface.spectrum import RadialSpectrum as RadialSpectrum
     from roughcontact.surface.spectrum import SelfAffineSpectrum as SelfAffineSpectrum
     from roughcontact.surface.spectrum import StretchedSpectrum as StretchedSpectrum
     from roughcontact.surface.surface import Surface as Surface

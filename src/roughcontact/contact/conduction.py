@@ -73,7 +73,7 @@ def conductance(
     *,
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
-    of: Literal["stiffness", "interfacial_stiffness"] = "stiffness",
+    of: Literal["total", "interface"] = "total",
 ) -> dict[str, Array]:
     """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
@@ -84,9 +84,9 @@ def conductance(
         way conduct like the others.
     resistivities, conductivities : tuple of float
         At least one of the two, see `Conductors`.
-    of : {"stiffness", "interfacial_stiffness"}
-        The conductance of the whole, the constriction towards the contact as a whole included, as two half-spaces
-        have it; or that of the interface alone, against the mean gap.
+    of : {"total", "interface"}
+        The total conductance of two half-spaces, the macro-constriction towards the contact included, from the
+        stiffness; or that of the interface alone, from the interfacial stiffness.
 
     Returns
     -------
@@ -98,11 +98,20 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense, the contact is that of a line, whose conductance per length depends on the
-        reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
+        If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
+        reference length, or if it is a curve under a hardness, whose stiffness leaves out cells that conduct.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8))
+    >>> f"{copper['electrical_resistance'] * 1e3:.1f} mOhm"
+    '2.0 mOhm'
     """
     materials = Conductors(resistivities, conductivities)
-    _require_side(of)
+    stiffness = _stiffness_for(of)
     if not isinstance(contact, Curve | Solution):
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
@@ -113,21 +122,19 @@ def conductance(
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
     _require_conducting(scales.geometry, scales.hardness < math.inf)
-    return materials.of(np.asarray(getattr(contact, of), dtype=np.float64), scales.modulus)
+    return materials.of(np.asarray(getattr(contact, stiffness), dtype=np.float64), scales.modulus)
 
 
-def with_conductance(
-    dataset: xarray.Dataset, conductors: Conductors, of: str = "stiffness"
-) -> xarray.Dataset:
+def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = "total") -> xarray.Dataset:
     """Return the dataset of a curve with what it conducts as further columns along ``load``.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        As `curve_dataset` makes it, or as it was read from a file.
+        As `roughcontact.Curve.to_dataset` makes it, or as it was read from a file.
     conductors : Conductors
         The two bodies.
-    of : {"stiffness", "interfacial_stiffness"}
+    of : {"total", "interface"}
         See `roughcontact.conductance`.
 
     Raises
@@ -135,23 +142,25 @@ def with_conductance(
     ValueError
         If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
     """
-    _require_side(of)
-    missing = [name for name in ("force", of, "modulus") if name not in dataset]
-    if missing or dataset[of].dims != ("load",):
+    stiffness = _stiffness_for(of)
+    missing = [name for name in ("force", stiffness, "modulus") if name not in dataset]
+    if missing or dataset[stiffness].dims != ("load",):
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
     _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
-    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
+    found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
     return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
 
 
-def _require_conducting(geometry: Geometry, yielding: bool) -> None:
-    """Refuse a curve whose stiffness does not tell what its contact conducts.
+def _stiffness_for(of: str) -> str:
+    """Return the name of the stiffness that a conductance follows from."""
+    names = {"total": "stiffness", "interface": "interfacial_stiffness"}
+    if of not in names:
+        raise ValueError(f"of must be 'total' or 'interface', not {of!r}")
+    return names[of]
 
-    Raises
-    ------
-    ValueError
-        If it is that of a line, or of a body that gives way.
-    """
+
+def _require_conducting(geometry: Geometry, yielding: bool) -> None:
+    """Refuse a curve that does not say what its contact conducts: that of a line, or of a body that gives way."""
     if geometry is Geometry.LINE:
         raise ValueError(
             "a line contact has no conductance of its own: it depends on how far away the bodies end"
@@ -161,8 +170,3 @@ def _require_conducting(geometry: Geometry, yielding: bool) -> None:
             "under a hardness the cells that give way conduct, but the stiffness of a curve leaves them out: take "
             "the conductance of each solution of loading_path"
         )
-
-
-def _require_side(of: str) -> None:
-    if of not in ("stiffness", "interfacial_stiffness"):
-        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")

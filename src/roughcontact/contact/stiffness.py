@@ -16,8 +16,7 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of, is_sem
 from roughcontact.material import Solid
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.prescribed import prescribe
-from roughcontact.solver.region import checked_region
+from roughcontact.solver.prescribed import checked_region, prescribe
 from roughcontact.solver.state import Tangent
 from roughcontact.validation import numeric
 
@@ -25,9 +24,9 @@ __all__ = [
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
+    "elastic_contact",
     "frozen_contact",
-    "saturation",
-    "yields_not",
+    "full_contact_stiffness",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -55,7 +54,7 @@ class FrozenContact:
     tangent: Array
 
 
-def yields_not(pressure: Array, hardness: float) -> Mask:
+def elastic_contact(pressure: Array, hardness: float) -> Mask:
     """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
     return (pressure > 0) & (pressure < hardness)
 
@@ -133,12 +132,12 @@ def cell_stiffness(operator: Operator) -> float:
     return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf
 
 
-def saturation(problem: ContactProblem) -> float:
+def full_contact_stiffness(problem: ContactProblem) -> float:
     """Return the stiffness with all measured cells in contact [N/m]; infinite for a whole periodic surface.
 
     To a thousandth in the displacement: enough for a limit.
     """
     measured = namespace(problem.separation).isfinite(problem.separation)
     return problem.once(
-        "saturation", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
+        "full_contact_stiffness", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
     )

@@ -77,7 +77,7 @@ _VARIABLES = {
     # how far the answer can be trusted
     "residual": Variable("1", "violation of the contact conditions, recomputed on the answer"),
     "stiffness_residual": Variable("1", "residual of the linear problem of the stiffness"),
-    "resolved": Variable("", "contact stands above twenty cells and below saturation"),
+    "resolved": Variable("", "contact stands above twenty cells and below the full-contact stiffness"),
     "status": Variable("", "how the solver ended"),
     "steps": Variable("1", "steps of the solver"),
     "missing": Variable("1", "number of cells without a height; they never touch", "missing cells"),
@@ -86,7 +86,9 @@ _VARIABLES = {
     "modulus": Variable("Pa", "reduced modulus E* of the pair of solids", "reduced modulus"),
     "hardness": Variable("Pa", "pressure that no cell exceeds"),
     "rms": Variable("m", "root mean square height about the mean", "rms height"),
-    "saturation": Variable("N m-1", "stiffness with every measured cell in contact"),
+    "full_contact_stiffness": Variable(
+        "N m-1", "stiffness with every measured cell in contact", "full-contact stiffness"
+    ),
     "cell_stiffness": Variable("N m-1", "stiffness with one cell in contact", "one cell"),
     "lengths": Variable("m", "side lengths of the map, cells times spacing", "length"),
     "spacing": Variable("m", "size of a cell"),

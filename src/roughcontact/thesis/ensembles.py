@@ -14,7 +14,7 @@ import numpy as np
 from roughcontact.solver.status import Status
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit import fit_power_laws
-from roughcontact.statistics.fit_window import CELLS, SATURATED, Window, window_of
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE, Window, window_of
 from roughcontact.statistics.samples import count, mean, scatter, standard_error
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
@@ -111,7 +111,8 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     """Return the mean stiffness of surfaces, its standard error and its scatter, along what varies and the load.
 
     Loads that missed their tolerance have no part in it. ``resolved`` says where the mean stiffness is above 20 cells
-    and below 90 % of saturation. The attributes ``cells`` and ``surfaces`` count cells a side and samples.
+    and below 90 % of the full-contact stiffness. The attributes ``cells`` and ``surfaces`` count cells a side and
+    samples.
     """
     import xarray
 
@@ -129,7 +130,7 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     }
     for name, values, words in (
         ("cell_stiffness", low / CELLS, "k/(E* L) of one cell"),
-        ("saturation", high / SATURATED, "k/(E* L) of all cells"),
+        ("full_contact_stiffness", high / FULL_CONTACT_SHARE, "k/(E* L) of all cells"),
     ):
         found[name] = values.assign_attrs(long_name=words, units="1")
     return xarray.Dataset(

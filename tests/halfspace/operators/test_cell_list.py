@@ -53,7 +53,7 @@ BODIES = {
     "layer": lambda: layer(rc.Grid(SHAPE, SPACING), RUBBER, 0.8, base="bonded"),
     "periodic layer": lambda: layer(rc.Grid(SHAPE, SPACING, True), RUBBER, 0.8, base="bonded"),
     "line": lambda: rc.line(rc.Grid(SHAPE[0] * SHAPE[1], 0.5), 2.0),
-    "moving grid": lambda: rc.half_space(rc.Grid(SHAPE, SPACING), 2.0, "moving-grid"),
+    "moving grid": lambda: rc.half_space(rc.Grid(SHAPE, SPACING), 2.0, method="moving-grid"),
 }
 
 
@@ -287,7 +287,7 @@ def test_it_drives_by_its_tiles():
     assert isinstance(driver.forward, DirectSum)
     pressure = np.where(region, pressure_on(900), 0.0)
     exact = operator.as_matrix() @ pressure
-    found = driver.scatter(driver.apply(driver.narrow(driver.gather(pressure))))
+    found = driver.scatter(driver.apply(driver.scaled(driver.gather(pressure))))
     single = (np.count_nonzero(region) + 3) * np.finfo(np.float32).eps
     limit = single * np.abs(operator.as_matrix()) @ np.abs(pressure)
     assert (np.abs(found - exact) <= limit)[region].all()

@@ -8,7 +8,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.sums import compiled
-from roughcontact.halfspace.sums.levels import Hierarchy, Kernel, descend
+from roughcontact.halfspace.sums.levels import Hierarchy, Kernel, bound_constrained_cg
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.transfer import Nodes, coarse_count, interpolation, offset_weights
 from roughcontact.kernels.processor import VARIABLE, is_off
@@ -50,7 +50,7 @@ def pressures(shape):
 @pytest.mark.parametrize("name", GRIDS)
 def test_error(name):
     shape, spacing = GRIDS[name]
-    operator = rc.half_space(rc.Grid(shape, spacing), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid(shape, spacing), 2.0, method="multilevel")
     assert len(operator._hierarchy.levels) >= 2
     for pressure in pressures(shape).values():
         exact = operator.exact.apply(pressure)
@@ -148,7 +148,7 @@ def operations(n, shape):
     """Multiplications of a product: of the near pairs and of the coarsest matrix."""
     nodes, kernel, count = Nodes(shape(n), (1.0, 1.0)), Kernel(lambda y, x: 1 / np.hypot(y, x + 0.5)), 0
     while nodes.size > 512:
-        level, coarser, kernel = descend(nodes, kernel, 8, 10)
+        level, coarser, kernel = bound_constrained_cg(nodes, kernel, 8, 10)
         count += nodes.size * np.count_nonzero(level.taps) / 2
         nodes = coarser
     return count + nodes.size**2

@@ -33,7 +33,7 @@ class YieldingParameters(PressedSquare):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus, hardness, relative_hardness
         See `PressedSquare`.
@@ -73,7 +73,7 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Data
         ``rms_slope`` and, where there is one, ``hardness``.
     """
     roughness = parameters.roughness(rng)
-    slope = surface_moments(roughness, "spectral").rms_slope
+    slope = surface_moments(roughness, derivative="spectral").rms_slope
     hardness = parameters.hardness_on(slope)
     depths = np.geomspace(parameters.lowest_depth, parameters.highest_depth, parameters.loads)
     solutions = list(
