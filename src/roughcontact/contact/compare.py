@@ -162,7 +162,7 @@ def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) ->
     Raises
     ------
     ValueError
-        If the theory is none, or silent about a quantity that is named, the curve is that of a line contact, or has no
+        If this is not a theory, or one without a quantity that is named, the curve is that of a line contact, or has no
         such quantity.
     """
     if not hasattr(law, "quantities"):

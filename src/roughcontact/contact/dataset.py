@@ -191,7 +191,7 @@ def check_conducting(geometry: Geometry, yielding: bool) -> None:
     """
     if geometry is Geometry.LINE:
         raise ValueError(
-            "a line contact has no conductance of its own: it hangs on how far away the bodies end"
+            "a line contact has no conductance of its own: it depends on how far away the bodies end"
         )
     if yielding:
         raise ValueError(

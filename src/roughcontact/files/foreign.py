@@ -136,7 +136,7 @@ def _accept(format_name: str, file: str) -> None:
 
 
 def _channels(reader: Any, file: str) -> tuple[Channel, ...]:
-    """Return the channels with units that are checked; heights are told by name and unit."""
+    """Return the channels with units that are checked; heights are known by name and unit."""
     found: list[Channel] = []
     seen: Counter[str] = Counter()
     for info in reader.channels:

@@ -80,13 +80,28 @@ def tangential_stiffness(
     tolerance : float
         Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
+    Returns
+    -------
+    TangentialStiffness
+        The matrix of force per displacement [N/m] and its residual.
+
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
-        axes, or if the tolerance is none.
+        If the mask does not fit the grid or holds other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is out of range.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid, steel = rc.Grid((64, 64), 1e-6), rc.Solid(210e9, 0.3)
+    >>> disc = ~np.isnan(rc.shapes.flat_disc(grid, radius=20e-6).heights)
+    >>> stiffness = rc.tangential_stiffness(disc, grid, steel).matrix[0, 0]
+    >>> f"{stiffness / (2 * rc.reduced_shear_modulus(steel) * 20e-6):.1f} of 2 G* a"
+    '1.0 of 2 G* a'
     """
     body = shear_body(grid, bodies, operator)
     cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
