@@ -89,7 +89,8 @@ def body_on(
     Raises
     ------
     ValueError
-        If this is not an operator, it lies on another grid or has another modulus, or is not given and the grid is a line.
+        If this is not an operator, it lies on another grid or has another modulus, or is not given and the grid is a
+        line.
     """
     if operator is None:
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
