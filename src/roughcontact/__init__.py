@@ -74,8 +74,8 @@ _ROOMS = {
     "TangentialStiffness": "friction.tangential_stiffness",
     "tangential_stiffness": "friction.tangential_stiffness",
     "slide": "friction.slide",
-    "slide_path": "friction.slide_path",
-    "load_cycle": "friction.slide_path",
+    "slide_path": "friction.slide",
+    "load_cycle": "friction.slide",
     "SlipCurve": "friction.slip_curve",
     "slide_curve": "friction.slip_curve",
     "Geometry": "halfspace.operators.geometry",
@@ -142,9 +142,9 @@ if TYPE_CHECKING:
     from roughcontact.files.read import read_line as read_line
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
+    from roughcontact.friction.slide import load_cycle as load_cycle
     from roughcontact.friction.slide import slide as slide
-    from roughcontact.friction.slide_path import load_cycle as load_cycle
-    from roughcontact.friction.slide_path import slide_path as slide_path
+    from roughcontact.friction.slide import slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve
     from roughcontact.friction.slip_curve import slide_curve as slide_curve
     from roughcontact.friction.slip_solution import TangentialSolution as TangentialSolution

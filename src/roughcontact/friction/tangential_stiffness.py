@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.slip_cg import Freedom, corrected
 from roughcontact.friction.slip_problem import shear_body
 from roughcontact.grid import Grid
@@ -18,10 +18,10 @@ from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
@@ -97,11 +97,11 @@ def tangential_stiffness(
     --------
     >>> import numpy as np
     >>> import roughcontact as rc
-    >>> grid, steel = rc.Grid((64, 64), 1e-6), rc.Solid(210e9, 0.3)
-    >>> disc = ~np.isnan(rc.shapes.flat_disc(grid, radius=20e-6).heights)
-    >>> stiffness = rc.tangential_stiffness(disc, grid, steel).matrix[0, 0]
-    >>> f"{stiffness / (2 * rc.reduced_shear_modulus(steel) * 20e-6):.1f} of 2 G* a"
-    '1.0 of 2 G* a'
+    >>> strip = np.zeros((16, 16), bool)
+    >>> strip[6:10, 2:14] = True  # four by twelve cells, the longer side along x
+    >>> along, across = np.diag(rc.tangential_stiffness(strip, rc.Grid((16, 16), 1e-6), rc.Solid(1e9, 0.3)).matrix)
+    >>> bool(along < across)
+    True
     """
     body = shear_body(grid, bodies, operator)
     cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
@@ -120,7 +120,7 @@ def frozen_shear(
     """Return what `tangential_stiffness` does, with whatever residual was reached."""
     if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
-    interface = Interface.of(operator, region)
+    interface = ContactCells.of(operator, region)
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
@@ -136,7 +136,7 @@ def frozen_shear(
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
     """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)

@@ -35,8 +35,7 @@ def half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
         free grid by shifting the influence function from cell to cell (the time of the matrix without its memory),
-        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`, and
-        fastest with Numba: ``pip install 'roughcontact[compiled]'``).
+        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`).
 
     Returns
     -------

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
@@ -19,6 +18,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.transforms import Convolution
 from roughcontact.validation import moderate, numeric
 
 __all__ = ["LayerOperator", "layer"]

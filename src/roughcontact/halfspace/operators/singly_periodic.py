@@ -9,9 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import fast_even_length
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
 from roughcontact.halfspace.influence.tables import Love, Tables
@@ -19,6 +17,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.transforms import Convolution, fast_even_length, padded_length
 from roughcontact.validation import numeric
 
 __all__ = ["Row", "SinglyPeriodicOperator", "singly_periodic"]
