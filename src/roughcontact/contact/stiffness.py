@@ -111,9 +111,18 @@ def contact_stiffness(
     ------
     ValueError
         If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
-        bounds.
+        range.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> disc = ~np.isnan(rc.shapes.flat_disc(grid, radius=20e-6).heights)
+    >>> f"{rc.contact_stiffness(disc, grid, 1e9) / (2 * 1e9 * 20e-6):.1f} of 2 E* a"
+    '1.0 of 2 E* a'
     """
     region, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
     body = body_on(grid, modulus, operator)
