@@ -21,7 +21,6 @@ _ROOMS = {
     "self_affine": "surface.fourier",
     "SelfAffineSpectrum": "surface.spectrum",
     "synthesise": "surface.fourier",
-    "RadialSpectrum": "surface.spectrum",
     "StretchedSpectrum": "surface.spectrum",
     "DirectionalSpectrum": "surface.spectrum",
     "Moments": "surface.moments",
@@ -86,7 +85,7 @@ _ROOMS = {
     "Depth": "solver.control",
     "ContactProblem": "contact.problem",
     "Solution": "contact.solution",
-    "Status": "solver.status",
+    "Status": "solver.control",
     "ConvergenceError": "contact.convergence",
     "ActiveSet": "solver.active_set",
     "PolonskyKeer": "solver.polonsky_keer",
@@ -213,7 +212,6 @@ if TYPE_CHECKING:
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.spectrum import DirectionalSpectrum as DirectionalSpectrum
-    from roughcontact.surface.spectrum import RadialSpectrum as RadialSpectrum
     from roughcontact.surface.spectrum import SelfAffineSpectrum as SelfAffineSpectrum
     from roughcontact.surface.spectrum import StretchedSpectrum as StretchedSpectrum
     from roughcontact.surface.surface import Surface as Surface

@@ -115,7 +115,7 @@ def test_curve_dataset_holds_the_curve(curve):
     assert dataset.resolved.dtype == bool
     assert list(dataset.status.to_numpy()) == ["converged"] * 3
     assert dataset.modulus == MODULUS
-    assert dataset.saturation == curve.saturation
+    assert dataset.full_contact_stiffness == curve.full_contact_stiffness
 
 
 def test_the_classes_hand_out_the_same(solution, curve):

@@ -208,7 +208,7 @@ def test_masks_that_make_no_sense():
         (some.tolist(), np.zeros((4, 4)), "not zero"),
     ]:
         with pytest.raises(ValueError, match=message):
-            rc.prescribed_displacement(operator, region, u)
+            rc.prescribed_displacement(region, u, operator=operator)
 
 
 def test_missing_cells_leave_a_periodic_surface_a_way_out():
@@ -309,7 +309,7 @@ def test_two_moduli_are_one_too_many(kind):
         "foundation": lambda: rc.foundation(rows, 2.0),
     }
     method = kind if kind in ("dense", "moving-grid", "multilevel") else "fft"
-    operator = operators.get(kind, lambda: rc.half_space(grid, 2.0, method))()
+    operator = operators.get(kind, lambda: rc.half_space(grid, 2.0, method=method))()
     heights = np.random.default_rng(0).random(operator.grid.shape)
     body = rc.RadialProfile(heights, rings) if kind == "ring" else rc.Surface(heights, operator.grid)
     assert rc.press(body, 2.0, force=0.1, operator=operator).status.converged

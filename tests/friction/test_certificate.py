@@ -22,7 +22,7 @@ def certificate(answer, before, method="dense"):
     """Return the largest violation over the largest displacement, by loops over the cells in contact."""
     problem = answer.problem
     bodies = problem.bodies if isinstance(problem.bodies, tuple) else (problem.bodies,)
-    dense = shear_half_space(problem.pressed.problem.grid, *bodies, method=method)
+    dense = shear_half_space(problem.pressed.problem.grid, bodies, method=method)
     now = dense.apply(answer.traction) - answer.displacement[:, None, None]
     then = np.zeros_like(now) if before is None else before.slip
     largest = 0.0
@@ -82,10 +82,10 @@ def wide():
 
 
 SUMS = {
-    "moving-grid": lambda grid, bodies: shear_half_space(grid, *bodies, method="moving-grid"),
-    "multilevel": lambda grid, bodies: shear_half_space(grid, *bodies, method="multilevel"),
+    "moving-grid": lambda grid, bodies: shear_half_space(grid, bodies, method="moving-grid"),
+    "multilevel": lambda grid, bodies: shear_half_space(grid, bodies, method="multilevel"),
     "a rough sum, wrong by a thousandth": lambda grid, bodies: MultilevelShear(
-        shear_half_space(grid, *bodies), order=4, near=4
+        shear_half_space(grid, bodies), order=4, near=4
     ),
 }
 

@@ -102,8 +102,8 @@ def loading_curve(
 def suggested_forces(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
-    count: int = 30,
     *,
+    count: int = 30,
     operator: Operator | None = None,
 ) -> Array:
     """Return forces [N] over the range in which a rough surface is worth looking at.

@@ -20,8 +20,8 @@ from roughcontact.contact.stiffness import (
     cell_stiffness,
     elastic_contact,
     frozen_contact,
+    full_contact_stiffness,
     is_resolved,
-    saturation,
 )
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
@@ -229,10 +229,10 @@ class Solution:
 
     @cached_property
     def resolved(self) -> bool:
-        """Whether the stiffness stands above the one-cell artefact and below saturation."""
+        """Whether the stiffness stands above the one-cell artefact and below the full-contact stiffness."""
         size, cell = self._size_and_cell
         line = self.problem.geometry is Geometry.LINE
-        whole = self.problem.grid.lengths[0] if line else saturation(self.problem)
+        whole = self.problem.grid.lengths[0] if line else full_contact_stiffness(self.problem)
         return bool(is_resolved(np.asarray(size), cell, whole))
 
     @property

@@ -21,21 +21,21 @@ from roughcontact.validation import numeric
 
 __all__ = [
     "CELLS",
-    "SATURATED",
+    "FULL_CONTACT_SHARE",
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
     "elastic_contact",
     "frozen_contact",
+    "full_contact_stiffness",
     "is_resolved",
-    "saturation",
 ]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
+FULL_CONTACT_SHARE = 0.9  # above this part of the full-contact stiffness the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -130,8 +130,8 @@ def contact_stiffness(
 
 
 def is_resolved(size: Array, cell: float, whole: float) -> Mask:
-    """Return whether stiffnesses (of a line contact: widths) stand above a few cells and below saturation."""
-    return np.asarray((size >= CELLS * cell) & (size < SATURATED * whole))
+    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
+    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:
@@ -140,12 +140,12 @@ def cell_stiffness(operator: Operator) -> float:
     return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf
 
 
-def saturation(problem: ContactProblem) -> float:
+def full_contact_stiffness(problem: ContactProblem) -> float:
     """Return the stiffness with all measured cells in contact [N/m]; infinite for a whole periodic surface.
 
     To a thousandth in the displacement: enough for a limit.
     """
     measured = namespace(problem.separation).isfinite(problem.separation)
     return problem.once(
-        "saturation", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
+        "full_contact_stiffness", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
     )

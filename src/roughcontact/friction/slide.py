@@ -14,7 +14,6 @@ from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_problem import (
-    Bodies,
     Load,
     Pull,
     Shift,
@@ -26,6 +25,7 @@ from roughcontact.friction.slip_problem import (
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, Step
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import numeric
@@ -50,7 +50,8 @@ def slide(
 ) -> TangentialSolution:
     """Pull at a pressed contact whose pressure is held, and return what sticks and what slips, with a certificate.
 
-    Done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of theirs.
+    The work is done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of
+    theirs.
 
     Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
     opposed to the traction at its end: exact where slip does not turn within the step, as from rest along a line, or
@@ -85,6 +86,7 @@ def slide(
     Returns
     -------
     TangentialSolution
+        Traction, displacement, stick and slip, with their certificate.
 
     Raises
     ------
@@ -92,6 +94,16 @@ def slide(
         If the input makes no sense; the message names the value and the remedy.
     ConvergenceError
         If the tolerance was missed. It carries the solution.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> state = rc.slide(pressed, rubber, friction=0.5, force=0.25e-3)  # half of what friction holds
+    >>> f"{state.slip_area / pressed.contact_area:.1f} of the contact slips"
+    '0.4 of the contact slips'
     """
     make = make_problem if initial is None else partial(continued, initial.problem)
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)

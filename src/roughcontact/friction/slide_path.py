@@ -10,7 +10,6 @@ import numpy.typing as npt
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide import advance
 from roughcontact.friction.slip_problem import (
-    Bodies,
     Load,
     Pull,
     Shift,
@@ -20,6 +19,7 @@ from roughcontact.friction.slip_problem import (
 )
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.validation import number, numeric
 
 __all__ = ["Loads", "load_cycle", "slide_path"]
@@ -46,10 +46,20 @@ def slide_path(
 
     Parameters
     ----------
-    solution, bodies, friction, along, operator, tolerance
-        As for `slide`.
+    solution : Solution
+        The pressed contact, of a surface of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        Those it was pressed with; a single one against a rigid body.
+    friction : float
+        Coefficient of friction mu.
     forces, displacements : array, shape (n,) or (n, 2)
         Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+    along : pair of floats, optional
+        Direction (x, y) of the traction, see `slide`.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid, see `slide`.
+    tolerance : float
+        Largest residual.
 
     Yields
     ------
@@ -60,6 +70,17 @@ def slide_path(
     ------
     ValueError
         If the input makes no sense, at once and not at the first load.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> loads = rc.load_cycle(0.25e-3, steps=2)
+    >>> energies = [state.dissipated for state in rc.slide_path(pressed, rubber, friction=0.5, forces=loads)]
+    >>> len(energies), min(energies) >= 0
+    (10, True)
     """
     problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
     if (forces is None) == (displacements is None):
@@ -103,6 +124,17 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     -------
     array, shape (n,) or (n, 2)
         ``n = steps * (1 + 4 * cycles)`` loads; zero, where it begins, is not among them.
+
+    Raises
+    ------
+    ValueError
+        If `steps` is not a whole number from 1 up, or `cycles` not one from 0 up.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.load_cycle(1.0, steps=2).tolist()
+    [0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
     """
     if int(steps) != steps or steps < 1 or int(cycles) != cycles or cycles < 0:
         raise ValueError(f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}")

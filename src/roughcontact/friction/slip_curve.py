@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide_path import Loads, slide_path
-from roughcontact.friction.slip_problem import Bodies
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
 from roughcontact.validation import numeric
 
@@ -73,13 +73,25 @@ class SlipCurve:
         )
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an `xarray.Dataset` with units and long names."""
+        """Return the curve as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.friction.slip_dataset import slip_curve_dataset
 
         return slip_curve_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
-        """Return the curve as plain values, for JSON."""
+        """Return the curve as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.friction.slip_dataset import slip_curve_record
 
         return slip_curve_record(self)
@@ -97,7 +109,45 @@ def slide_curve(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> SlipCurve:
-    """Return displacement, slip area and dissipated energy along a path of loads; see `slide_path`."""
+    """Return displacement, slip area and dissipated energy along a path of loads; see `slide_path`.
+
+    Parameters
+    ----------
+    solution : Solution
+        The pressed contact, of a surface of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        Those it was pressed with; a single one against a rigid body.
+    friction : float
+        Coefficient of friction mu.
+    forces, displacements : array, shape (n,) or (n, 2)
+        Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+    along : pair of floats, optional
+        Direction (x, y) of the traction, see `slide`.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid, see `slide`.
+    tolerance : float
+        Largest residual.
+
+    Returns
+    -------
+    SlipCurve
+        One point for each load; fields are not kept.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> curve = rc.slide_curve(pressed, rubber, friction=0.5, forces=[0.1e-3, 0.2e-3, 0.3e-3])
+    >>> bool(curve.slip_area[0] < curve.slip_area[-1])
+    True
+    """
     path = slide_path(
         solution,
         bodies,

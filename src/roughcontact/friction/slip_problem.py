@@ -15,12 +15,11 @@ from roughcontact.friction.contact_cells import Interface
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
-from roughcontact.material import Solid, reduced_modulus
+from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import number
 
 __all__ = [
-    "Bodies",
     "Load",
     "Pull",
     "Shift",
@@ -33,7 +32,6 @@ __all__ = [
 
 Array = npt.NDArray[np.float64]
 
-Bodies = Solid | tuple[Solid, Solid]
 """Two solids; one has a rigid partner."""
 
 Load = float | Sequence[float] | Array
@@ -148,7 +146,7 @@ def make_problem(
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
         raise ValueError("the bodies do not touch: nothing to pull at; press them first")
-    modulus, stated = reduced_modulus(*_pair(bodies)), pressed.problem.modulus
+    modulus, stated = reduced_modulus(*pair_of(bodies)), pressed.problem.modulus
     if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:
         raise ValueError(
             f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa: press "
@@ -212,20 +210,10 @@ def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = N
         If the operator lies on another grid, or the grid has not two axes.
     """
     if operator is None:
-        return shear_half_space(grid, *_pair(bodies))
+        return shear_half_space(grid, bodies)
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the contact's {grid}")
     return operator
-
-
-def _pair(bodies: Bodies) -> tuple[Solid, Solid | None]:
-    if isinstance(bodies, Solid):
-        return bodies, None
-    if isinstance(bodies, tuple) and len(bodies) == 2:
-        return bodies
-    raise ValueError(
-        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
-    )
 
 
 def _unit(along: Sequence[float]) -> tuple[float, float]:

@@ -128,7 +128,13 @@ class TangentialSolution:
         return self.frozen.matrix
 
     def on_host(self) -> TangentialSolution:
-        """Return the same solution in NumPy's memory."""
+        """Return the same solution in NumPy's memory.
+
+        Returns
+        -------
+        TangentialSolution
+            The same object if it is there already.
+        """
         if is_numpy(self.traction):
             return self
         problem, pressed = self.problem, self.problem.pressed.on_host()
@@ -170,13 +176,25 @@ class TangentialSolution:
         )
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        """Return fields and numbers as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.friction.slip_dataset import tangential_dataset
 
         return tangential_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON."""
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.friction.slip_dataset import tangential_record
 
         return tangential_record(self)

@@ -11,9 +11,10 @@ import numpy.typing as npt
 from roughcontact.arrays import inner, namespace
 from roughcontact.friction.contact_cells import Interface
 from roughcontact.friction.slip_cg import Freedom, corrected
-from roughcontact.friction.slip_problem import Bodies, shear_body
+from roughcontact.friction.slip_problem import shear_body
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
@@ -53,7 +54,7 @@ class TangentialStiffness:
 
 
 def tangential_stiffness(
-    region: Mask,
+    mask: Mask,
     grid: Grid,
     bodies: Bodies,
     *,
@@ -67,7 +68,7 @@ def tangential_stiffness(
 
     Parameters
     ----------
-    region : bool array, shape ``grid.shape``
+    mask : bool array, shape ``grid.shape``
         The cells in contact, for instance ``solution.contact``. On arrays of other libraries the work is done where
         they live.
     grid : Grid
@@ -82,13 +83,13 @@ def tangential_stiffness(
     Raises
     ------
     ValueError
-        If the region does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
+        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
         axes, or if the tolerance is none.
     RuntimeError
         If the tolerance was not reached.
     """
     body = shear_body(grid, bodies, operator)
-    cells, tolerance = checked_region(region, grid.shape), checked_tolerance(tolerance)
+    cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
     frozen = frozen_shear(body, cells, tolerance=tolerance)
     if not frozen.residual <= tolerance:
         raise RuntimeError(

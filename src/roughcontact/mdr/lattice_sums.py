@@ -47,7 +47,7 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     Notes
     -----
     The thesis prints half of this and a limit of pi at H = 1. The sums belong to all waves of a square grid.
-    On a disc of waves the ratio is ``grid_moments(surface, ...).m0 / grid_moments(line, ...).m0``.
+    On a disc of waves the ratio is ``grid_moments(..., surface).m0 / grid_moments(..., line).m0``.
     """
     _check(hurst, modes)
     if modes is not None:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
-from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.validation import pair
 
@@ -146,7 +146,7 @@ class LineCurves:
     def resolved(self, mean: Mean = "arithmetic") -> npt.NDArray[np.bool_]:
         """Return the mask of loads whose mean stiffness is above 20 springs and below 90 % of all."""
         springs = self.mean_stiffness(mean) / (self.modulus * self.spacing)
-        return np.asarray((springs > CELLS) & (springs < SATURATED * self.points))
+        return np.asarray((springs > CELLS) & (springs < FULL_CONTACT_SHARE * self.points))
 
     def fit(self, mean: Mean = "arithmetic", window: tuple[float, float] | None = None) -> EnsembleFit:
         """Return the power law k ~ F^alpha (thesis, eq. 4.53) of the mean stiffness, with standard errors.

@@ -14,7 +14,8 @@ from roughcontact.cached import cached_property
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.kernels import buffers as room
 from roughcontact.kernels import planes
-from roughcontact.kernels.active_cells import Located, Region, lower, take_in, zeros_with_margins
+from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
 from roughcontact.solver import tuning
 from roughcontact.solver.inner_operator import InnerOperator
@@ -29,17 +30,17 @@ Mask = npt.NDArray[np.bool_]
 
 
 class CompiledVectors:
-    """The vectors of one inner solve; fields with `Located` addresses, and F as a list of groups of cells."""
+    """The vectors of one inner solve; fields with `Operand` addresses, and F as a list of groups of cells."""
 
     upper = None
 
     def __init__(
         self, inner: InnerOperator, weight: float, free: Field, residual: Field, base: Field
     ) -> None:
-        self._free = Located.of(free)  # with margins
+        self._free = Operand(free)  # with margins
         self._r, self._base = (self._located(field) for field in (residual, base))
         self._correction, self._s, self._q = self._zeros(), self._zeros(), self._r
-        self._r_free, self._z = Located.of(zeros_with_margins(free.shape, free.dtype)), self._r
+        self._r_free, self._z = Operand(zeros_with_margins(free.shape, free.dtype)), self._r
         self._inner, self._weight, self._theta = inner, weight, inner.diagonal_correction
         self._uses_w, self._lost = False, 0.0
         # Sums over F as the solve began: of the pressure, of its cells (this one is kept up to date), of r.
@@ -60,14 +61,14 @@ class CompiledVectors:
         """Return the vectors of a solve from an iterate, and their unit; see `scaled_vectors`."""
         start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in iterate)
         free, precision = np.ascontiguousarray(free, dtype=bool), inner.scaled(np.empty(0)).dtype
-        levels = planes.levels(separation, displacement, free)
+        levels = planes.level_range(separation, displacement, free)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(free.shape, precision)
         residual, base = (room.empty(free.shape, precision) for _ in range(2))
         given = separation, displacement, start, free
-        planes.narrow(*given, depth=depth, unit=unit, inside=inside, lacking=residual, base=base)
+        planes.scale_down(*given, depth=depth, unit=unit, inside=inside, lacking=residual, base=base)
         return cls(inner, weight, inside, residual, base), unit
 
     @property
@@ -99,7 +100,7 @@ class CompiledVectors:
         """Forget the constraint direction; return the area of F."""
         self._uses_w = False
         fields = self._base, self._correction, self._free, self._r
-        self._p_sum, self._count, self._r_sum = self._region.run("carried", 3, *fields)
+        self._p_sum, self._count, self._r_sum = self._region.run("masked_sums", 3, *fields)
         return self._weight * self._count
 
     def remove_mean(self, threshold: float) -> None:
@@ -114,7 +115,7 @@ class CompiledVectors:
     def bound_violation(self) -> float:
         """Return how far pressures are out of bounds at most."""
         fields = self._base, self._correction, self._free
-        return self._region.run("excess", 1, *fields, largest=True)[0]
+        return self._region.run("max_violation", 1, *fields, largest=True)[0]
 
     def constraint_direction(self) -> float:
         """Use w; return 1.w."""
@@ -122,7 +123,7 @@ class CompiledVectors:
         if self._w_sum is None:
             # With the Schur correction w is a constant part of M^-1 1, which cancels in all that is made of it.
             args = self._inverse_of_one, self._free, self._free, self._q, self._free, 0.0
-            self._w_sum = self._sums("weigh", 4, *args)[2]
+            self._w_sum = self._sums("correct_and_dot", 4, *args)[2]
         return self._w_sum
 
     def precondition(self) -> Preconditioned:
@@ -130,19 +131,19 @@ class CompiledVectors:
         self._z = self._inverse(self._r_free)
         one = self._inverse_of_one if self._theta or self._uses_w else self._z
         fields = self._z, self._free, self._r_free, self._q, one
-        rz, zq, z_sum, wq = self._sums("weigh", 4, *fields, self._theta)
+        rz, zq, z_sum, wq = self._sums("correct_and_dot", 4, *fields, self._theta)
         return Preconditioned(rz, zq, z_sum, wq)
 
     def update_direction(self, beta: float) -> Field:
         """Make s = z + beta s, and return it."""
-        self._region.run("turn", 0, self._s, self._z, beta)
+        self._region.run("xpay", 0, self._s, self._z, beta)
         return self.s
 
     def project(self, beta: float, mu: float, step: float) -> Projected:
         """Make s the step along z + beta s - mu w, projected onto the bounds."""
         w, mu = (self._inverse_of_one, mu) if self._uses_w else (self._z, 0.0)
         fields = self._base, self._correction, self._free, self._s, self._z, w
-        lost, lifted, force, w_lost = self._region.run("bound", 4, *fields, beta, mu, step)
+        lost, lifted, force, w_lost = self._region.run("project_step", 4, *fields, beta, mu, step)
         self._lost, self._count = self._lost + lost, self._count - lost
         if self._lost > tuning.STALE_CONSTRAINT_DIRECTION * self._count:
             self._forget_inverse_of_one()
@@ -158,25 +159,25 @@ class CompiledVectors:
         p_sum, rounding = self._p_sum + added, ROUNDINGS * float(np.finfo(self.s.dtype).eps)
         # In proportion to the pressure; where all cells of F are new they have none yet, and share alike.
         if p_sum > rounding * abs(self._p_sum):
-            self._region.run("share_out", 0, *fields, added / p_sum, 0.0)
+            self._region.run("subtract_affine", 0, *fields, added / p_sum, 0.0)
         else:
-            self._region.run("share_out", 0, *fields, 0.0, added / self._count)
+            self._region.run("subtract_affine", 0, *fields, 0.0, added / self._count)
 
     def inner_products(self, q: Field) -> Products:
         """Take q = A s; return the inner products of s, q and r."""
         self._q = self._located(q)
-        return Products(*self._sums("measure", 6, self._s, self._q, self._free, self._r))
+        return Products(*self._sums("dot_products", 6, self._s, self._q, self._free, self._r))
 
     def advance(self, alpha: float, mean: float) -> float:
         """Add alpha s to the pressure, subtract alpha (q - mean) from r; return the largest size of r on F."""
-        lower(self.r, self.q, alpha, mean)
+        subtract_shifted(self.r, self.q, alpha, mean)
         return self._advanced(alpha)
 
     def free_violated(self, threshold: float) -> float:
         """Free the cells whose residual is larger than a threshold; return the largest of these."""
         # Cells that drop out of the list of groups are never visited again.
-        self._region.run("forget", 0, self._s, self._free)
-        worst = take_in(self.free, self.r, threshold)
+        self._region.run("multiply", 0, self._s, self._free)
+        worst = mask_above(self.free, self.r, threshold)
         if worst:
             self.__dict__.pop("_region", None)
             self._forget_inverse_of_one()
@@ -184,22 +185,24 @@ class CompiledVectors:
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure that there is now."""
-        return planes.widen(np.ascontiguousarray(start, dtype=np.float64), self.correction, self.free, unit)
+        return planes.add_scaled(
+            np.ascontiguousarray(start, dtype=np.float64), self.correction, self.free, unit
+        )
 
-    def _located(self, field: Field) -> Located:
+    def _located(self, field: Field) -> Operand:
         if field.shape != self.free.shape:  # machine code checks no shape
             raise ValueError(f"a field of shape {field.shape} where {self.free.shape} is expected")
-        return Located.of(np.ascontiguousarray(field, dtype=self.free.dtype))
+        return Operand(np.ascontiguousarray(field, dtype=self.free.dtype))
 
-    def _zeros(self) -> Located:
-        return Located.of(room.zeros(self.free.shape, self.free.dtype))
-
-    @cached_property
-    def _region(self) -> Region:
-        return Region(self.free, (self._base.field, self.correction))
+    def _zeros(self) -> Operand:
+        return Operand(room.zeros(self.free.shape, self.free.dtype))
 
     @cached_property
-    def _inverse_of_one(self) -> Located:
+    def _region(self) -> ActiveCells:
+        return ActiveCells(self.free, (self._base.field, self.correction))
+
+    @cached_property
+    def _inverse_of_one(self) -> Operand:
         """M0^-1 1, with 1 on F: the constraint direction, and what the Schur correction is made of."""
         return self._inverse(self._free)
 
@@ -209,14 +212,14 @@ class CompiledVectors:
 
     def _advanced(self, alpha: float) -> float:
         fields = self._correction, self._r, self._r_free, self._s, self._free
-        return self._region.run("advance", 1, *fields, alpha, largest=True)[0]
+        return self._region.run("axpy_and_max", 1, *fields, alpha, largest=True)[0]
 
-    def _inverse(self, field: Located) -> Located:
+    def _inverse(self, field: Operand) -> Operand:
         """Return M0^-1 of a field that is zero outside F and has margins, without the Schur correction."""
         local: LocalInverse | None = getattr(self._inner, "local_inverse", None)
         if local is None:
             return self._located(self._inner.approximate_inverse(field.field))
         return self._located(local.on(self._region, field.field))
 
-    def _sums(self, name: str, count: int, *arguments: Located | float) -> list[float]:
+    def _sums(self, name: str, count: int, *arguments: Operand | float) -> list[float]:
         return [self._weight * one for one in self._region.run(name, count, *arguments)]

@@ -124,7 +124,7 @@ def _weak(operator: Operator, separation: Array, state: State, known: float) -> 
     if isinstance(own, float) and iterate.fits_machine_code(
         math.inf
     ):  # one pass; nearly always none is found
-        seen = planes.look(*iterate)
+        seen = planes.extremes(*iterate)
         assert seen is not None  # it was certified
         if min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement:
             return None

@@ -141,7 +141,7 @@ class Optimality:
         return min(relative, UNITS) if violation <= floor else relative
 
     def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
-        seen, depth = planes.look(*iterate), self.terms.depth
+        seen, depth = planes.extremes(*iterate), self.terms.depth
         if seen is None or (not seen.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:
@@ -163,7 +163,9 @@ def predict_free_set(
     """
     pressure, displacement, separation = iterate
     if iterate.fits_machine_code(terms.hardness):
-        free, count, dropped = planes.mark(*iterate, depth=depth, least=-allowed, own=self_influence)
+        free, count, dropped = planes.predict_active(
+            *iterate, depth=depth, least=-allowed, own=self_influence
+        )
         return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
     xp, carrying = namespace(pressure), pressure > 0
     gap = displacement + separation - depth

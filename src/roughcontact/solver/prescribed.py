@@ -62,10 +62,10 @@ class Prescribed:
 
 
 def prescribed_displacement(
-    operator: Operator,
-    region: Mask,
+    mask: Mask,
     displacement: float | Array,
     *,
+    operator: Operator,
     tolerance: float = 1e-8,
     max_steps: int = 5000,
     initial: Array | None = None,
@@ -76,11 +76,11 @@ def prescribed_displacement(
 
     Parameters
     ----------
-    operator : Operator
-    region : bool array
-        The cells that carry pressure; at least one.
+    mask : bool array
+        The region: the cells that carry pressure, at least one.
     displacement : float or array
         Their displacement [m]; values outside the region do not matter.
+    operator : Operator
     tolerance : float
         Largest error of the displacement, relative to its largest value; between 1e-14 and 1e-2.
     max_steps : int
@@ -97,7 +97,7 @@ def prescribed_displacement(
     RuntimeError
         If the tolerance was missed.
     """
-    answer = prescribe(operator, region, displacement, tolerance, max_steps, initial)
+    answer = prescribe(operator, mask, displacement, tolerance, max_steps, initial)
     if not answer.residual <= tolerance:
         remedy = "a larger tolerance" if answer.steps < max_steps else "more steps (max_steps)"
         raise RuntimeError(

@@ -42,7 +42,18 @@ class PowerLaw:
 
     @numeric
     def stiffness(self, force: float | Array) -> Array:
-        """Return the stiffness [N/m] at a `force` [N]."""
+        """Return the stiffness at given forces.
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force [N].
+
+        Returns
+        -------
+        array, the shape of `force`
+            Stiffness k [N/m].
+        """
         ratio = np.asarray(force, dtype=np.float64) / self.force_scale
         return np.asarray(self.stiffness_scale * self.prefactor * ratio**self.exponent)
 

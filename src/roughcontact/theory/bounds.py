@@ -10,7 +10,17 @@ import numpy.typing as npt
 from roughcontact.theory.punch.polygon import square
 from roughcontact.validation import Array, numeric, positive, require
 
-__all__ = ["CELL", "KING", "WINDOW", "cell", "king_saturation", "resolved", "saturation", "spring", "window"]
+__all__ = [
+    "CELL",
+    "KING",
+    "WINDOW",
+    "cell",
+    "full_contact_stiffness",
+    "king_full_contact_stiffness",
+    "resolved",
+    "spring",
+    "window",
+]
 
 # Of one square cell under uniform pressure, k/(E* spacing) = pi/K00 with K00 = 4 ln(1 + sqrt 2) (thesis, eq. 4.15).
 CELL = math.pi / (4 * math.log(1 + math.sqrt(2)))
@@ -51,7 +61,7 @@ def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
 
 
 @numeric
-def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+def full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     """Return the stiffness that no contact inside a square exceeds, 1.152298 E* L [N/m] (thesis, eqs 4.7 and 4.14).
 
     Parameters
@@ -65,10 +75,10 @@ def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
 
 
 @numeric
-def king_saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
-    """Return the saturation as the thesis prints it, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L [N/m] (eqs 4.7 and 4.14).
+def king_full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+    """Return the full-contact stiffness [N/m] as printed, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L (eqs 4.7 and 4.14).
 
-    0.9 % too low, see `saturation`: a converged result exceeds it. Only to redraw the thesis' figures.
+    0.9 % too low, see `full_contact_stiffness`: a converged result exceeds it. Only to redraw the thesis' figures.
 
     Parameters
     ----------
@@ -101,7 +111,7 @@ def window(
     Returns
     -------
     lowest, highest : float or array
-        `cells` times that of one cell (eq. 4.16), and the saturation (eq. 4.14).
+        `cells` times that of one cell (eq. 4.16), and the full-contact stiffness (eq. 4.14).
 
     Raises
     ------
@@ -109,7 +119,7 @@ def window(
         If nothing lies between: the grid is too coarse.
     """
     lowest = positive(cells, "cells") * cell(modulus, spacing)
-    highest = saturation(modulus, length)
+    highest = full_contact_stiffness(modulus, length)
     require(
         lowest < highest,
         f"{cells} single cells are stiffer than the whole square: the spacing must be below "

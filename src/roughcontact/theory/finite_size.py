@@ -11,7 +11,7 @@ are, and the stiffer one holds. Computed periodic surfaces (H = 0.8, 128 x 128 c
 and 1/8 of the side L, shortest waves L/32, means of six samples) have 0.9 to 1.8 times that stiffness, from
 F/(E* h L) = 0.001 to 3.
 
-Without a roll-off the surface is one cell, and both laws meet next to saturation: no load obeys a linear law.
+Without a roll-off the surface is one cell, and both laws meet next to full contact: no load obeys a linear law.
 """
 
 from __future__ import annotations

@@ -99,11 +99,11 @@ def stiffness(
     Raises
     ------
     ValueError
-        If H is out of range, or the force so large that the law passes the saturation 1.1523 E* L.
+        If H is out of range, or the force so large that the law passes the full-contact stiffness 1.1523 E* L.
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
-    return stiffness_scale * _below_saturation(zeta * f**alpha)
+    return stiffness_scale * _below_full_contact(zeta * f**alpha)
 
 
 @numeric
@@ -119,12 +119,12 @@ def force(
     Parameters
     ----------
     stiffness : float or array
-        Contact stiffness k, at most the saturation 1.1523 E* L [N/m].
+        Contact stiffness k, at most the full-contact stiffness 1.1523 E* L [N/m].
     hurst, rms, length, modulus : float or array
         See `stiffness`.
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
-    k = _below_saturation(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
+    k = _below_full_contact(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
     value: Array = force_scale * (k / zeta) ** (1 / alpha)
     return value
 
@@ -146,7 +146,7 @@ def depth(
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
-    _below_saturation(zeta * f**alpha)
+    _below_full_contact(zeta * f**alpha)
     value: Array = force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
     return value
 
@@ -173,7 +173,7 @@ def force_at_depth(
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     d = positive(depth, "depth [m]", zero=True) * stiffness_scale / force_scale
     f: Array = (zeta * (1 - alpha) * d) ** (1 / (1 - alpha))
-    _below_saturation(zeta * f**alpha)
+    _below_full_contact(zeta * f**alpha)
     return force_scale * f
 
 
@@ -270,12 +270,12 @@ def _hurst(hurst: npt.ArrayLike) -> Array:
     return h
 
 
-def _below_saturation(dimensionless_stiffness: Array) -> Array:
+def _below_full_contact(dimensionless_stiffness: Array) -> Array:
     """Return k/(E* L), unless it is more than the whole square has."""
     require(
         dimensionless_stiffness <= SQUARE.value,
-        f"the stiffness passes the saturation {SQUARE.value:.4f} E* L, which no contact inside the square exceeds; "
-        f"the law claims to hold up to a force of {FORCE_LIMIT} E* h L",
+        f"the stiffness passes the full-contact stiffness {SQUARE.value:.4f} E* L, which no contact inside the "
+        f"square exceeds; the law claims to hold up to a force of {FORCE_LIMIT} E* h L",
     )
     return dimensionless_stiffness
 

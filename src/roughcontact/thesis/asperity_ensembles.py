@@ -91,7 +91,7 @@ def greenwood_williamson_stiffness(
 ) -> np.typing.NDArray[np.float64]:
     """Return k/(E* L) of independent spheres with the moments of the surfaces (McCool) at forces F/(E* h L)."""
     grid = Grid((points, points), 1 / points, periodic=True)
-    moments = grid_moments(SelfAffineSpectrum(hurst).scaled(1.0, grid), grid)
+    moments = grid_moments(grid, SelfAffineSpectrum(hurst).scaled(1.0, grid))
     law = greenwood_williamson.law(moments, 1.0, 1.0)
     return np.asarray(law.quantities["interfacial_stiffness"](force))
 

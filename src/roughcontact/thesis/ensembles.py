@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.solver.control import Status
 from roughcontact.study.common import on_common
 from roughcontact.study.fit import fit_power_laws
@@ -112,7 +112,8 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     """Return the mean stiffness of surfaces, its standard error and its scatter, along what varies and the load.
 
     Loads that missed their tolerance have no part in it. ``resolved`` says where the mean stiffness is above 20 cells
-    and below 90 % of saturation. The attributes ``cells`` and ``surfaces`` count cells a side and samples.
+    and below 90 % of the full-contact stiffness. The attributes ``cells`` and ``surfaces`` count cells a side and
+    samples.
     """
     import xarray
 
@@ -130,7 +131,7 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     }
     for name, values, words in (
         ("cell_stiffness", low / CELLS, "k/(E* L) of one cell"),
-        ("saturation", high / SATURATED, "k/(E* L) of all cells"),
+        ("full_contact_stiffness", high / FULL_CONTACT_SHARE, "k/(E* L) of all cells"),
     ):
         found[name] = values.assign_attrs(long_name=words, units="1")
     return xarray.Dataset(

@@ -171,7 +171,7 @@ def _region(
     for n in CELLS:
         grid = Grid((n, n), FIELD / n)
         inside = mask(grid)
-        punched = prescribed_displacement(half_space(grid, 1.0), inside, 1.0)
+        punched = prescribed_displacement(inside, 1.0, operator=half_space(grid, 1.0))
         # The cells cover a little more or less than the region; a stiffness is a length.
         stiffness.append(punched.force * math.sqrt(area / (inside.sum() * grid.cell_area)))
     coarse, fine = stiffness

@@ -67,9 +67,9 @@ def verdicts(data: Array) -> tuple[Verdict, ...]:
     limit = data[-1]
     points = 129
     surface, own = SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
-    variance = grid_moments(surface, Grid((points, points), 1 / points)).m0
+    variance = grid_moments(Grid((points, points), 1 / points), surface).m0
     shares = [
-        grid_moments(line_spectrum(surface, factor), Grid(points, 1 / points)).m0 / variance
+        grid_moments(Grid(points, 1 / points), line_spectrum(surface, factor)).m0 / variance
         for factor in (own, own / 2)
     ]
     return (

@@ -60,7 +60,7 @@ def cutoff_study(scale: Scale) -> Study:
     sizes = _SIZES[scale]
     waves = [8 * 2**i for i in range(5) if 8 * 2**i * LEAST <= sizes[-1]]
     rows = [
-        {"points": points, "shortest": 1 / count}
+        {"points": points, "short_cutoff": 1 / count}
         for points in sizes
         for count in waves
         if points >= LEAST * count
@@ -120,8 +120,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     found["cell_stiffness"] = same_for_all(given["cell_stiffness"])
     pressure = found["force"] * float(given["rms"].mean())
     found["persson"] = _persson(pressure, slope)
-    waves = (1 / given["shortest"]).round().astype(int)
-    indexed = apart(found).drop_vars("shortest").assign_coords(waves=("row", waves.values))
+    waves = (1 / given["short_cutoff"]).round().astype(int)
+    indexed = apart(found).drop_vars("short_cutoff").assign_coords(waves=("row", waves.values))
     told = {"surfaces": exported.sizes["sample"]}
     return indexed.set_index(row=["points", "waves"]).unstack("row").assign_attrs(told)
 
@@ -134,11 +134,11 @@ def _whole(exported: xarray.Dataset) -> xarray.DataArray:
     grid = Grid((points, points), 1 / points)
 
     def height(hurst: float, shortest: float) -> float:
-        return grid_moments(SelfAffineSpectrum(hurst, short_cutoff=shortest), grid).rms_height
+        return grid_moments(grid, SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
 
     rows = [
         [height(hurst, shortest) for hurst in exported["hurst"].values]
-        for shortest in exported["shortest"].values
+        for shortest in exported["short_cutoff"].values
     ]
     heights = xarray.DataArray(rows, dims=("row", "hurst"))
     return heights / heights.isel(row=-1)

@@ -59,7 +59,7 @@ def studies(scale: Scale) -> tuple[Study, ...]:
                 "modulus": 1.0,
                 "hurst": HURST,
                 "rms": 0.01,
-                "shortest": 4 / points,
+                "short_cutoff": 4 / points,
                 "lowest_force": LOADS[0],
                 "highest_force": LOADS[1],
                 "loads": 41,

@@ -68,7 +68,7 @@ _THEORIES = ("persson", "gw")
 def studies(scale: Scale) -> tuple[Study, ...]:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
     points = _POINTS[scale]
-    rows: list[dict[str, Any]] = [{"cutoff": 1 / each} for each in CUTOFF]
+    rows: list[dict[str, Any]] = [{"long_cutoff": 1 / each} for each in CUTOFF]
     rows += [{"rolloff": 1 / each} for each in ROLLOFF]
     return (
         Study(
@@ -82,7 +82,7 @@ def studies(scale: Scale) -> tuple[Study, ...]:
                 "modulus": 1.0,
                 "hurst": HURST,
                 "rms": _RMS,
-                "shortest": 4 / points,
+                "short_cutoff": 4 / points,
                 "lowest_force": 1e-3,
                 "highest_force": 3.0,
                 "loads": 17,
@@ -112,7 +112,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
     force = given["dimensionless_force"]
     interfacial, area = given["interfacial_stiffness"], given["contact_area"]
-    cutoff, rolloff = given["cutoff"], given["rolloff"]
+    cutoff, rolloff = given["long_cutoff"], given["rolloff"]
     length = cutoff.fillna(rolloff)
     model = _of_cells(given["below"].isel(periodic=1, drop=True) / _RMS, length, force)
     cells, decay = model["cells"], model["decay"]
@@ -144,7 +144,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     found["long"] = "row", (1 / length.values).round().astype(int)
     found["kind"] = "row", np.where(np.isnan(cutoff.values), "roll-off", "cut-off")
     told = {"surfaces": exported.sizes["sample"], "points": int(exported["points"])}
-    return found.drop_vars(["cutoff", "rolloff"]).assign_attrs(told)
+    return found.drop_vars(["long_cutoff", "rolloff"]).assign_attrs(told)
 
 
 def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray) -> xarray.Dataset:
@@ -187,8 +187,8 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
     found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
     for row in range(shape[0]):
         longest = {
-            keyword: float(value)
-            for keyword, name in (("long_cutoff", "cutoff"), ("rolloff", "rolloff"))
+            name: float(value)
+            for name in ("long_cutoff", "rolloff")
             if np.isfinite(value := exported[name].values[row])
         }
         surface = self_affine(
@@ -196,7 +196,7 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
             HURST,
             _RMS,
             np.random.default_rng(0),
-            short_cutoff=float(exported["shortest"]),
+            short_cutoff=float(exported["short_cutoff"]),
             **longest,  # type: ignore[arg-type]
         )
         for name, law in zip(_THEORIES, loading_laws(surface, 1.0, _THEORIES), strict=True):

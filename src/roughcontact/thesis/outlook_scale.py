@@ -73,8 +73,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     """
     given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
     fine = given.isel(row=np.flatnonzero(given["points"] == given["points"].max()))
-    fine = fine.assign_coords(row=(1 / fine["shortest"]).round().astype(int).values).rename(row="waves")
-    fine = fine.drop_vars(["points", "shortest"])
+    fine = fine.assign_coords(row=(1 / fine["short_cutoff"]).round().astype(int).values).rename(row="waves")
+    fine = fine.drop_vars(["points", "short_cutoff"])
     loads, hurst, waves = fine["dimensionless_force"], fine["hurst"], fine["waves"]
     # The side cancels: k/(E* L) over (F/(E* h L))^(1/(H+1)).
     zeta = fine["dimensionless_stiffness"] * loads ** (-1 / (hurst + 1))
@@ -125,12 +125,12 @@ def _octave(exported: xarray.Dataset) -> xarray.DataArray:
 
     def part(hurst: float, shortest: float) -> float:
         longest, every = (
-            grid_moments(SelfAffineSpectrum(hurst, short_cutoff=each), grid).rms_height
+            grid_moments(grid, SelfAffineSpectrum(hurst, short_cutoff=each)).rms_height
             for each in (OCTAVE, shortest)
         )
         return longest / every
 
-    waves = np.unique((1 / exported["shortest"].values).round().astype(int))
+    waves = np.unique((1 / exported["short_cutoff"].values).round().astype(int))
     rows = [[part(hurst, 1 / each) for each in waves] for hurst in exported["hurst"].values]
     found = xarray.DataArray(
         rows, dims=("hurst", "waves"), coords={"hurst": exported["hurst"].values, "waves": waves}

@@ -53,7 +53,7 @@ BODIES = {
     "layer": lambda: layer(rc.Grid(SHAPE, SPACING), RUBBER, 0.8, base="bonded"),
     "periodic layer": lambda: layer(rc.Grid(SHAPE, SPACING, True), RUBBER, 0.8, base="bonded"),
     "line": lambda: rc.line(rc.Grid(SHAPE[0] * SHAPE[1], 0.5), 2.0),
-    "moving grid": lambda: rc.half_space(rc.Grid(SHAPE, SPACING), 2.0, "moving-grid"),
+    "moving grid": lambda: rc.half_space(rc.Grid(SHAPE, SPACING), 2.0, method="moving-grid"),
 }
 
 

@@ -50,7 +50,7 @@ def pressures(shape):
 @pytest.mark.parametrize("name", GRIDS)
 def test_error(name):
     shape, spacing = GRIDS[name]
-    operator = rc.half_space(rc.Grid(shape, spacing), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid(shape, spacing), 2.0, method="multilevel")
     assert len(operator._hierarchy.levels) >= 2
     for pressure in pressures(shape).values():
         exact = operator.exact.apply(pressure)

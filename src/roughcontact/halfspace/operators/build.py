@@ -21,6 +21,7 @@ __all__ = ["body_on", "half_space"]
 def half_space(
     grid: Grid,
     modulus: float | Solid | tuple[Solid, Solid],
+    *,
     method: Literal["dense"] | Sum = "fft",
 ) -> Operator:
     """Return the elastic half-space on a grid of two axes.
