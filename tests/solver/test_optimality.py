@@ -47,7 +47,7 @@ def unheard_of(*_):
 @pytest.fixture
 def without_machine_code(monkeypatch):
     """Whoever asks it is wrong."""
-    for name in ("look", "mark"):
+    for name in ("extremes", "predict_active"):
         monkeypatch.setattr(planes, name, unheard_of)
 
 
@@ -181,7 +181,7 @@ def test_no_cell_in_contact_at_a_given_depth(depth):
         judged(operator, terms, nothing, nothing, s),
         generic(judged, operator, terms, nothing, nothing, s),
     ):
-        assert found == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
+        assert found[:3] == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
     for guess in (
         predict_free_set(terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
         generic(predict_free_set, terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
@@ -260,10 +260,12 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     p, u, s = np.random.default_rng(4).random((3, 5, 7))
     asked = []
     seen = SimpleNamespace(
-        look=lambda *given: asked.append("look") or planes.look(*given),
-        mark=lambda *given, **named: asked.append("mark") or planes.mark(*given, **named),
+        extremes=lambda *given: asked.append("extremes") or planes.extremes(*given),
+        predict_active=lambda *given, **named: (
+            asked.append("predict_active") or planes.predict_active(*given, **named)
+        ),
     )
     monkeypatch.setattr(optimality, "planes", seen)
     judged(plane((5, 7)), FORCE, p, u, s)
     predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=0.1)
-    assert asked == ["look", "mark"]
+    assert asked == ["extremes", "predict_active"]
