@@ -74,8 +74,8 @@ _ROOMS = {
     "TangentialStiffness": "friction.tangential_stiffness",
     "tangential_stiffness": "friction.tangential_stiffness",
     "slide": "friction.slide",
-    "slide_path": "friction.slide_path",
-    "load_cycle": "friction.slide_path",
+    "slide_path": "friction.slide",
+    "load_cycle": "friction.slide",
     "SlipCurve": "friction.slip_curve",
     "slide_curve": "friction.slip_curve",
     "Geometry": "halfspace.operators.geometry",
@@ -99,7 +99,7 @@ _ROOMS = {
     "Comparison": "contact.compare",
     "conductance": "contact.conduction",
     "loading_laws": "contact.theories",
-    "PowerLaw": "contact.curve",
+    "PowerLaw": "statistics.power_law",
     "read": "files.read",
     "read_line": "files.read",
     "read_curve": "files.read_curve",
@@ -110,12 +110,19 @@ _ROOMS = {
 }
 
 # Public names that are modules themselves.
-_MODULES = {"shapes": "surface.shapes", "theory": "theory", "mdr": "mdr", "study": "study"}
+_MODULES = {
+    "shapes": "surface.shapes",
+    "statistics": "statistics",
+    "theory": "theory",
+    "mdr": "mdr",
+    "study": "study",
+}
 
 __all__ = ["__version__", *_ROOMS, *_MODULES]
 
 if TYPE_CHECKING:
     from roughcontact import mdr as mdr
+    from roughcontact import statistics as statistics
     from roughcontact import study as study
     from roughcontact import theory as theory
     from roughcontact.contact.below import StressPeak as StressPeak
@@ -126,7 +133,6 @@ if TYPE_CHECKING:
     from roughcontact.contact.conduction import conductance as conductance
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
-    from roughcontact.contact.curve import PowerLaw as PowerLaw
     from roughcontact.contact.loading import loading_curve as loading_curve
     from roughcontact.contact.loading import loading_path as loading_path
     from roughcontact.contact.loading import suggested_forces as suggested_forces
@@ -142,9 +148,9 @@ if TYPE_CHECKING:
     from roughcontact.files.read import read_line as read_line
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
+    from roughcontact.friction.slide import load_cycle as load_cycle
     from roughcontact.friction.slide import slide as slide
-    from roughcontact.friction.slide_path import load_cycle as load_cycle
-    from roughcontact.friction.slide_path import slide_path as slide_path
+    from roughcontact.friction.slide import slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve
     from roughcontact.friction.slip_curve import slide_curve as slide_curve
     from roughcontact.friction.slip_solution import TangentialSolution as TangentialSolution
@@ -174,6 +180,7 @@ if TYPE_CHECKING:
     from roughcontact.solver.control import Status as Status
     from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
+    from roughcontact.statistics.power_law import PowerLaw as PowerLaw
     from roughcontact.surface import shapes as shapes
     from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
     from roughcontact.surface.analysis.correlation import structure_function as structure_function

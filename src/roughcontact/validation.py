@@ -20,6 +20,7 @@ __all__ = [
     "numeric",
     "pair",
     "positive",
+    "positive_scalar",
     "require",
     "require_numbers",
     "scalar",
@@ -123,6 +124,11 @@ def positive(value: npt.ArrayLike, what: str, *, zero: bool = False) -> Array:
         wanted = "finite and not negative" if zero else "positive and finite"
         raise ValueError(f"{what} must be {wanted}, not {np.asarray(x)[~right].flat[0]}")
     return x
+
+
+def positive_scalar(value: Any, what: str) -> float:
+    """Return one positive, finite number as a float, or refuse what is not."""
+    return float(positive(scalar(value, what), what))
 
 
 def whole(value: int, what: str) -> int:

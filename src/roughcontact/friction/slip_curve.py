@@ -7,22 +7,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
-from roughcontact.friction.slide_path import Loads, slide_path
+from roughcontact.friction.slide import Loads, slide_path
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["SlipCurve", "slide_curve"]
 
-Array = npt.NDArray[np.float64]
+# Attributes of a state that become columns of the curve.
+_COLUMNS = ("force", "displacement", "stick_area", "slip_area", "dissipated", "elastic_energy", "residual")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -162,34 +162,11 @@ def slide_curve(
 
 
 def collect(path: Iterable[TangentialSolution]) -> SlipCurve:
-    """Drain a path, of at least one load, into a curve; fields are not kept."""
-    points: list[tuple[float, ...]] = []
-    status: list[Status] = []
+    """Collect a path, of at least one load, into a curve; fields are not kept."""
+    rows, status = [], []
     for state in path:
-        points.append(_point(state))
+        rows.append([getattr(state, name) for name in _COLUMNS])
         status.append(state.status)
         capacity = state.problem.capacity
-    columns = np.array(points).T
-    return SlipCurve(
-        force=columns[0:2].T,
-        displacement=columns[2:4].T,
-        stick_area=columns[4],
-        slip_area=columns[5],
-        dissipated=columns[6],
-        elastic_energy=columns[7],
-        residual=columns[8],
-        status=tuple(status),
-        capacity=capacity,
-    )
-
-
-def _point(state: TangentialSolution) -> tuple[float, ...]:
-    return (
-        *state.force,
-        *state.displacement,
-        state.stick_area,
-        state.slip_area,
-        state.dissipated,
-        state.elastic_energy,
-        state.residual,
-    )
+    columns = {name: np.array(values) for name, values in zip(_COLUMNS, zip(*rows, strict=True), strict=True)}
+    return SlipCurve(**columns, status=tuple(status), capacity=capacity)

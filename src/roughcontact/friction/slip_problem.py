@@ -7,17 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.solution import Solution
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.validation import number
+from roughcontact.validation import Array, number, positive_scalar
 
 __all__ = [
     "Load",
@@ -29,10 +28,6 @@ __all__ = [
     "make_problem",
     "shear_body",
 ]
-
-Array = npt.NDArray[np.float64]
-
-"""Two solids; one has a rigid partner."""
 
 Load = float | Sequence[float] | Array
 """A force or a displacement: its components (x, y), or one number in the direction of the traction, by default x."""
@@ -73,7 +68,7 @@ class SlipProblem:
         The one direction (x, y), a unit vector, in which traction may act; without one it may turn.
     operator : ShearOperator
         Displacement [m] from traction [Pa] on the whole grid.
-    interface : Interface
+    interface : ContactCells
         The same on the cells in contact.
     tolerance : float
         Largest residual of a solution.
@@ -84,12 +79,11 @@ class SlipProblem:
     friction: float
     along: tuple[float, float] | None
     operator: ShearOperator
-    interface: Interface
+    interface: ContactCells
     tolerance: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.friction) and self.friction > 0):
-            raise ValueError(f"the friction coefficient must be positive and finite, not {self.friction}")
+        positive_scalar(self.friction, "the friction coefficient")
         checked_tolerance(self.tolerance)
 
     @property
@@ -154,7 +148,7 @@ def make_problem(
         )
     body = shear_body(pressed.problem.grid, bodies, operator)
     direction = None if along is None else _unit(along)
-    interface = Interface.of(body, pressed.contact, direction)
+    interface = ContactCells.of(body, pressed.contact, direction)
     return SlipProblem(pressed, bodies, float(friction), direction, body, interface, tolerance)
 
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.cached import cached_property
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import at_limit
 from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
 from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
@@ -18,13 +18,13 @@ from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["TangentialSolution"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
@@ -138,7 +138,7 @@ class TangentialSolution:
         if is_numpy(self.traction):
             return self
         problem, pressed = self.problem, self.problem.pressed.on_host()
-        interface = Interface.of(problem.operator, pressed.contact, problem.along)
+        interface = ContactCells.of(problem.operator, pressed.contact, problem.along)
         there = replace(problem, pressed=pressed, interface=interface)
         return replace(self, problem=there, traction=on_host(self.traction), slip=on_host(self.slip))
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.slip_cg import Freedom, corrected
 from roughcontact.friction.slip_problem import shear_body
 from roughcontact.grid import Grid
@@ -18,10 +18,10 @@ from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
@@ -80,13 +80,28 @@ def tangential_stiffness(
     tolerance : float
         Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
+    Returns
+    -------
+    TangentialStiffness
+        The matrix of force per displacement [N/m] and its residual.
+
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
-        axes, or if the tolerance is none.
+        If the mask does not fit the grid or holds other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is out of range.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> strip = np.zeros((16, 16), bool)
+    >>> strip[6:10, 2:14] = True  # four by twelve cells, the longer side along x
+    >>> along, across = np.diag(rc.tangential_stiffness(strip, rc.Grid((16, 16), 1e-6), rc.Solid(1e9, 0.3)).matrix)
+    >>> bool(along < across)
+    True
     """
     body = shear_body(grid, bodies, operator)
     cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
@@ -105,7 +120,7 @@ def frozen_shear(
     """Return what `tangential_stiffness` does, with whatever residual was reached."""
     if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
-    interface = Interface.of(operator, region)
+    interface = ContactCells.of(operator, region)
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
@@ -121,7 +136,7 @@ def frozen_shear(
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
     """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)

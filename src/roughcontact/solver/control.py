@@ -21,7 +21,24 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """Press until the contact carries `value` [N] (per unit length on a line [N/m])."""
+    """A prescribed normal force.
+
+    Parameters
+    ----------
+    value : float
+        Force that the contact carries [N], positive; on a line per unit length [N/m].
+
+    Raises
+    ------
+    ValueError
+        If the force is not positive and finite.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.Force(1.5)
+    Force(value=1.5)
+    """
 
     value: float
 
@@ -32,7 +49,24 @@ class Force:
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """Press until the bodies have approached by `value` [m] since first touch."""
+    """A prescribed indentation depth: the approach of the bodies since first touch.
+
+    Parameters
+    ----------
+    value : float
+        Depth [m], 0 or more.
+
+    Raises
+    ------
+    ValueError
+        If the depth is negative or not finite.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.Depth(1e-6)
+    Depth(value=1e-06)
+    """
 
     value: float
 

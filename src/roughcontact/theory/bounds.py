@@ -42,6 +42,17 @@ def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     spacing : float or array
         Side of the square cell [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.cell(1e11, 1e-6)), 1)
+    89110.7
     """
     return CELL * positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
@@ -56,6 +67,17 @@ def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     spacing : float or array
         Distance of the springs [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.spring(1e11, 1e-6)), 1)
+    100000.0
     """
     return positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
@@ -70,6 +92,17 @@ def full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Arr
         Reduced modulus E* [Pa].
     length : float or array
         Side L of the square [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.full_contact_stiffness(1e11, 1e-3) / 1e11 / 1e-3), 6)
+    1.152298
     """
     return square(modulus, length)
 
@@ -86,6 +119,17 @@ def king_full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -
         Reduced modulus E* [Pa].
     length : float or array
         Side L of the square [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.king_full_contact_stiffness(1.0, 1.0)), 4)
+    1.1419
     """
     scale = positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
     return 2 * KING / math.sqrt(math.pi) * scale
@@ -117,6 +161,13 @@ def window(
     ------
     ValueError
         If nothing lies between: the grid is too coarse.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> lowest, highest = bounds.window(1e11, 1e-3, 1e-6)
+    >>> round(float(highest / lowest), 1)  # 20 cells of a thousand a side: less than two decades
+    64.7
     """
     lowest = positive(cells, "cells") * cell(modulus, spacing)
     highest = full_contact_stiffness(modulus, length)
@@ -143,8 +194,25 @@ def resolved(
     ----------
     stiffness : float or array
         Contact stiffness k [N/m].
-    modulus, length, spacing, cells
-        See `window`.
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    length : float or array
+        Side L of the square [m].
+    spacing : float or array
+        Side of a cell [m].
+    cells : float
+        How many times the stiffness of one cell is enough.
+
+    Returns
+    -------
+    bool or array
+        True where k is at least the lowest stiffness of the window and below the highest.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> bounds.resolved([1e5, 1e7, 1e9], 1e11, 1e-3, 1e-6).tolist()
+    [False, True, False]
     """
     lowest, highest = window(modulus, length, spacing, cells=cells)
     k = positive(stiffness, "stiffness [N/m]", zero=True)

@@ -75,7 +75,20 @@ class Cell:
 
     @numeric
     def stiffness(self, force: float | Array, modulus: float) -> Array:
-        """Return the stiffness [N/m] if the cell carries the whole `force` [N]; `modulus` is E* [Pa]."""
+        """Return the stiffness [N/m] if the cell carries the whole `force` [N]; `modulus` is E* [Pa].
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force F [N].
+        modulus : float
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float or array
+            k [N/m].
+        """
         scale = positive(modulus, "the modulus [Pa]") * self.length
         ratio = positive(force, "the force [N]", zero=True) / (scale * self.rms)
         return np.asarray(scale * self.zeta * ratio ** (1 / (self.hurst + 1)))
@@ -92,6 +105,11 @@ class Cell:
             Reduced modulus E* [Pa].
         decay : float
             u0 [m], see `persson_separation.decay_length`.
+
+        Returns
+        -------
+        float
+            F [N].
         """
         scale = float(positive(modulus, "the modulus [Pa]")) * self.length * self.rms
         length = moderate(float(positive(decay, "the decay length [m]")), "the decay length [m]")
@@ -117,6 +135,11 @@ def law(
         Nominal area [m^2], at least that of a cell.
     gamma : float
         See `persson_separation`.
+
+    Returns
+    -------
+    LoadingLaw
+        "interfacial_stiffness".
 
     Raises
     ------

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from roughcontact.solver.control import Status
-from roughcontact.study.statistics import mean, standard_error
+from roughcontact.statistics.samples import mean, standard_error
 
 if TYPE_CHECKING:
     import xarray
