@@ -110,7 +110,7 @@ def checked_tolerance(tolerance: Any) -> float:
     Raises
     ------
     ValueError
-        If it is none.
+        If it is outside these limits.
     """
     value = scalar(tolerance, "tolerance")
     if not 1e-14 < value < 1e-2:
