@@ -62,10 +62,17 @@ class PublicName:
             return [] if self.value.__doc__ else ["GL08 a docstring"]
         lacks = _of_class(self.value) if inspect.isclass(self.value) else _of_function(self.value)
         doc = _parsed(self.value)
-        called = not inspect.isclass(self.value) or (doc["Parameters"] and not _never_called(self.value))
-        if self.path.count(".") == 1 and called and not doc["Examples"]:
+        if self._wants_example(doc) and not doc["Examples"]:
             lacks.append("EX01 an example")
         return lacks
+
+    def _wants_example(self, doc: NumpyDocString) -> bool:
+        """Return whether it is a function or class of the package itself, or a function of `theory` or `mdr`."""
+        of_package = self.path.count(".") == 1
+        if inspect.isclass(self.value):
+            return of_package and bool(doc["Parameters"]) and not _never_called(self.value)
+        is_method = "." in inspect.unwrap(self.value).__qualname__
+        return of_package or (self.room in ("theory", "mdr") and not is_method)
 
 
 def public_names() -> list[PublicName]:
