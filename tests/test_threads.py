@@ -19,8 +19,7 @@ from roughcontact import threads as threads_module
 from roughcontact import transforms
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.solver.control import Force
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Force, Status
 from roughcontact.threads import controller, join_in, limit_threads, once, one_blas_thread, spread, threads
 
 PATIENCE = 120  # [s], of a busy machine

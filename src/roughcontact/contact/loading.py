@@ -19,8 +19,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Control, Force
-from roughcontact.solver.state import Solver, Tangent
+from roughcontact.solver.control import Control, Force, Solver, Tangent
 from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
 from roughcontact.validation import number, numeric
 

@@ -12,8 +12,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.solver.control import Control, Depth, Force
-from roughcontact.solver.state import Solver
+from roughcontact.solver.control import Control, Depth, Force, Solver
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import scalar

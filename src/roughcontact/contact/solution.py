@@ -15,21 +15,20 @@ from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.stiffness import (
-    CELLS,
     FrozenContact,
     cell_stiffness,
     elastic_contact,
     frozen_contact,
     full_contact_stiffness,
-    is_resolved,
 )
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
+from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS
-from roughcontact.solver.status import Status
+from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import numeric
@@ -248,7 +247,7 @@ class Solution:
 
     @property
     def above_cells(self) -> bool:
-        """Whether the contact is so large that the surface speaks, and not the grid."""
+        """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell
 

@@ -14,29 +14,23 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
-from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
-from roughcontact.solver.state import Tangent
 from roughcontact.validation import numeric
 
 __all__ = [
-    "CELLS",
-    "FULL_CONTACT_SHARE",
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
     "elastic_contact",
     "frozen_contact",
     "full_contact_stiffness",
-    "is_resolved",
 ]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-FULL_CONTACT_SHARE = 0.9  # above this part of the full-contact stiffness the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -117,7 +111,7 @@ def contact_stiffness(
     ------
     ValueError
         If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
-        range.
+        bounds.
     RuntimeError
         If the tolerance was not reached.
 
@@ -138,11 +132,6 @@ def contact_stiffness(
             f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
         )
     return frozen.stiffness
-
-
-def is_resolved(size: Array, cell: float, whole: float) -> Mask:
-    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
-    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:

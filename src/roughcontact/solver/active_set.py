@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.bound_constrained_cg import inner_solve
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import State, Status, Tangent, Terms
 from roughcontact.solver.direct import press_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
@@ -31,8 +31,6 @@ from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, pr
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
-from roughcontact.solver.state import State, Tangent
-from roughcontact.solver.status import Status
 from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]

@@ -10,12 +10,10 @@ import numpy.typing as npt
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
-from roughcontact.solver.state import State
-from roughcontact.solver.status import Status
 from roughcontact.validation import require_numbers
 
 __all__ = ["PolonskyKeer"]
