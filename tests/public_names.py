@@ -21,22 +21,6 @@ from numpydoc.validate import Validator, validate
 import roughcontact
 from roughcontact.cached import cached_property
 
-# The rooms whose docstrings are complete and stay so; one that is not here is not checked.
-CHECKED = {
-    *(
-        "contact",
-        "files",
-        "friction",
-        "grid",
-        "halfspace",
-        "material",
-        "mdr",
-        "solver",
-        "statistics",
-        "surface",
-    ),
-    "theory",
-}
 # Of numpydoc's checks those of content: there is a docstring (GL08); it names the parameters of the signature, no
 # other, in their order, with a type (PR01, PR02, PR03, PR04); it says what is returned or yielded (RT01, YD01).
 # Layout is ruff's affair (GL, SS). A description of every parameter (PR07) would repeat types that say all, as in
@@ -137,7 +121,7 @@ def _of_class(cls: type) -> list[str]:
 
 
 def _entries(doc: NumpyDocString, section: str) -> set[str]:
-    return {name.strip() for entry in doc[section] for name in entry.name.split(",")}
+    return {name.strip().lstrip("*") for entry in doc[section] for name in entry.name.split(",")}
 
 
 if __name__ == "__main__":
