@@ -111,7 +111,7 @@ def contact_stiffness(
     ------
     ValueError
         If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
-        bounds.
+        range.
     RuntimeError
         If the tolerance was not reached.
 

@@ -86,7 +86,7 @@ def read_sur(data: bytes, file: str) -> HeightMap:
 
 
 def _header(data: bytes, file: str) -> Any:
-    """Return the header, with every statement that the data depend on checked."""
+    """Return the header; each of its statements on which the data depend is checked."""
     if not data.startswith((b"DIGITAL SURF", b"DSCOMPRESSED")) or len(data) < _HEADER.itemsize:
         raise ReadError(file, "it has no whole header of Digital Surf", _AGAIN)
     header = np.frombuffer(data, dtype=_HEADER, count=1)[0]
