@@ -87,8 +87,8 @@ def tangential_stiffness(
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
-        axes, or if the tolerance is none.
+        If the mask does not fit the grid or is given by other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is out of range.
     RuntimeError
         If the tolerance was not reached.
 
