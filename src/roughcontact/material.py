@@ -20,6 +20,13 @@ class Solid:
         Young's modulus [Pa]; infinite for a rigid body.
     poisson_ratio : float
         Poisson's ratio, above -1 and at most 1/2.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel = rc.Solid(young_modulus=210e9, poisson_ratio=0.3)
+    >>> f"{steel.shear_modulus / 1e9:.2f} GPa"
+    '80.77 GPa'
     """
 
     young_modulus: float
@@ -44,18 +51,63 @@ Bodies = Solid | tuple[Solid, Solid]
 
 
 def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced modulus E* of two solids [Pa] (thesis, eq. 4.3).
+    """Return the reduced modulus E* of two solids (thesis, eq. 4.3).
 
-    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Without a `second` solid the partner is rigid.
+    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Parameters
+    ----------
+    first : Solid
+    second : Solid, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is not a `Solid`, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> f"{rc.reduced_modulus(rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)) / 1e9:.2f} GPa"
+    '58.61 GPa'
     """
     compliance = sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _bodies(first, second))
     return _inverse(compliance)
 
 
 def reduced_shear_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced shear modulus G* of two solids [Pa] (beside thesis, eq. 4.5).
+    """Return the reduced shear modulus G* of two solids (beside thesis, eq. 4.5).
 
     1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2), so that k/k_t = E*/G* for a circle.
+
+    Parameters
+    ----------
+    first : Solid
+    second : Solid, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        G* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is not a `Solid`, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel = rc.Solid(210e9, 0.3)
+    >>> f"k/k_t = {rc.reduced_modulus(steel) / rc.reduced_shear_modulus(steel):.4f} = (1 - nu/2)/(1 - nu)"
+    'k/k_t = 1.2143 = (1 - nu/2)/(1 - nu)'
     """
     compliance = sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _bodies(first, second))
     return _inverse(compliance)

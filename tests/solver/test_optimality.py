@@ -47,7 +47,7 @@ def unheard_of(*_):
 @pytest.fixture
 def without_machine_code(monkeypatch):
     """Whoever asks it is wrong."""
-    for name in ("look", "mark"):
+    for name in ("extremes", "predict_active"):
         monkeypatch.setattr(planes, name, unheard_of)
 
 
@@ -260,10 +260,12 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     p, u, s = np.random.default_rng(4).random((3, 5, 7))
     asked = []
     seen = SimpleNamespace(
-        look=lambda *given: asked.append("look") or planes.look(*given),
-        mark=lambda *given, **named: asked.append("mark") or planes.mark(*given, **named),
+        extremes=lambda *given: asked.append("extremes") or planes.extremes(*given),
+        predict_active=lambda *given, **named: (
+            asked.append("predict_active") or planes.predict_active(*given, **named)
+        ),
     )
     monkeypatch.setattr(optimality, "planes", seen)
     judged(plane((5, 7)), FORCE, p, u, s)
     predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=0.1)
-    assert asked == ["look", "mark"]
+    assert asked == ["extremes", "predict_active"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.thesis.ensembles import (
     coarse_square_study,

@@ -50,7 +50,7 @@ class StressPeak:
     position : tuple of float
         Middle of the cell above it, ``(y, x)`` [m].
     resolved : bool
-        Whether it lies at least two cells below the surface. Nearer to it, the grid speaks: the stress is that of
+        Whether it lies at least two cells below the surface. Nearer to it the stress is that of
         uniformly loaded cells, and a finer grid has another.
     """
 
@@ -76,27 +76,58 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     Returns
     -------
     Stress
-        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)``, positive in tension; `von_mises`, `principal`,
+        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)`` [Pa], positive in tension; `von_mises`, `principal`,
         `largest_shear`.
 
     Raises
     ------
     ValueError
         If the solution is not that of a half-space under a surface, or depth or Poisson's ratio make no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> stress = rc.below(solution, 2e-6, rc.Solid(1e9, 0.3))
+    >>> f"{stress.von_mises.max() / 1e6:.1f} MPa"
+    '16.5 MPa'
     """
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
 @numeric
 def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
-    """Return the displacements at a depth, or at several, below a solved contact, as `below`.
+    """Return the displacements at a depth, or at several, below a solved contact.
 
     Of two bodies in contact it is the one that is given: their displacements add up to that of the surface.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a half-space under a surface, free or periodic along both axes.
+    depth : float or array, shape (nz,)
+        Depth below the surface [m], 0 or more.
+    solid : Solid
+        The body whose displacements are wanted, not rigid.
+
+    Returns
+    -------
+    Displacement
+        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)`` [m].
 
     Raises
     ------
     ValueError
-        As `below`, if the solid is rigid, or the solution periodic along one axis only.
+        As for `below`, if the solid is rigid, or the solution periodic along one axis only.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> rc.displacement_below(solution, [0.0, 3e-6], rc.Solid(1e9, 0.3)).z.shape
+    (2, 32, 32)
     """
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
@@ -105,18 +136,34 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
 def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     """Return the largest equivalent stress of von Mises below a solved contact, and where it is.
 
-    Depths from half a cell to the extent of the contact are looked at in steps, those next to the best one closer
+    Depths from half a cell to the extent of the contact are searched in steps, those next to the best one closer
     until the depth is known to a thousandth. Sideways the answer is that of a cell.
 
     Parameters
     ----------
-    solution, solid
-        As of `below`.
+    solution : Solution
+        Of a half-space under a surface, free or periodic.
+    solid : Solid or float
+        The body whose stresses are wanted, or its Poisson's ratio.
+
+    Returns
+    -------
+    StressPeak
+        The stress [Pa], its depth and its place.
 
     Raises
     ------
     ValueError
-        As `below`, or if nothing is in contact.
+        As for `below`, or if nothing is in contact.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> peak = rc.largest_von_mises(solution, 0.3)
+    >>> f"{peak.depth * 1e6:.1f} um below the surface"
+    '2.0 um below the surface'
     """
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import plain_values
 
 if TYPE_CHECKING:
-    from roughcontact.contact.curve import Curve
+    import xarray
 
-__all__ = ["Comparison", "Law", "compared"]
+__all__ = ["Comparison", "Law", "with_theories"]
 
 Array = npt.NDArray[np.float64]
 
@@ -69,7 +69,18 @@ class Comparison:
     predicted: Mapping[str, Array]
 
     def ratio(self, quantity: str) -> Array:
-        """Return predicted over computed, shape (n,); NaN where either is missing or nothing is computed."""
+        """Return predicted over computed values.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        array, shape (n,)
+            NaN where either is missing or the computed value is zero.
+        """
         computed = self.computed[quantity]
         there = np.isfinite(computed) & (computed != 0)
         return np.asarray(
@@ -77,20 +88,45 @@ class Comparison:
         )
 
     def deviation(self, quantity: str) -> float:
-        """Return the root mean square of ln(predicted/computed) over the `common` loads; NaN without any.
+        """Return the root mean square of ln(predicted/computed) over the `common` loads.
 
-        0.1 is about ten per cent.
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        float
+            0.1 is about ten per cent; NaN without a common load.
         """
         ratio = self.ratio(quantity)[self.common(quantity)]
         return float(np.sqrt(np.mean(np.log(ratio) ** 2))) if ratio.size else float("nan")
 
     def common(self, quantity: str) -> npt.NDArray[np.bool_]:
-        """Return the mask of the resolved loads at which the theory holds and both are above zero, shape (n,)."""
+        """Return the loads at which the two are compared.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        bool array, shape (n,)
+            True where the load is resolved, the theory holds and both values are positive.
+        """
         ratio = self.ratio(quantity)
         return np.asarray(self.resolved & np.isfinite(ratio) & (ratio > 0))
 
     def words(self) -> str:
-        """Return the deviation of every quantity, and on how many of the resolved loads it rests where not on all."""
+        """Return the deviations as a text.
+
+        Returns
+        -------
+        str
+            The deviation of every quantity, and on how many of the resolved loads it rests where not on all.
+        """
         resolved, parts = int(self.resolved.sum()), []
         for name in self.predicted:
             count = int(self.common(name).sum())
@@ -100,12 +136,18 @@ class Comparison:
         return ", ".join(parts) or "nothing in common"
 
     def to_record(self) -> dict[str, Any]:
-        """Return the comparison as plain values, for JSON; None where there is no number."""
+        """Return the comparison as plain values, for JSON; None where there is no number.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         return {
             "theory": self.name,
             "source": self.source,
-            "predicted": {name: _plain(values) for name, values in self.predicted.items()},
-            "deviation": {name: _plain(np.array(self.deviation(name))) for name in self.predicted},
+            "predicted": {name: plain_values(values) for name, values in self.predicted.items()},
+            "deviation": {name: plain_values(self.deviation(name)) for name in self.predicted},
             "loads_compared": {name: int(self.common(name).sum()) for name in self.predicted},
         }
 
@@ -114,36 +156,17 @@ class Comparison:
         return f"Comparison({self.name}: rms ln ratio {self.words()})"
 
 
-def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) -> Comparison:
-    """Return a theory's quantities at the loads of a curve beside the computed ones.
+def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:
+    """Return the dataset of a curve with what theories say as further columns along ``load``.
 
-    Raises
-    ------
-    ValueError
-        If the theory is none, or silent about a quantity that is named, the curve is that of a line contact, or has no
-        such quantity.
+    A column is named by the key of its comparison and the quantity: ``persson_contact_area``. Where a theory does not
+    hold it is NaN.
     """
-    if not hasattr(law, "quantities"):
-        raise ValueError(f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {law!r}")
-    if curve.geometry is Geometry.LINE:
-        raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
-    names = (
-        [name for name in law.quantities if hasattr(curve, name)] if quantities is None else list(quantities)
-    )
-    for name in names:
-        if not hasattr(curve, name):
-            raise ValueError(f"a curve has no {name!r}; {law.name} speaks of {sorted(law.quantities)}")
-    return Comparison(
-        law.name,
-        law.source,
-        curve.force,
-        curve.resolved,
-        {name: np.asarray(getattr(curve, name), dtype=np.float64) for name in names},
-        {name: law.predict(name, curve.force) for name in names},
-    )
-
-
-def _plain(values: Array) -> Any:
-    finite = values.astype(object)
-    finite[~np.isfinite(values)] = None
-    return finite.tolist()
+    columns = {}
+    for key, comparison in comparisons.items():
+        for quantity, values in comparison.predicted.items():
+            attributes = dict(dataset[quantity].attrs)
+            attributes["long_name"] = f"{attributes['long_name']}, by {comparison.name}"
+            attributes["references"] = comparison.source
+            columns[f"{key.replace('-', '_')}_{quantity}"] = (("load",), values, attributes)
+    return dataset.assign(columns)

@@ -15,8 +15,8 @@ from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.surface.analysis.cut import surface_spectrum
+from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
-from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, shown
 
@@ -30,7 +30,7 @@ def scan_spectrum(
     factor: float = math.pi,
     method: Literal["law", "abel"] = "law",
     hurst: float | None = None,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
     q_min: float | None = None,
     q_max: float | None = None,
     per_decade: float = 10,
@@ -51,7 +51,7 @@ def scan_spectrum(
         How the cut is inverted, see `roughcontact.surface_spectrum`.
     hurst : float, optional
         Hurst exponent of the law, see `roughcontact.surface_spectrum`; by default that of the scan.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `roughcontact.power_spectrum`.
     q_min, q_max : float, optional
         The band that counts [rad/m]. By default every wave of the scan: those of the scan's length too, whose powers

@@ -9,9 +9,12 @@ import numpy.typing as npt
 
 from roughcontact.validation import numeric
 
-__all__ = ["PowerLaw", "fit_power_law"]
+__all__ = ["FORCE_LIMIT", "ROUNDING", "PowerLaw", "fit_power_law"]
 
 Array = npt.NDArray[np.float64]
+
+FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
+ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +45,18 @@ class PowerLaw:
 
     @numeric
     def stiffness(self, force: float | Array) -> Array:
-        """Return the stiffness [N/m] at a `force` [N]."""
+        """Return the stiffness at given forces.
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force [N].
+
+        Returns
+        -------
+        array, the shape of `force`
+            Stiffness k [N/m].
+        """
         ratio = np.asarray(force, dtype=np.float64) / self.force_scale
         return np.asarray(self.stiffness_scale * self.prefactor * ratio**self.exponent)
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact import statistics
 from roughcontact.grid import Grid
-from roughcontact.study import statistics
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.surface.moments import grid_moments
 from roughcontact.surface.spectrum import SelfAffineSpectrum

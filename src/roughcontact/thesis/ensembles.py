@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
-from roughcontact.solver.status import Status
-from roughcontact.study.common import on_common
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import Window, window_of
+from roughcontact.solver.control import Status
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE, Window, window_of
+from roughcontact.statistics.samples import count, mean, scatter, standard_error
 from roughcontact.study.ranges import Range
-from roughcontact.study.statistics import count, mean, scatter, standard_error
 from roughcontact.study.study import Study
 from roughcontact.thesis.line_ensembles import line_averages, line_fits
 

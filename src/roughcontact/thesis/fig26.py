@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.plot.raster import TICK
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.thesis.ensembles import (
     curve_averages,
     curve_fits,

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import statistics
 from roughcontact.statistics.ensemble_mean import Mean
-from roughcontact.study import statistics
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import Window, resolved_window
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import Window, resolved_window
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
 from roughcontact.theory import gaussian_heights

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.mdr.calibration import force_ratio
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
+from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
-from roughcontact.study.bootstrap import counts_of
+from roughcontact.statistics.fit_window import CELLS
 
 if TYPE_CHECKING:
     import xarray

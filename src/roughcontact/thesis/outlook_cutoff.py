@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.grid import Grid
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.ticks import readable_ticks
-from roughcontact.study.common import on_common
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit_window import CELLS
 from roughcontact.study.study import Study
 from roughcontact.surface.moments import grid_moments
 from roughcontact.surface.spectrum import SelfAffineSpectrum

@@ -9,7 +9,7 @@ import numpy as np
 from roughcontact.grid import Grid
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.plot.ticks import readable_ticks
-from roughcontact.study.common import on_common
+from roughcontact.statistics.common_forces import on_common
 from roughcontact.study.study import Study
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.spectrum import SelfAffineSpectrum

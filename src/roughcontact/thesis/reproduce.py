@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughcontact.study.study import Study
-    from roughcontact.study.summary import Summary
-    from roughcontact.study.task import Executor
+    from roughcontact.study.task import Executor, Summary
 
 __all__ = ["STUDIES", "averages_of", "planned", "run_study", "store_of"]
 

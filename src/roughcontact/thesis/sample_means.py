@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from roughcontact.solver.status import Status
-from roughcontact.study.statistics import mean, standard_error
+from roughcontact.solver.control import Status
+from roughcontact.statistics.samples import mean, standard_error
 
 if TYPE_CHECKING:
     import xarray

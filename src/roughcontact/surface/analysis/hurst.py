@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
-from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import numeric
 
@@ -28,7 +28,7 @@ FINE = 200.0
 class HurstFit:
     """A self-affine law fitted to a surface.
 
-    Parameters
+    Attributes
     ----------
     hurst : float
         Hurst exponent H.
@@ -73,7 +73,18 @@ class HurstFit:
 
     @numeric
     def __call__(self, wavenumber: npt.ArrayLike) -> Array:
-        """Return the density of the law at the `wavenumber` [rad/m], zero outside its limits."""
+        """Return the density of the law, zero outside its limits.
+
+        Parameters
+        ----------
+        wavenumber : array
+            Wavenumbers [rad/m].
+
+        Returns
+        -------
+        array, the same shape
+            C2D [m^4] or C1D [m^3].
+        """
         q = np.asarray(wavenumber, dtype=np.float64)
         bent = q if self.rolloff is None else np.maximum(q, 2 * np.pi / self.rolloff)
         law = self.density * (bent / self.wavenumber) ** -self.exponent
@@ -91,7 +102,7 @@ def hurst_exponent(
     limit: Limit = "auto",
     q_min: float | None = None,
     q_max: float | None = None,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
 ) -> HurstFit:
     """Return the Hurst exponent of a surface or line from its power spectrum, with its standard error.
 
@@ -104,17 +115,28 @@ def hurst_exponent(
     q_min, q_max : float, optional
         The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
         should be cut where its instrument no longer follows, see `PowerSpectrum`.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `power_spectrum`.
 
     Returns
     -------
     HurstFit
+        The exponent, its standard error and the law.
 
     Raises
     ------
     ValueError
         If points are missing or the band holds too few waves.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> fit = rc.hurst_exponent(surface)
+    >>> f"H = {fit.hurst:.1f}, {fit.kind}"
+    'H = 0.8, C2D'
     """
     spectrum = power_spectrum(surface, "auto", window=window, per_decade=FINE)
     return fit_spectrum(spectrum, limit=limit, q_min=q_min, q_max=q_max)
@@ -149,11 +171,22 @@ def fit_spectrum(
     Returns
     -------
     HurstFit
+        The exponent, its standard error and the law.
 
     Raises
     ------
     ValueError
         If the band holds fewer than four bins, or no power.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> spectrum = rc.power_spectrum(surface, per_decade=200)
+    >>> f"H = {rc.fit_spectrum(spectrum, limit='none').hurst:.1f}"
+    'H = 0.8'
     """
     if limit not in ("auto", "none", "rolloff", "long_cutoff"):
         raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")

@@ -13,8 +13,8 @@ import numpy.typing as npt
 from scipy.optimize import least_squares
 from scipy.special import chdtri
 
+from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
-from roughcontact.surface.analysis.tapered_structure import tapered_structure
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 
@@ -97,6 +97,16 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     ------
     ValueError
         If the surface is a line, too small, or flat, an option is unknown, or a lag too long.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> fit = rc.fit_structure(surface)
+    >>> f"H = {fit.hurst:.1f}"
+    'H = 0.8'
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 32:

@@ -1,0 +1,104 @@
+"""Distributions of heights and of the contact pressure, drawn on axes that the caller owns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import cycle
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
+
+from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.surface.analysis.histogram import height_histogram
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from roughcontact.contact.solution import Solution
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["height_distribution", "pressure_distribution", "pressure_distribution_figure"]
+
+Array = npt.NDArray[np.float64]
+Density = Callable[[Array], Array]
+
+_BARS, _LINES = "#0072b2", ("#d55e00", "#009e73", "#cc79a7")
+_BEYOND = 0.999  # quantile of the pressure where the axis ends: a few cells at the edges of spots carry many times more
+
+
+def pressure_distribution(
+    axes: Axes, solution: Solution, theories: Mapping[str, Density] | None = None, bins: int = 60
+) -> None:
+    """Draw the probability density of the pressure over the nominal area, without the part that carries none.
+
+    Parameters
+    ----------
+    axes : Axes
+    solution : Solution
+        With at least one cell in contact.
+    theories : mapping of str to callable, optional
+        By name, the density [1/Pa] at pressures [Pa]; its integral is the theory's contact fraction.
+    bins : int
+        Number of bars.
+
+    Raises
+    ------
+    ValueError
+        If nothing is in contact.
+    """
+    solution = solution.on_host()
+    grid, unit = solution.problem.grid, unit_of("pressure", solution.problem.geometry)
+    pressures = solution.pressure[solution.contact]
+    if not pressures.size:
+        raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
+    end = float(np.quantile(pressures, _BEYOND)) * 1.05
+    x = scale(end, unit)
+    areas = np.broadcast_to(solution.problem.operator.weights, grid.shape)[solution.contact]
+    shares, edges = np.histogram(pressures, bins=bins, range=(0.0, end), weights=areas / grid.area)
+    density = shares / np.diff(edges)
+    computed = f"computed, {100 * solution.contact_fraction:.3g} % in contact"
+    axes.stairs(density / x.factor, edges * x.factor, fill=True, color=_BARS, alpha=0.45, label=computed)
+    stress = np.linspace(0.0, end, 400)
+    for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
+        axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
+    axes.set_title(f"nominal pressure {written(solution.force / grid.area, unit)}", fontsize=LABEL)
+    name = f"{VARIABLES['pressure'].label} [{x.unit}]"
+    _finish(axes, (0.0, end * x.factor), name, f"part of the nominal area [1/{x.unit}]")
+
+
+def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
+    """Return the distribution of the pressure and what theories say about it."""
+    figure = Figure(figsize=(5.6, 4.0), layout="constrained")
+    pressure_distribution(figure.subplots(), solution, theories)
+    return figure
+
+
+def height_distribution(axes: Axes, surface: Surface, bins: int = 60) -> None:
+    """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
+
+    A flat surface has no normal distribution; it is drawn without one.
+    """
+    found = height_histogram(surface, bins=bins)
+    reach = float(np.abs(found.edges).max())
+    z = scale(reach, VARIABLES["heights"].unit)
+    edges = found.edges * z.factor
+    axes.stairs(found.density / z.factor, edges, fill=True, color=_BARS, alpha=0.45, label="heights")
+    if found.rms > 0:
+        points = np.linspace(found.edges[0], found.edges[-1], 400)
+        label = f"normal, rms {written(found.rms, 'm')}"
+        axes.plot(
+            points * z.factor, found.gaussian(points) / z.factor, color=_LINES[0], linewidth=1.5, label=label
+        )
+    name = f"{VARIABLES['heights'].label} above the mean [{z.unit}]"
+    _finish(axes, (float(edges[0]), float(edges[-1])), name, f"probability density [1/{z.unit}]")
+
+
+def _finish(axes: Axes, limits: tuple[float, float], x: str, y: str) -> None:
+    axes.set_xlim(limits)
+    axes.set_ylim(bottom=0.0)
+    label_axes(axes, x, y)
+    axes.legend(fontsize=TICK, frameon=False)

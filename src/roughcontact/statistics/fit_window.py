@@ -1,0 +1,128 @@
+"""Which points of a loading curve the grid resolves, and which of them a power law is fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.statistics.power_law import FORCE_LIMIT
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = [
+    "CELLS",
+    "FULL_CONTACT_SHARE",
+    "Window",
+    "force_window",
+    "is_resolved",
+    "resolved_window",
+    "window_of",
+]
+
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
+FULL_CONTACT_SHARE = (
+    0.9  # above this part of the full-contact stiffness they are those of the finite size (eq. 4.14)
+)
+
+
+def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
+    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
+    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Window:
+    """Between which forces and which mean stiffnesses a power law is fitted, all without dimension.
+
+    Parameters
+    ----------
+    force : tuple of float
+        Lowest and highest F/(E* h L); both belong to the window.
+    stiffness : tuple of float or DataArray
+        Limits of the mean k/(E* L), outside the window; arrays have dimensions of the ensembles.
+    rule : str
+        The window in words.
+
+    Raises
+    ------
+    ValueError
+        If the forces do not go from one to a larger one.
+    """
+
+    force: tuple[float, float]
+    stiffness: tuple[Any, Any]
+    rule: str
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.force[0] < self.force[1]:
+            raise ValueError(f"a window goes from a dimensionless force to a larger one, not {self.force}")
+
+
+def force_window(lowest: float, highest: float) -> Window:
+    """Return the window between two dimensionless forces, whatever the stiffness."""
+    return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
+
+
+def resolved_window(cell: Any, full_contact_stiffness: Any, highest: float = FORCE_LIMIT) -> Window:
+    """Return the window of the thesis: stiffness above 20 cells (section 4.3), force up to 0.07 (section 4.5).
+
+    Parameters
+    ----------
+    cell, full_contact_stiffness : float or DataArray
+        k/(E* L) of a single cell and with all cells in contact, below 90 % of which the window ends: of N springs 1/N
+        and 1.
+    highest : float
+        Dimensionless force.
+    """
+    rule = (
+        f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "
+        f"force up to {highest:g}"
+    )
+    return Window((0.0, highest), (CELLS * cell, FULL_CONTACT_SHARE * full_contact_stiffness), rule)
+
+
+def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> Window:
+    """Return the window of the thesis for loading curves that say what a cell is.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        With ``stiffness``, ``dimensionless_stiffness``, ``cell_stiffness`` and ``full_contact_stiffness``.
+    samples : sequence of str
+        Dimensions of the samples.
+    points : str
+        Dimension of the forces.
+
+    Raises
+    ------
+    ValueError
+        If one is missing, or the curves are those of line contacts, which have no such window.
+    """
+    wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "full_contact_stiffness")
+    missing = [name for name in wanted if name not in dataset]
+    if missing:
+        raise ValueError(
+            f"the curves do not say what is resolved, for want of {', '.join(missing)}: give a window, "
+            "resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)"
+        )
+    if dataset.attrs.get("geometry") == Geometry.LINE.value:
+        raise ValueError(
+            "on a line it is not the stiffness that tells what is resolved: give a window, force_window(...)"
+        )
+    # E* L, whatever the body is; it has no meaning where both are zero or infinite.
+    stiffness = dataset["stiffness"]
+    scale = stiffness.where((stiffness > 0) & np.isfinite(stiffness)) / dataset["dimensionless_stiffness"]
+    cell, full_contact_stiffness = (
+        _mean(dataset[name] / _mean(scale, points), *samples) for name in wanted[2:]
+    )
+    return resolved_window(cell, full_contact_stiffness)
+
+
+def _mean(values: xarray.DataArray, *dims: str) -> xarray.DataArray:
+    return values.mean([d for d in dims if d in values.dims])

@@ -1,0 +1,222 @@
+"""Files that declare more than the memory holds are refused before it is allocated; endless reading is ended."""
+
+import io
+import time
+import tracemalloc
+import warnings
+import zipfile
+from types import SimpleNamespace
+
+import numpy as np
+import psutil
+import pytest
+
+import roughcontact as rc
+from roughcontact.files import file_bounds as bounds
+from roughcontact.files.content import needed
+from roughcontact.files.file_bounds import BoundedStream, require_memory
+from roughcontact.files.file_errors import SurfaceWarning
+from roughcontact.files.read import channels
+
+GIVEN = {"unit": "um", "size": 1e-3}
+DATA = bytes(range(256)) * 4
+
+
+@pytest.fixture
+def free(monkeypatch):
+    """Set the memory that is free [bytes]."""
+
+    def have(size):
+        monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=size))
+
+    return have
+
+
+@pytest.fixture
+def small():
+    """Fail where more than 100 MB are allocated at a time."""
+    tracemalloc.start()
+    yield
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 1e8
+
+
+def test_what_is_free_suffices(free):
+    free(1000)
+    require_memory(1000, "a.npy")
+    with pytest.raises(rc.ReadError, match=r"a\.npy: reading it needs 1e-06 GB of memory, and 1e-06 GB are"):
+        require_memory(1001, "a.npy")
+
+
+@pytest.mark.usefixtures("small")
+@pytest.mark.parametrize("name", ["a.npy", "a.sur", "a.txt", "a.nc", "a.unknown"])
+def test_a_file_beyond_the_memory_is_not_read(tmp_path, free, name):
+    with open(tmp_path / name, "wb") as stream:  # it takes no room on the disk
+        header = {"descr": "<f4", "fortran_order": False, "shape": (20000, 20000)}
+        np.lib.format.write_array_header_1_0(stream, header)
+        stream.truncate(1_600_000_000)
+    free(8e9)
+    for function in (rc.read, rc.read_line, rc.read_curve, channels):
+        # Twenty-five times 1.6 GB; of the array the header tells: 128 bytes of it lack 32 points.
+        with pytest.raises(
+            rc.ReadError, match=r"needs (40|41\.6) GB of memory, and 8 GB are free; cut the map"
+        ):
+            function(tmp_path / name)
+
+
+@pytest.mark.usefixtures("small")
+def test_archives_count_unpacked(tmp_path, free):
+    """Zeros, a thousandth of their size when they are packed: as an array, in X3P, and for a foreign reader."""
+    zeros = io.BytesIO()
+    np.save(zeros, np.zeros((2000, 2500), np.uint8))
+    free(1e8)
+    for name, member in (("a.npz", "heights.npy"), ("a.x3p", "main.xml"), ("a.plux", "index.xml")):
+        with zipfile.ZipFile(tmp_path / name, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr(member, zeros.getvalue())
+        assert (tmp_path / name).stat().st_size < 1e4
+        with pytest.raises(rc.ReadError, match=r"reading it needs 0\.\d+ GB of memory"):
+            rc.read(tmp_path / name, **GIVEN)
+
+
+@pytest.mark.usefixtures("small")
+def test_a_member_that_holds_more_than_it_declares_is_not_unpacked(put):
+    packed = io.BytesIO()
+    with (
+        zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive,
+        archive.open("main.xml", "w") as member,
+    ):
+        for _ in range(500):
+            member.write(bytes(1_000_000))
+    data = bytearray(packed.getvalue())
+    directory = data.rindex(b"PK\1\2")
+    for place in (22, directory + 24):  # the size unpacked, before the member and in the directory
+        data[place : place + 4] = (1000).to_bytes(4, "little")
+    with pytest.raises(rc.ReadError, match="archive is damaged"):
+        rc.read(put("a.x3p", bytes(data)))
+
+
+def test_other_methods_of_packing_are_refused(tmp_path):
+    for method in (zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA):
+        with zipfile.ZipFile(tmp_path / "a.x3p", "w", method) as archive:
+            archive.writestr("main.xml", "<a/>")
+        with pytest.raises(rc.ReadError, match=r"main\.xml is compressed by method"):
+            rc.read(tmp_path / "a.x3p")
+
+
+@pytest.mark.parametrize("name", ["a.npy", "a.npz", "a.x3p", "a.plux"])
+def test_damage_is_left_to_the_reader(name):
+    for content in (b"PK\x03\x04 no such thing", b"PK\x05\x06" + bytes(17), b"\x93NUMPY\1\0\xff\xff", b"\0"):
+        assert needed(io.BytesIO(content), len(content), name) <= 100 * len(content)
+
+
+@pytest.mark.parametrize("kind", ["f4", "f8", "u1"])
+def test_reading_stays_within_what_was_asked_for(tmp_path, kind):
+    path = tmp_path / "a.npy"
+    np.save(path, np.random.default_rng(1).integers(0, 99, (700, 700)).astype(kind))
+    with open(path, "rb") as stream:
+        need = needed(stream, path.stat().st_size, "a.npy")
+    tracemalloc.start()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SurfaceWarning)  # white noise is no surface
+        rc.read(path, **GIVEN)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert 0.5 * need < peak < need
+
+
+def test_what_shows_only_in_the_file_counts_as_well(put, free, monkeypatch):
+    """A text of short numbers holds more points than one of every four bytes."""
+    path = put("a.txt", ("1 2 3 4 5 6 7 8\n" * 1000))
+    free(25 * path.stat().st_size)
+    with pytest.raises(rc.ReadError, match=r"reading it needs 0\.000672 GB"):  # 84 bytes for each of 8000
+        rc.read(path, **GIVEN)
+
+
+def test_it_is_read_like_any_binary_file():
+    stream = BoundedStream(DATA, "surface.any")
+    assert stream.read(3) == DATA[:3]
+    assert stream.read1(2) == DATA[3:5]
+    buffer = bytearray(4)
+    assert stream.readinto(buffer) == 4
+    assert bytes(buffer) == DATA[5:9]
+    assert stream.readline() == DATA[9:11]  # to the line feed
+    assert stream.read() == DATA[11:]
+    stream.seek(0)
+    # Latin-1, so that every byte is a letter.
+    assert io.TextIOWrapper(stream, encoding="latin-1", newline="").read().encode("latin-1") == DATA
+
+
+def test_it_knows_what_was_not_read():
+    stream = BoundedStream(DATA, "surface.any")
+    stream.seek(100)
+    stream.read(24)
+    stream.seek(0)
+    stream.read(10)
+    assert stream.unread == len(DATA) - 124
+    stream.forget()
+    stream.read(1)
+    assert stream.unread == len(DATA) - 11
+
+
+def read_again(stream):
+    stream.seek(0)
+    return stream.read(100)
+
+
+@pytest.mark.parametrize(("limit", "value"), [("_BYTES", 50_000), ("_CALLS", 500)])
+def test_reading_for_ever_is_ended_for_good(monkeypatch, limit, value):
+    for name in ("_TIMES", limit):
+        monkeypatch.setattr(bounds, name, 0 if name == "_TIMES" else value)
+    monkeypatch.setattr(bounds, "_BYTES_A_CALL", len(DATA) + 1)
+    stream = BoundedStream(DATA, "surface.any")
+    for _ in range(500):  # of 100 bytes
+        read_again(stream)
+    for _ in range(3):
+        with pytest.raises(RuntimeError, match="round in circles"):
+            read_again(stream)
+
+
+@pytest.fixture
+def measured(surfaces):
+    pytest.importorskip("SurfaceTopography")
+    return lambda name: (surfaces / name).read_bytes()
+
+
+def test_a_header_that_leads_to_itself_is_refused(measured, put):
+    """Bytes of a TIFF whose list of pages, spoilt in one place, has no end."""
+    data = bytearray(measured("Park_20210916_034.tiff"))
+    for place in np.random.default_rng(44).integers(0, 2000, 20):
+        data[place] ^= 1 << int(place) % 8
+    started = time.monotonic()
+    with pytest.raises(rc.ReadError):
+        rc.read(put("a.tiff", bytes(data)))
+    assert time.monotonic() - started < 30
+
+
+def test_a_wrong_number_of_rows_shows_at_the_end_of_the_file(measured, put):
+    data = bytearray(measured("valid_zygo_dat_file.dat"))
+    assert data[70:72] == (432).to_bytes(2, "big")
+    data[70:72] = (304).to_bytes(2, "big")
+    with pytest.warns(SurfaceWarning, match="217600 bytes at its end belong to no channel"):
+        rc.read(put("a.dat", bytes(data)))  # 128 rows of 425 points of 4 bytes
+
+
+def test_a_wrong_number_of_columns_shows_in_the_last_channel(measured, put):
+    data = measured("mi-1.mi").replace(b"xPixels       256", b"xPixels       276")
+    with pytest.warns(SurfaceWarning, match="its last channel is not all there"):
+        rc.read(put("a.mi", data))
+
+
+def test_heights_upside_down_are_refused(measured, put):
+    data = bytearray(measured("valid_zygo_dat_file.dat"))
+    data[164] ^= 0x80  # the sign of the factor of the interferometer
+    with pytest.raises(rc.ReadError, match=r"states a factor of -\d"):
+        rc.read(put("a.dat", bytes(data)))
+
+
+def test_whole_files_leave_nothing_over(measured, put):
+    for name in ("mi-1.mi", "top-1.top", "tmd-1.tmd", "valid_zygo_dat_file.dat"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            rc.read(put(name, measured(name)))
