@@ -294,7 +294,7 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
 
 
 def checked_material(material: Viscoelastic) -> Viscoelastic:
-    """Return a viscoelastic material, or say that this is none.
+    """Return a viscoelastic material, or refuse anything else.
 
     Parameters
     ----------

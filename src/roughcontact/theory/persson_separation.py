@@ -2,7 +2,7 @@
 
 The energy of the waves that are squeezed flat is that of full contact times W(P), P the contact fraction at the
 magnification of the wave: ``W = P (gamma + (1 - gamma) P^2)``. Waves of the contact regions are flatter than the
-others, whence gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson,
+others, so that gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson,
 J. Phys.: Condens. Matter 20, 215214 (2008); the factor is fitted to computed contacts, no consequence of the theory.
 All else follows: the mean gap from du = -dU/(A0 p), the stiffness from K = -A0 dp/du (thesis, eqs 3.11 to 3.16;
 below 3.16 the minus sign is missing there).
