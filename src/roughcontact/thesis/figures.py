@@ -1,8 +1,8 @@
 """Which figures of the thesis there are, and the module of each.
 
-A module named ``fig`` and a number is a figure of the thesis, one named ``outlook_`` and a word answers a question of
-its outlook. A simple one computes what it draws from a seed, in seconds. That of an ensemble names studies, averages
-what they export, and draws the averages.
+A module named ``fig``, a number and what is seen is a figure of the thesis, one named ``outlook_`` and a word answers a
+question of its outlook. A simple one computes what it draws from a seed, in seconds. That of an ensemble names studies,
+averages what they export, and draws the averages.
 """
 
 from __future__ import annotations
@@ -37,16 +37,19 @@ __all__ = [
 Scale = Literal["small", "thesis"]
 """How large the ensembles are: two minutes on two cores at most, or the counts of the thesis."""
 
-_FIGURE = re.compile(r"fig(\d+)|outlook_[a-z]+")
+_FIGURE = re.compile(r"(fig(\d+)|outlook_[a-z]+)(_[a-z_]+)?")
 
 
 def _figures() -> dict[str, str]:
-    """Return the modules of all figures by the names that users give them, those with numbers first."""
+    """Return the modules of all figures by the names that users give them, those with numbers first.
+
+    The module ``fig27_exponent`` is the figure ``fig27``.
+    """
     found = filter(
         None, (_FIGURE.fullmatch(m.name) for m in pkgutil.iter_modules(roughcontact.thesis.__path__))
     )
-    ordered = sorted(found, key=lambda match: (int(match[1] or 1000), match[0]))
-    return {match[0].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
+    ordered = sorted(found, key=lambda match: (int(match[2] or 1000), match[0]))
+    return {match[1].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
 
 
 FIGURES = _figures()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig15
+from roughcontact.thesis import fig15_stepped_shape as fig15
 from roughcontact.thesis.figures import drawn
 
 

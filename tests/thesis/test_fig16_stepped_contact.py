@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.theory import punch
-from roughcontact.thesis import fig16
+from roughcontact.thesis import fig16_stepped_contact as fig16
 from roughcontact.thesis.figures import drawn
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, RINGS, full_steps, stepped_body
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig22
+from roughcontact.thesis import fig22_stiffness_of_lines as fig22
 from roughcontact.thesis.figures import drawn
 from thesis.computed import exported
 

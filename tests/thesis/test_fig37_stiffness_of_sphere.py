@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
 from roughcontact.theory import rough_sphere
-from roughcontact.thesis import fig37
+from roughcontact.thesis import fig37_stiffness_of_sphere as fig37
 from roughcontact.thesis.ensembles import sphere_study
 from roughcontact.thesis.figures import drawn
 from thesis.computed import exported

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.thesis import fig46
+from roughcontact.thesis import fig46_rms_factor as fig46
 from roughcontact.thesis.figures import drawn
 
 

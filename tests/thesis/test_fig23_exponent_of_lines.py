@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
-from roughcontact.thesis import fig23
+from roughcontact.thesis import fig23_exponent_of_lines as fig23
 from roughcontact.thesis.figures import drawn
 from roughcontact.thesis.line_ensembles import HURST
 from thesis.computed import exported

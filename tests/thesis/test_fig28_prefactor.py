@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.theory import pohrt_popov
-from roughcontact.thesis import fig28
+from roughcontact.thesis import fig28_prefactor as fig28
 from roughcontact.thesis.figures import drawn
 from thesis.synthetic import curves, lines
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig19
+from roughcontact.thesis import fig19_part_of_larger as fig19
 from roughcontact.thesis.figures import drawn
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig26
+from roughcontact.thesis import fig26_exponent_by_cells as fig26
 from roughcontact.thesis.figures import drawn
 from thesis.synthetic import curves
 

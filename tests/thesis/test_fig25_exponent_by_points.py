@@ -5,7 +5,7 @@ import pytest
 import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig25
+from roughcontact.thesis import fig25_exponent_by_points as fig25
 from roughcontact.thesis.figures import drawn
 from thesis.computed import exported
 

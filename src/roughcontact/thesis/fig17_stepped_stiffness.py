@@ -14,7 +14,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.ring import ring
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.theory.power_law_indenter import contact
-from roughcontact.thesis import fig15
+from roughcontact.thesis import fig15_stepped_shape as fig15
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig18
+from roughcontact.thesis import fig18_scatter as fig18
 from roughcontact.thesis.figures import drawn
 from thesis.synthetic import curves, lines
 

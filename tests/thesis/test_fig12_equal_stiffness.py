@@ -7,7 +7,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.theory import punch
-from roughcontact.thesis import fig12
+from roughcontact.thesis import fig12_equal_stiffness as fig12
 from roughcontact.thesis.figures import drawn
 
 

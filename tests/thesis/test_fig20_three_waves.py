@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from roughcontact.thesis import fig20
+from roughcontact.thesis import fig20_three_waves as fig20
 from roughcontact.thesis.figures import drawn
 
 AMPLITUDES = 7.0 ** (-0.9 * np.arange(3))

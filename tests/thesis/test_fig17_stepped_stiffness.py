@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig17
+from roughcontact.thesis import fig17_stepped_stiffness as fig17
 from roughcontact.thesis.figures import drawn
 from roughcontact.thesis.stepped_body import INDENTER
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.theory import cosine
-from roughcontact.thesis import fig24
+from roughcontact.thesis import fig24_beats as fig24
 from roughcontact.thesis.figures import drawn
 
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
-from roughcontact.thesis import fig21
+from roughcontact.thesis import fig21_stiffness_of_surfaces as fig21
 from roughcontact.thesis.ensembles import saturation_study
 from roughcontact.thesis.figures import drawn
 from thesis.computed import exported

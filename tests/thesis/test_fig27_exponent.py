@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.thesis import fig27
+from roughcontact.thesis import fig27_exponent as fig27
 from roughcontact.thesis.figures import drawn
 from thesis.synthetic import curves, lines
 
@@ -66,6 +66,6 @@ def test_exponents_are_drawn_as_they_were_found(axes):
 
 
 def test_the_studies_are_shared_with_figure_28():
-    from roughcontact.thesis import fig28
+    from roughcontact.thesis import fig28_prefactor as fig28
 
     assert fig28.studies("thesis")[: len(fig27.studies("thesis"))] == fig27.studies("thesis")

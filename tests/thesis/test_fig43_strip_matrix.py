@@ -7,7 +7,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from scipy.integrate import quad
 
-from roughcontact.thesis import fig43
+from roughcontact.thesis import fig43_strip_matrix as fig43
 from roughcontact.thesis.figures import drawn
 
 N = fig43.STRIPS

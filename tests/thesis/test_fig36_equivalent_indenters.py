@@ -7,7 +7,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.mdr.indentation import indent
-from roughcontact.thesis import fig36
+from roughcontact.thesis import fig36_equivalent_indenters as fig36
 from roughcontact.thesis.figures import drawn
 
 

@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from scipy.special import ellipe
 
 import hats
-from roughcontact.thesis import fig41
+from roughcontact.thesis import fig41_ring_matrix as fig41
 from roughcontact.thesis.figures import drawn
 
 N = fig41.RINGS

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
-from roughcontact.thesis import fig35
+from roughcontact.thesis import fig35_generated_sphere as fig35
 from roughcontact.thesis.figures import drawn
 
 

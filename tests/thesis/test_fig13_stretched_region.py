@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
-from roughcontact.thesis import fig13
+from roughcontact.thesis import fig13_stretched_region as fig13
 from roughcontact.thesis.figures import drawn
 
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from scipy.special import ellipkm1
 
-from roughcontact.thesis import fig39
+from roughcontact.thesis import fig39_ring_deflection as fig39
 from roughcontact.thesis.figures import drawn
 
 
