@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from roughcontact.study.common import on_common
 from roughcontact.study.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.thesis.ensembles import (
@@ -14,7 +15,6 @@ from roughcontact.thesis.ensembles import (
     saturation_study,
     sphere_study,
     square_study,
-    stiffness_at,
 )
 from thesis.computed import exported
 from thesis.synthetic import curves, lines
@@ -83,7 +83,7 @@ def test_fits_find_the_law_in_the_window_of_the_thesis_or_another():
 
 
 def test_between_loads_a_law_is_met_exactly():
-    at = stiffness_at(curve_averages(curves(0.5, 1.0, HURST)), (3e-4, 0.011, 0.2))
+    at = on_common(curve_averages(curves(0.5, 1.0, HURST)), (3e-4, 0.011, 0.2), at="force")
     np.testing.assert_allclose(at["stiffness"][:, :2], [[3e-4**0.5, 0.011**0.5]] * 3, rtol=1e-12)
     assert np.isnan(at["stiffness"][:, 2]).all()
     assert at["resolved"].to_numpy().tolist() == [[False, True, False]] * 3

@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.thesis import fig13_stretched_region as fig13
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 
 @pytest.fixture(scope="module")
@@ -46,4 +46,4 @@ def test_it_is_drawn_to_one_scale_and_judged(data):
     FigureCanvasAgg(figure).draw()
     widths = [abs(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0]).item()) for axes in figure.axes]
     assert max(widths) / min(widths) == pytest.approx(1, abs=0.02)
-    assert [verdict.holds for verdict in fig13.verdicts(data)] == [True, True]
+    assert [verdict.holds for verdict in verdicts(fig13, data)] == [True, True]

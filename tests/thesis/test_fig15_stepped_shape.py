@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig15_stepped_shape as fig15
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 
 def test_the_cylinders_are_those_of_the_thesis():
@@ -30,5 +30,5 @@ def test_the_smooth_indenter_goes_through_the_upper_rims():
 def test_it_is_drawn_and_judged():
     shape = fig15.case()
     FigureCanvasAgg(drawn(fig15, shape)).draw()
-    (verdict,) = fig15.verdicts(shape)
+    (verdict,) = verdicts(fig15, shape)
     assert verdict.holds

@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import roughcontact as rc
 from roughcontact.theory import punch
 from roughcontact.thesis import fig16_stepped_contact as fig16
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, RINGS, full_steps, stepped_body
 
 # Stiffnesses of discs and annuli of 32 rings are 1.7e-4 low, and the outermost ring of a step touches where its middle
@@ -71,4 +71,4 @@ def test_rings_converge(states):
 
 def test_it_is_drawn_and_judged(states):
     FigureCanvasAgg(drawn(fig16, states)).draw()
-    assert [verdict.holds for verdict in fig16.verdicts(states)] == [True, False]
+    assert [verdict.holds for verdict in verdicts(fig16, states)] == [True, False]

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig17_stepped_stiffness as fig17
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from roughcontact.thesis.stepped_body import INDENTER
 
 
@@ -58,7 +58,7 @@ def test_the_smooth_indenter_has_the_slope_of_the_law(data):
 
 def test_it_is_drawn_and_judged(data):
     FigureCanvasAgg(drawn(fig17, data)).draw()
-    exponent, share = fig17.verdicts(data)
+    exponent, share = verdicts(fig17, data)
     assert exponent.holds
     assert share.holds
     # 1 - C^-(1 + H) of the staircase, in the limit.

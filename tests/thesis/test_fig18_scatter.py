@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig18_scatter as fig18
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.synthetic import curves, lines
 
 HURST = np.array([0.7, 1.0])
@@ -29,7 +29,7 @@ def test_the_scatter_is_that_of_the_samples():
 
 @pytest.mark.parametrize(("scatter", "holds"), [(0.25, True), (0.6, False), (0.37, None)])
 def test_about_thirty_percent_holds_or_not_as_far_as_samples_tell(scatter, holds):
-    assert fig18.verdicts(data(scatter))[0].holds is holds
+    assert verdicts(fig18, data(scatter))[0].holds is holds
 
 
 def test_it_is_drawn():

@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from roughcontact.thesis import fig20_three_waves as fig20
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 AMPLITUDES = 7.0 ** (-0.9 * np.arange(3))
 
@@ -58,7 +58,7 @@ def test_force_and_length_in_contact_at_d3_are_the_integrals(data):
 
 def test_it_is_drawn_and_judged(data):
     FigureCanvasAgg(drawn(fig20, data)).draw()
-    spot, stiffness, exponent = fig20.verdicts(data)
+    spot, stiffness, exponent = verdicts(fig20, data)
     assert spot.holds
     assert not stiffness.holds
     # 4 sqrt(h1/h0)/q0 as printed.

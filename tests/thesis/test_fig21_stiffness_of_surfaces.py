@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from roughcontact.study.study import Study
 from roughcontact.thesis import fig21_stiffness_of_surfaces as fig21
 from roughcontact.thesis.ensembles import saturation_study
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 from thesis.synthetic import curves
 
@@ -21,7 +21,7 @@ def data():
 
 
 def test_the_plateau_and_the_power_law_are_read(data):
-    plateau, law, half = fig21.verdicts(data)
+    plateau, law, half = verdicts(fig21, data)
     assert plateau.found.startswith("1.1500")
     assert plateau.holds is False
     assert law.holds is True
@@ -43,4 +43,4 @@ def test_full_contact_is_reached_on_few_cells():
     last = found["stiffness"].isel(load=-1)
     assert ((last > 1.1286) & (last < 1.1402)).all()
     assert np.isnan(found["exponent"]).all()  # too few cells for a power law
-    assert fig21.verdicts(found)[1].holds is None
+    assert verdicts(fig21, found)[1].holds is None

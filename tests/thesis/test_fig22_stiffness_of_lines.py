@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig22_stiffness_of_lines as fig22
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 
@@ -32,9 +32,9 @@ def test_stiffness_rises_with_the_force_and_the_hurst_exponent(data):
 
 
 def test_verdicts_and_picture(data):
-    plateaus, law, seconds = fig22.verdicts(data)
+    plateaus, law, seconds = verdicts(fig22, data)
     assert plateaus.holds
     assert law.holds
     assert seconds.holds is None  # fewer lines than the thesis has
-    assert len(fig22.verdicts(data.drop_vars("seconds"))) == 2
+    assert len(verdicts(fig22, data.drop_vars("seconds"))) == 2
     FigureCanvasAgg(drawn(fig22, data)).draw()

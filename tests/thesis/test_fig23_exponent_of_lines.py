@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
 from roughcontact.thesis import fig23_exponent_of_lines as fig23
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from roughcontact.thesis.line_ensembles import HURST
 from thesis.computed import exported
 
@@ -31,7 +31,7 @@ def test_exponents_are_those_of_the_reference_runs(data):
 
 
 def test_verdicts_say_what_grows_with_the_number_of_points(data):
-    constant, resolution, modes, law, hertz = fig23.verdicts(data)
+    constant, resolution, modes, law, hertz = verdicts(fig23, data)
     assert constant.holds
     assert resolution.holds
     assert law.holds

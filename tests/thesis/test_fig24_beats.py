@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.theory import cosine
 from roughcontact.thesis import fig24_beats as fig24
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_heights_of_one_mode_are_those_of_a_cosine(data):
 
 
 def test_powers_of_the_densities(data):
-    nested, adjacent = fig24.verdicts(data)
+    nested, adjacent = verdicts(fig24, data)
     assert nested.holds
     assert not adjacent.holds
     for heights in data.heights[1:]:

@@ -6,7 +6,7 @@ import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig25_exponent_by_points as fig25
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 POINTS = [2**8, 2**10, 2**12]
@@ -54,7 +54,7 @@ def test_exponents_of_lines_grow_as_the_windows_do(data):
     # The same of independent heights; lines lie below by what twenty springs are off their mean.
     away = (data["white"] - data["exponent"]).to_numpy()
     assert (np.abs(away) < 0.03 + 3 * data["exponent_error"]).all()
-    law, modes, surface = fig25.verdicts(data)
+    law, modes, surface = verdicts(fig25, data)
     assert not modes.holds
     assert not surface.holds
     assert law.holds is not None

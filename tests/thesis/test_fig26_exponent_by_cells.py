@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig26_exponent_by_cells as fig26
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.synthetic import curves
 
 HURST = np.array([-1.0, -0.5, 0.0, 0.2])
@@ -30,12 +30,12 @@ def test_one_power_law_has_one_exponent_in_all_windows():
     low = found["window_low"].to_numpy()[:, 0]
     assert ((low >= limits) & (low < limits * step) | (low == 1e-3)).all()
     assert ((found["common_window_low"] >= 0.025) & (found["common_window_low"] < 0.025 * step)).all()
-    depends, modes, constant = fig26.verdicts(found)
+    depends, modes, constant = verdicts(fig26, found)
     assert (depends.holds, modes.holds, constant.holds) == (False, False, True)
 
 
 def test_exponents_that_differ_are_told():
-    depends, modes, _ = fig26.verdicts(data((0.75, 0.8, 0.85)))
+    depends, modes, _ = verdicts(fig26, data((0.75, 0.8, 0.85)))
     assert depends.holds is True
     assert modes.holds is True
     assert "10 of 257²" in depends.found
@@ -48,7 +48,7 @@ def test_windows_that_grow_on_a_bent_curve_are_no_dependence_on_the_grid():
         steeper = np.minimum(FORCE / 0.02, 1) ** 0.15
         return one.assign({name: one[name] * steeper for name in ("stiffness", "dimensionless_stiffness")})
 
-    depends, modes, _ = fig26.verdicts(fig26.averages(*map(bent, (257, 1025))))
+    depends, modes, _ = verdicts(fig26, fig26.averages(*map(bent, (257, 1025))))
     assert depends.holds is True
     assert modes.holds is False
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig27_exponent as fig27
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.synthetic import curves, lines
 
 HURST = np.array([-0.5, -0.05, 0.4, 1.0, 2.0, 2.5, 2.95])
@@ -19,7 +19,7 @@ def data(alpha=ALPHA, scatter=0.2, reduced=ALPHA):
 
 
 def test_what_the_thesis_says_would_hold_if_it_were_so():
-    found = fig27.verdicts(data())
+    found = verdicts(fig27, data())
     assert [each.holds for each in found] == [True] * 4
     assert "for 0.40 <= H <= 2.00" in found[0].found
 
@@ -28,7 +28,7 @@ def test_what_the_thesis_says_would_hold_if_it_were_so():
 def test_an_exponent_that_is_off_is_told(place, which):
     alpha = ALPHA.copy()
     alpha[place] += 0.15
-    assert fig27.verdicts(data(alpha))[which].holds is False
+    assert verdicts(fig27, data(alpha))[which].holds is False
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.theory import pohrt_popov
 from roughcontact.thesis import fig28_prefactor as fig28
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.synthetic import curves, lines
 
 HURST = np.array([-0.5, 0.1, 0.4, 1.0, 2.0, 2.95])
@@ -33,16 +33,16 @@ def test_stiffnesses_at_three_forces_are_those_of_the_law_where_resolved():
 
 
 def test_the_law_holds_if_it_is_so_but_for_its_end():
-    zeta, end, law, both, grid = fig28.verdicts(data())
+    zeta, end, law, both, grid = verdicts(fig28, data())
     assert (zeta.holds, law.holds, both.holds, grid.holds) == (True, True, True, None)
     assert end.holds is False  # held at 1.7/3 beyond H = 2, where the formula goes on to fall
-    assert fig28.verdicts(data(ends=3 / 3.95))[1].holds is True
+    assert verdicts(fig28, data(ends=3 / 3.95))[1].holds is True
     assert "+0% to +0%" in grid.found.replace("-", "+")
 
 
 @pytest.mark.parametrize("factor", [0.6, 1.5])
 def test_another_prefactor_is_told(factor):
-    zeta, _, law, both, _ = fig28.verdicts(data(factor))
+    zeta, _, law, both, _ = verdicts(fig28, data(factor))
     assert (zeta.holds, law.holds, both.holds) == (False, False, False)
 
 

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.mdr.indentation import indent
 from roughcontact.thesis import fig36_equivalent_indenters as fig36
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 
 def test_the_shapes_are_those_of_5_6_to_5_8():
@@ -40,4 +40,4 @@ def test_it_is_drawn_and_judged():
     figure = drawn(fig36, shapes)
     FigureCanvasAgg(figure).draw()
     assert len({axes.get_ylim() for axes in figure.axes}) == 1
-    assert [verdict.holds for verdict in fig36.verdicts(shapes)] == [True, True, True]
+    assert [verdict.holds for verdict in verdicts(fig36, shapes)] == [True, True, True]

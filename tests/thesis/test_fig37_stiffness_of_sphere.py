@@ -8,7 +8,7 @@ from roughcontact.study.study import Study
 from roughcontact.theory import rough_sphere
 from roughcontact.thesis import fig37_stiffness_of_sphere as fig37
 from roughcontact.thesis.ensembles import sphere_study
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 from thesis.synthetic import curves
 
@@ -38,9 +38,9 @@ def test_asymptotes_cross_where_the_thesis_says_and_hold_the_law_below_them():
 
 
 def test_the_law_holds_if_it_is_so():
-    added, crossover, _, only = fig37.verdicts(data())
+    added, crossover, _, only = verdicts(fig37, data())
     assert (added.holds, crossover.holds, only.holds) == (True, True, True)
-    added, _, _, only = fig37.verdicts(data(factor=1.6))
+    added, _, _, only = verdicts(fig37, data(factor=1.6))
     assert (added.holds, only.holds) == (False, False)
 
 

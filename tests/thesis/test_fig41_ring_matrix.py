@@ -8,7 +8,7 @@ from scipy.special import ellipe
 
 import hats
 from roughcontact.thesis import fig41_ring_matrix as fig41
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 N = fig41.RINGS
 
@@ -42,7 +42,7 @@ def test_it_is_the_matrix_of_hats_where_pressure_is_smooth():
 def test_it_is_drawn_and_judged():
     matrix = fig41.case()
     FigureCanvasAgg(drawn(fig41, matrix)).draw()
-    (verdict,) = fig41.verdicts(matrix)
+    (verdict,) = verdicts(fig41, matrix)
     assert verdict.holds
     # Symmetric under the areas and positive: no pressure goes without displacement.
     root = np.sqrt(2 * np.arange(N) + 1)

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from scipy.integrate import quad
 
 from roughcontact.thesis import fig43_strip_matrix as fig43
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 N = fig43.STRIPS
 
@@ -40,4 +40,4 @@ def test_all_columns_are_one_shifted():
 def test_it_is_drawn_and_judged():
     matrix = fig43.case()
     FigureCanvasAgg(drawn(fig43, matrix)).draw()
-    assert [verdict.holds for verdict in fig43.verdicts(matrix)] == [True, False]
+    assert [verdict.holds for verdict in verdicts(fig43, matrix)] == [True, False]

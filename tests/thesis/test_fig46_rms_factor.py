@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import roughcontact as rc
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.thesis import fig46_rms_factor as fig46
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 
 
 @pytest.fixture(scope="module")
@@ -54,4 +54,4 @@ def test_a_line_with_the_factor_is_as_rough_as_the_surface():
 
 def test_it_is_drawn_and_judged(data):
     FigureCanvasAgg(drawn(fig46, data)).draw()
-    assert [verdict.holds for verdict in fig46.verdicts(data)] == [False, False]
+    assert [verdict.holds for verdict in verdicts(fig46, data)] == [False, False]

@@ -5,26 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from scipy.optimize import brentq
 
-from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.build import half_space
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.solver.prescribed import prescribed_displacement
-from roughcontact.surface import shapes
+import roughcontact as rc
 from roughcontact.theory import punch
-from roughcontact.thesis.verdict import Verdict
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.image import AxesImage
-
-__all__ = ["Region", "case", "draw", "verdicts"]
+__all__ = ["PunchShape", "case", "draw", "verdicts"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -42,13 +36,12 @@ CHOSEN = (
 )
 SIZE = (7.4, 2.2)
 
-_OUTLINE = "0.15"
 # Stiffnesses over 2 E* sqrt(A/pi) in the thesis' source of the figure; the square's stands in eqs 4.7 and 4.14, too.
 _PRINTED = {"square": 1.012, "triangle": 1.034}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Region:
+class PunchShape:
     """A contact region as stiff as a disc of radius 1, with E* = 1.
 
     Attributes
@@ -78,7 +71,7 @@ class Region:
         return float(punch.shape_factor(2 * self.cells, 1.0, self.area))
 
 
-def case(seed: int = SEED) -> tuple[Region, ...]:
+def case(seed: int = SEED) -> tuple[PunchShape, ...]:
     """Return the four regions; nothing is random, the seed is not used."""
     radius = float(brentq(lambda a: float(punch.two_discs(1.0, a, SPACING)) - 2, 0.4, 1.0))
     side, edge = 2 / float(punch.square(1.0, 1.0)), 2 / float(punch.triangle(1.0, 1.0))
@@ -91,31 +84,31 @@ def case(seed: int = SEED) -> tuple[Region, ...]:
     corners = math.pi / 2 + 2 * math.pi / 3 * np.arange(4)
     triangle = edge / math.sqrt(3) * np.stack([np.cos(corners), np.sin(corners)])
 
-    def discs(grid: Grid) -> Mask:
-        first, second = (shapes.flat_disc(grid, radius, (middle, middle + x)).measured for x in places)
+    def discs(grid: rc.Grid) -> Mask:
+        first, second = (rc.shapes.flat_disc(grid, radius, (middle, middle + x)).measured for x in places)
         return np.asarray(first | second)
 
     return (
-        _region("disc", 1.0, (circle,), math.pi, lambda grid: shapes.flat_disc(grid, 1.0).measured),
+        _region("disc", (1.0, math.pi), (circle,), lambda grid: rc.shapes.flat_disc(grid, 1.0).measured),
         _region(
             "two discs",
-            radius,
+            (radius, 2 * math.pi * radius**2),
             tuple(radius * circle + np.array([[x], [0.0]]) for x in places),
-            2 * math.pi * radius**2,
             discs,
         ),
-        _region("square", side, (square,), side**2, lambda grid: shapes.flat_square(grid, side).measured),
+        _region(
+            "square", (side, side**2), (square,), lambda grid: rc.shapes.flat_square(grid, side).measured
+        ),
         _region(
             "triangle",
-            edge,
+            (edge, math.sqrt(3) / 4 * edge**2),
             (triangle,),
-            math.sqrt(3) / 4 * edge**2,
-            lambda grid: shapes.flat_triangle(grid, edge).measured,
+            lambda grid: rc.shapes.flat_triangle(grid, edge).measured,
         ),
     )
 
 
-def draw(figure: Figure, data: tuple[Region, ...]) -> None:
+def draw(figure: Figure, data: tuple[PunchShape, ...]) -> None:
     """Draw the regions to one scale, with their pressures and sizes."""
     panels = figure.subplots(1, len(data), width_ratios=[2 * _reach(region) for region in data])
     words = (
@@ -126,14 +119,12 @@ def draw(figure: Figure, data: tuple[Region, ...]) -> None:
     )
     for letter, axes, region, text in zip("abcd", panels, data, words, strict=True):
         image = _region_view(axes, region)
-        axes.set_title(f"({letter})", fontsize=LABEL, loc="left")
-        axes.set_xlabel(text, fontsize=LABEL)
+        axes.set(xlabel=text, title=f"({letter})")
     bar = figure.colorbar(image, ax=panels, shrink=0.9, pad=0.01, extend="max")
-    bar.set_label(r"$p\,/\,(E^* d\,/\,a)$", fontsize=LABEL)
-    bar.ax.tick_params(labelsize=TICK)
+    bar.set_label(r"$p\,/\,(E^* d\,/\,a)$")
 
 
-def verdicts(data: tuple[Region, ...]) -> tuple[Verdict, ...]:
+def verdicts(data: tuple[PunchShape, ...]) -> Verdicts:
     """Return the shape factors of square and triangle, and what two discs lose by each other."""
     one, two, *angular = data
     exact = (
@@ -142,61 +133,53 @@ def verdicts(data: tuple[Region, ...]) -> tuple[Verdict, ...]:
     )
     apart = float(punch.two_discs(1.0, two.size, SPACING) / (2 * punch.disc(1.0, two.size)))
     far = float(brentq(lambda s: float(punch.two_discs(1.0, 1.0, s)) - 0.99 * 4, 3.0, 1e3))
-    return (
-        *(
-            Verdict(
-                f"stiffness of a {region.name} over that of a disc of its area"
-                + (" (eqs 4.7, 4.14)" if region.name == "square" else " (source of the figure)"),
-                f"{_PRINTED[region.name]:.3f}",
-                f"{float(factor):.4f}, and {region.shape_factor / one.shape_factor:.3f} from "
-                f"{CELLS[0]}² and {CELLS[1]}² cells",
-                bool(abs(float(factor) / _PRINTED[region.name] - 1) < 5e-4),
-            )
-            for region, factor in zip(angular, exact, strict=True)
-        ),
+    yield from (
         Verdict(
-            "two distant circles act in parallel",
-            "k = k1 + k2",
-            f"{apart:.3f} of the sum {SPACING:g} a apart; 0.99 of it {far:.0f} of their radii apart",
-            None,
-        ),
+            f"stiffness of a {region.name} over that of a disc of its area"
+            + (" (eqs 4.7, 4.14)" if region.name == "square" else " (source of the figure)"),
+            f"{_PRINTED[region.name]:.3f}",
+            f"{float(factor):.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² "
+            f"cells",
+            bool(abs(float(factor) / _PRINTED[region.name] - 1) < 5e-4),
+        )
+        for region, factor in zip(angular, exact, strict=True)
+    )
+    yield Verdict(
+        "two distant circles act in parallel",
+        "k = k1 + k2",
+        f"{apart:.3f} of the sum {SPACING:g} a apart; 0.99 of it {far:.0f} of their radii apart",
+        None,
     )
 
 
 def _region(
-    name: str, size: float, outlines: tuple[Array, ...], area: float, mask: Callable[[Grid], Mask]
-) -> Region:
+    name: str, size_area: tuple[float, float], outlines: tuple[Array, ...], mask: Callable[[rc.Grid], Mask]
+) -> PunchShape:
     """Return a region with what cells make of it."""
+    size, area = size_area
     stiffness = []
     for n in CELLS:
-        grid = Grid((n, n), FIELD / n)
+        grid = rc.Grid((n, n), FIELD / n)
         inside = mask(grid)
-        punched = prescribed_displacement(half_space(grid, 1.0), inside, 1.0)
+        punched = rc.prescribed_displacement(rc.half_space(grid, 1.0), inside, 1.0)
         # The cells cover a little more or less than the region; a stiffness is a length.
         stiffness.append(punched.force * math.sqrt(area / (inside.sum() * grid.cell_area)))
     coarse, fine = stiffness
     # Uniform pressure in cells leaves an error that falls as the size of the cells.
-    return Region(name, size, outlines, area, (2 * fine - coarse) / 2, punched.pressure)
+    return PunchShape(name, size, outlines, area, (2 * fine - coarse) / 2, punched.pressure)
 
 
-def _reach(region: Region) -> float:
+def _reach(region: PunchShape) -> float:
     """Return half the width of what is shown."""
     return 1.12 * max(float(curve[0].max()) for curve in region.outlines)
 
 
-def _region_view(axes: Axes, region: Region) -> AxesImage:
+def _region_view(axes: Axes, region: PunchShape) -> AxesImage:
     reach = FIELD / 2
     seen = np.where(region.pressure > 0, region.pressure, np.nan)
-    image = axes.imshow(
-        seen,
-        cmap="viridis",
-        vmin=0,
-        vmax=1,
-        extent=(-reach, reach, -reach, reach),
-        interpolation="nearest",
-    )
-    for x, y in region.outlines:
-        axes.plot(x, y, color=_OUTLINE, linewidth=0.9)
-    axes.set(xlim=(-_reach(region), _reach(region)), ylim=(-1.3, 1.6), aspect="equal", xticks=[], yticks=[])
-    axes.spines[:].set_visible(False)
+    extent = (-reach, reach, -reach, reach)
+    image = axes.imshow(seen, cmap="viridis", vmin=0, vmax=1, extent=extent, interpolation="nearest")
+    for outline in region.outlines:
+        axes.plot(*outline, color="0.15", linewidth=0.9)
+    drawing.frameless(axes, xlim=(-_reach(region), _reach(region)), ylim=(-1.3, 1.6))
     return image

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 
-from roughcontact.contact.press import press
-from roughcontact.contact.stiffness import contact_stiffness
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL
-from roughcontact.surface.fourier import self_affine
+import roughcontact as rc
 from roughcontact.theory import punch
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Configurations", "case", "draw", "verdicts"]
 
@@ -36,8 +30,6 @@ CHOSEN = (
     f"enlarged and stretched by {STRETCH:g}",
 )
 SIZE = (7.0, 3.0)
-
-_CONTACT = "#c8290b"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,27 +52,29 @@ class Configurations:
 
 def case(seed: int = SEED) -> Configurations:
     """Return a region of contact, and its stiffness enlarged, and stretched along x and along y."""
-    grid = Grid((POINTS, POINTS), 1 / POINTS)
-    surface = self_affine(grid, HURST, RMS, np.random.default_rng(seed))
-    region = press(surface, 1.0, pressure=PRESSURE).contact
+    grid = rc.Grid((POINTS, POINTS), 1 / POINTS)
+    surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(seed))
+    region = rc.press(surface, 1.0, pressure=PRESSURE).contact
     stretches = ((1.0, 1.0), (STRETCH, STRETCH), (1.0, STRETCH), (STRETCH, 1.0))
     first, *others = (
-        contact_stiffness(region, Grid(grid.shape, (y / POINTS, x / POINTS)), 1.0) for y, x in stretches
+        rc.contact_stiffness(region, rc.Grid(grid.shape, (y / POINTS, x / POINTS)), 1.0) for y, x in stretches
     )
     return Configurations(region, stretches, (1.0, *(each / first for each in others)))
 
 
 def draw(figure: Figure, data: Configurations) -> None:
     """Draw the region (a), enlarged (b), and stretched along x (c), to one scale."""
-    across = [x for _, x in data.stretches[:3]]
-    panels = figure.subplots(1, 3, width_ratios=across)
+    panels = figure.subplots(1, 3, width_ratios=[x for _, x in data.stretches[:3]])
     words = ("$k$", f"$\\lambda k$,  $\\lambda$ = {STRETCH:g}", f"{data.stiffness[2]:.3f} $k$")
-    for letter, axes, stretch, text in zip("abc", panels, data.stretches, words, strict=False):
-        _region(axes, data.region, stretch)
-        axes.set_title(f"({letter})  {text}", fontsize=LABEL)
+    colours = ListedColormap(["#eef3f7", drawing.LINES])
+    for letter, axes, (y, x), text in zip("abc", panels, data.stretches, words, strict=False):
+        axes.imshow(data.region, cmap=colours, extent=(0, x, y, 0), interpolation="nearest", vmin=0, vmax=1)
+        # As high as the largest, so that all have one scale.
+        drawing.frameless(axes, xlim=(0, x), ylim=((STRETCH + y) / 2, (y - STRETCH) / 2))
+        axes.set_title(f"({letter})  {text}", loc="center")
 
 
-def verdicts(data: Configurations) -> tuple[Verdict, ...]:
+def verdicts(data: Configurations) -> Verdicts:
     """Return the ratios of the stiffnesses."""
     _, enlarged, along_x, along_y = data.stiffness
     disc, along, across = (
@@ -91,35 +85,16 @@ def verdicts(data: Configurations) -> tuple[Verdict, ...]:
             ((10.0, STRETCH), (10.0, 1.0)),
         )
     )
-    return (
-        Verdict(
-            "the stiffness grows as the lateral extension, not as the area",
-            f"{STRETCH:g}",
-            f"{enlarged:.6f} for {STRETCH:g} times the extension",
-            bool(abs(enlarged / STRETCH - 1) < 1e-6),
-        ),
-        Verdict(
-            "stretched one way, the stiffness cannot be deduced from the one before",
-            "no rule",
-            f"times {along_x:.3f} along x and {along_y:.3f} along y; a disc {disc:.3f}, an ellipse of 10:1 "
-            f"{along:.3f} or {across:.3f}",
-            True,
-        ),
+    yield Verdict(
+        "the stiffness grows as the lateral extension, not as the area",
+        f"{STRETCH:g}",
+        f"{enlarged:.6f} for {STRETCH:g} times the extension",
+        bool(abs(enlarged / STRETCH - 1) < 1e-6),
     )
-
-
-def _region(axes: Axes, region: Mask, stretch: tuple[float, float]) -> None:
-    from matplotlib.colors import ListedColormap
-
-    y, x = stretch
-    axes.imshow(
-        region,
-        cmap=ListedColormap(["#eef3f7", _CONTACT]),
-        extent=(0, x, y, 0),
-        interpolation="nearest",
-        vmin=0,
-        vmax=1,
+    yield Verdict(
+        "stretched one way, the stiffness cannot be deduced from the one before",
+        "no rule",
+        f"times {along_x:.3f} along x and {along_y:.3f} along y; a disc {disc:.3f}, an ellipse of 10:1 {along:.3f} or "
+        f"{across:.3f}",
+        True,
     )
-    # As high as the largest, so that all have one scale.
-    axes.set(xlim=(0, x), ylim=((STRETCH + y) / 2, (y - STRETCH) / 2), aspect="equal", xticks=[], yticks=[])
-    axes.spines[:].set_visible(False)

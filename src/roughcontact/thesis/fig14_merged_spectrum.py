@@ -4,25 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import TICK
+import roughcontact as rc
 from roughcontact.plot.spectrum_plot import SpectrumScales, spectrum_axes
-from roughcontact.surface.analysis.hurst import HurstFit, fit_spectrum
-from roughcontact.surface.analysis.merge import merge_spectra
-from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.surface.analysis.spectra import power_spectrum
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.spectrum import SelfAffineSpectrum
-from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 __all__ = ["Instrument", "Measurements", "case", "draw"]
 
@@ -75,61 +65,47 @@ CHOSEN = (
 )
 SIZE = (6.2, 4.8)
 
-_COLOURS, _MARKS = ("#0072b2", "#009e73", "#cc79a7"), ("o", "s", "^")
+_STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#cc79a7", "^"))
 
 
 @dataclass(frozen=True, slots=True)
 class Measurements:
     """What the instruments found, what that makes together, and what it should be."""
 
-    single: tuple[PowerSpectrum, ...]
-    merged: PowerSpectrum
-    fit: HurstFit
-    law: SelfAffineSpectrum
+    single: tuple[rc.PowerSpectrum, ...]
+    merged: rc.PowerSpectrum
+    fit: rc.HurstFit
+    law: rc.SelfAffineSpectrum
 
 
 def case(seed: int = SEED, points: int = POINTS) -> Measurements:
     """Return the spectra C2D [m^4] that each instrument finds, and the one merged from their reliable bands."""
-    grid = Grid((points, points), LENGTH / points, periodic=True)
-    surface = self_affine(grid, HURST, RMS, np.random.default_rng(seed), amplitudes="gaussian")
-    law = SelfAffineSpectrum(HURST).scaled(RMS, grid)
+    grid = rc.Grid((points, points), LENGTH / points, periodic=True)
+    surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(seed), amplitudes="gaussian")
+    law = rc.SelfAffineSpectrum(HURST).scaled(RMS, grid)
     single = tuple(_measured(surface, each, law) for each in INSTRUMENTS)
-    merged = merge_spectra(single, per_decade=_FINE)
-    return Measurements(single, merged, fit_spectrum(merged, limit="none"), law)
+    merged = rc.merge_spectra(single, per_decade=_FINE)
+    return Measurements(single, merged, rc.fit_spectrum(merged, limit="none"), law)
 
 
 def draw(figure: Figure, data: Measurements) -> None:
     """Draw the spectrum of each instrument, the merged one, and the law of the surface."""
     axes = figure.subplots()
     merged = data.merged.rebinned(20)
-    every = data.single
-    wavelengths = np.concatenate([each.wavelength for each in every])
-    scales = spectrum_axes(axes, "C2D", wavelengths, np.concatenate([each.density for each in every]))
-    for instrument, spectrum, colour, mark in zip(INSTRUMENTS, every, _COLOURS, _MARKS, strict=True):
-        _spectrum(axes, spectrum.rebinned(12), scales, colour, mark, instrument.name)
-    axes.plot(
-        merged.wavenumber * scales.wavenumber,
-        merged.density * scales.density.factor,
-        color="black",
-        linewidth=1.2,
-        zorder=4,
-        label=f"merged: H = {data.fit.hurst:.3f} ± {data.fit.standard_error:.3f}",
-    )
-    q = np.array([float(wavelengths.max()), float(wavelengths.min())])
-    q = 2 * math.pi / q
-    axes.plot(
-        q * scales.wavenumber,
-        data.law(q) * scales.density.factor,
-        ":",
-        color="#d55e00",
-        linewidth=1.8,
-        zorder=5,
-        label=f"the surface: H = {HURST:g}",
-    )
-    axes.legend(loc="lower left", fontsize=TICK, frameon=False)
+    wavelengths = np.concatenate([each.wavelength for each in data.single])
+    scales = spectrum_axes(axes, "C2D", wavelengths, np.concatenate([each.density for each in data.single]))
+    for instrument, spectrum, style in zip(INSTRUMENTS, data.single, _STYLES, strict=True):
+        _spectrum(axes, spectrum.rebinned(12), scales, style, instrument.name)
+    words = f"merged: H = {data.fit.hurst:.3f} ± {data.fit.standard_error:.3f}"
+    q, density = merged.wavenumber * scales.wavenumber, merged.density * scales.density.factor
+    axes.plot(q, density, color="black", zorder=4, label=words)
+    q = 2 * math.pi / np.array([wavelengths.max(), wavelengths.min()])
+    law, words = data.law(q) * scales.density.factor, f"the surface: H = {HURST:g}"
+    axes.plot(q * scales.wavenumber, law, ":", color="#d55e00", linewidth=1.8, zorder=5, label=words)
+    axes.legend(loc="lower left")
 
 
-def _measured(surface: Surface, instrument: Instrument, law: SelfAffineSpectrum) -> PowerSpectrum:
+def _measured(surface: rc.Surface, instrument: Instrument, law: rc.SelfAffineSpectrum) -> rc.PowerSpectrum:
     """Return the spectrum that an instrument finds, with the band in which it is to be relied upon."""
     seen = surface
     if instrument.field < 1:
@@ -145,11 +121,11 @@ def _measured(surface: Surface, instrument: Instrument, law: SelfAffineSpectrum)
             instrument.pixel, anti_alias=False
         )
         shortest = max(_followed(law, instrument.tip_radius), _CELLS * seen.grid.spacing[0])
-    found = power_spectrum(seen, per_decade=_FINE)
+    found = rc.power_spectrum(seen, per_decade=_FINE)
     return replace(found, q_max=2 * math.pi / shortest)
 
 
-def _followed(law: SelfAffineSpectrum, radius: float) -> float:
+def _followed(law: rc.SelfAffineSpectrum, radius: float) -> float:
     """Return the shortest wavelength [m] down to which the rms curvature of the law is a quarter of the tip's."""
 
     def excess(ln_wavelength: float) -> float:
@@ -161,19 +137,12 @@ def _followed(law: SelfAffineSpectrum, radius: float) -> float:
 
 
 def _spectrum(
-    axes: Axes, spectrum: PowerSpectrum, scales: SpectrumScales, colour: str, mark: str, name: str
+    axes: Axes, spectrum: rc.PowerSpectrum, scales: SpectrumScales, style: tuple[str, str], name: str
 ) -> None:
     """Draw what is to be relied upon filled, the rest open."""
+    colour, mark = style
     q, density = spectrum.wavenumber * scales.wavenumber, spectrum.density * scales.density.factor
     inside = (spectrum.wavenumber >= spectrum.q_min * (1 - 1e-9)) & (spectrum.wavenumber <= spectrum.q_max)
     axes.plot(q[inside], density[inside], mark, color=colour, markersize=5, zorder=3, label=name)
-    axes.plot(
-        q[~inside],
-        density[~inside],
-        mark,
-        color=colour,
-        markersize=5,
-        markerfacecolor="none",
-        zorder=2,
-        alpha=0.6,
-    )
+    beyond: Any = {"markerfacecolor": "none", "zorder": 2, "alpha": 0.6}
+    axes.plot(q[~inside], density[~inside], mark, color=colour, markersize=5, **beyond)

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.thesis import drawing
 from roughcontact.thesis.stepped_body import INDENTER
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Shape", "case", "draw", "verdicts"]
 
@@ -80,48 +77,33 @@ def draw(figure: Figure, data: Shape) -> None:
         axes.plot((-radius, radius), (low, low), color=_EDGE, linewidth=0.6, alpha=0.5, zorder=2)
         _radius(axes, n, float(radius), (-top + low) / 2)
         _height(axes, n, float(radius), (low, -float(top)))
-    r = np.linspace(0, radii[-1], 801)
-    for side in (-1, 1):
-        axes.plot(
-            side * r,
-            -data.depth(r),
-            "--",
-            color=_SMOOTH,
-            linewidth=1.2,
-            zorder=4,
-            label=r"$z \sim r^H$" if side > 0 else None,
-        )
+    r = np.linspace(-radii[-1], radii[-1], 1601)
+    axes.plot(r, -data.depth(np.abs(r)), "--", color=_SMOOTH, zorder=4, label=r"$z \sim r^H$")
     axes.set(xlim=(-radii[-1] * 1.04, radii[-1] * 1.16), ylim=(bottom, data.apex * 1.08))
-    axes.set_xlabel(r"$x\,/\,r_0$", fontsize=LABEL)
-    axes.set_ylabel(r"height / $h_0$", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
+    axes.set(xlabel=r"$x\,/\,r_0$", ylabel=r"height / $h_0$")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="upper left", fontsize=LABEL, frameon=False)
+    axes.legend(loc="upper left")
 
 
-def verdicts(data: Shape) -> tuple[Verdict, ...]:
+def verdicts(data: Shape) -> Verdicts:
     """Return whether the cylinders resemble the smooth indenter of the same exponent."""
     radii, tops = data.rims
     furthest = float(np.abs(data.depth(radii) - tops).max() / tops[-1])
-    return (
-        Verdict(
-            "the shape is very similar to a smooth indenter z = r^H",
-            "very similar",
-            f"the upper rims lie on it within {max(furthest, 1e-15):.0e}, its tip {data.apex:.3f} h0 above the "
-            "highest cylinder",
-            bool(furthest < 1e-12),
-        ),
+    yield Verdict(
+        "the shape is very similar to a smooth indenter z = r^H",
+        "very similar",
+        f"the upper rims lie on it within {max(furthest, 1e-15):.0e}, its tip {data.apex:.3f} h0 above the highest "
+        "cylinder",
+        bool(furthest < 1e-12),
     )
 
 
 def _radius(axes: Axes, number: int, radius: float, height: float) -> None:
-    arrow = {"arrowstyle": "->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", (radius, height), (0, height), arrowprops=arrow, zorder=5)
-    axes.text(radius / 2, height, f"$r_{number}$", fontsize=LABEL, ha="center", va="bottom", zorder=5)
+    drawing.arrow(axes, (0, height), (radius, height), linewidth=0.8)
+    axes.text(radius / 2, height, f"$r_{number}$", ha="center", va="bottom", zorder=5)
 
 
 def _height(axes: Axes, number: int, radius: float, ends: tuple[float, float]) -> None:
     place = radius + 0.18
-    arrow = {"arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", (place, ends[0]), (place, ends[1]), arrowprops=arrow, zorder=5)
-    axes.text(place + 0.12, sum(ends) / 2, f"$h_{number}$", fontsize=LABEL, va="center", bbox=_ROOM, zorder=5)
+    drawing.arrow(axes, (place, ends[1]), (place, ends[0]), "<->", linewidth=0.8)
+    axes.text(place + 0.12, sum(ends) / 2, f"$h_{number}$", va="center", bbox=_ROOM, zorder=5)

@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.contact.curve import Curve
-from roughcontact.contact.loading import loading_curve
-from roughcontact.contact.solution import Solution
-from roughcontact.halfspace.operators.ring import ring
-from roughcontact.plot.raster import LABEL, TICK
+import roughcontact as rc
 from roughcontact.theory.power_law_indenter import contact
-from roughcontact.thesis import fig15_stepped_shape as fig15
+from roughcontact.thesis import drawing, fig15_stepped_shape
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Stiffening", "case", "draw", "verdicts"]
 
@@ -58,20 +51,21 @@ class Stiffening:
     """
 
     steps: tuple[Array, Array]
-    full: tuple[Solution, ...]
-    curve: Curve
+    full: tuple[rc.Solution, ...]
+    curve: rc.Curve
     smooth: Array
 
 
 def case(seed: int = SEED) -> Stiffening:
     """Return the stiffness against load in three ways; nothing is random, the seed is not used."""
     body = stepped_body(INDENTER, COUNT + 1)
-    operator = ring(body.grid, MODULUS)
+    operator = rc.ring(body.grid, MODULUS)
     full = full_steps(body, operator, COUNT)
     # Just below the last state: there the next rim touches, and the stiffness has two values.
     forces = np.geomspace(full[0].force / 4, (1 - APART) * full[-1].force, POINTS)
-    curve = loading_curve(body, MODULUS, forces=forces, operator=operator)
-    smooth = contact(MODULUS, exponent=INDENTER.hurst, coefficient=fig15.case().coefficient, force=forces)
+    curve = rc.loading_curve(body, MODULUS, forces=forces, operator=operator)
+    coefficient = fig15_stepped_shape.case().coefficient
+    smooth = contact(MODULUS, exponent=INDENTER.hurst, coefficient=coefficient, force=forces)
     return Stiffening(INDENTER.corners(COUNT, MODULUS), full, curve, smooth.stiffness)
 
 
@@ -80,50 +74,37 @@ def draw(figure: Figure, data: Stiffening) -> None:
     axes = figure.subplots()
     curve, (corners, _) = data.curve, data.steps
     dense = np.geomspace(curve.force[0], curve.force[-1], 4000)
-    stairs = INDENTER.stiffness(dense, COUNT, MODULUS)
-    reached = dense <= corners[-1]
-    axes.plot(
-        dense[reached], stairs[reached], color=_MODEL, linewidth=1.2, label="schematic (eqs 4.22, 4.23)"
-    )
+    dense = dense[dense <= corners[-1]]
+    stairs, words = INDENTER.stiffness(dense, COUNT, MODULUS), "schematic (eqs 4.22, 4.23)"
+    axes.plot(dense, stairs, color=_MODEL, label=words)
     axes.plot(*data.steps, "o", color=_MODEL, markersize=4.5)
     axes.plot(curve.force, curve.stiffness, color=_COMPUTED, linewidth=1.6, label="computed")
-    axes.plot(
-        [state.force for state in data.full],
-        [state.stiffness for state in data.full],
-        "o",
-        color=_COMPUTED,
-        markersize=4.5,
-    )
+    full = np.array([(state.force, state.stiffness) for state in data.full])
+    axes.plot(*full.T, "o", color=_COMPUTED, markersize=4.5)
     label = rf"$z \sim r^H$: slope $1/(1+H) = {1 / (1 + INDENTER.hurst):.3f}$"
-    axes.plot(curve.force, data.smooth, "--", color=_SMOOTH, linewidth=1.2, label=label)
-    axes.set(xscale="log", yscale="log")
-    axes.set_xlabel(r"force $F\,/\,(E^* r_0 h_0)$", fontsize=LABEL)
-    axes.set_ylabel(r"contact stiffness $k\,/\,(E^* r_0)$", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK, which="both")
-    axes.grid(True, color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
-    axes.legend(loc="upper left", fontsize=TICK, frameon=False)
+    axes.plot(curve.force, data.smooth, "--", color=_SMOOTH, label=label)
+    words = r"contact stiffness $k\,/\,(E^* r_0)$"
+    drawing.label(axes, r"force $F\,/\,(E^* r_0 h_0)$", words, **drawing.LOG)
+    axes.legend(loc="upper left")
 
 
-def verdicts(data: Stiffening) -> tuple[Verdict, ...]:
+def verdicts(data: Stiffening) -> Verdicts:
     """Return the exponent between the last steps, and what the last cylinder contributes to the force."""
     force, stiffness = (np.array([getattr(s, name) for s in data.full]) for name in ("force", "stiffness"))
     exponent = float(np.log(stiffness[-1] / stiffness[-2]) / np.log(force[-1] / force[-2]))
     heights = INDENTER.heights(COUNT)
     shares = [float((k * heights / f)[-1]) for f, k in (data.steps, (force, stiffness))]
     expected = 1 / (1 + INDENTER.hurst)
-    return (
-        Verdict(
-            "k_n grows as F_n^(1/(1+H)) (eq. 4.24)",
-            f"{expected:.4f}",
-            f"{exponent:.4f} between the last two steps of the rings",
-            bool(abs(exponent - expected) < 0.005 * expected),
-        ),
-        Verdict(
-            "the force consists mainly of the stiffness of the last cylinder times its height (eq. 4.23)",
-            "F_n = k_n h_n",
-            f"k_n h_n is {shares[0]:.0%} of the force of the staircase and {shares[1]:.0%} of that of the rings, "
-            f"after {COUNT} steps and ever after",
-            bool(shares[1] > 0.5),
-        ),
+    yield Verdict(
+        "k_n grows as F_n^(1/(1+H)) (eq. 4.24)",
+        f"{expected:.4f}",
+        f"{exponent:.4f} between the last two steps of the rings",
+        bool(abs(exponent - expected) < 0.005 * expected),
+    )
+    yield Verdict(
+        "the force consists mainly of the stiffness of the last cylinder times its height (eq. 4.23)",
+        "F_n = k_n h_n",
+        f"k_n h_n is {shares[0]:.0%} of the force of the staircase and {shares[1]:.0%} of that of the rings, after "
+        f"{COUNT} steps and ever after",
+        bool(shares[1] > 0.5),
     )

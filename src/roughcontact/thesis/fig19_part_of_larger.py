@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 from scipy.ndimage import uniform_filter
 
-from roughcontact.contact.press import press
-from roughcontact.contact.solution import Solution
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.surface import Surface
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+import roughcontact as rc
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["Gedankenexperiment", "case", "draw", "verdicts"]
 
@@ -39,8 +34,6 @@ CHOSEN = (
 )
 SIZE = (7.0, 3.9)
 
-_CONTACT, _FRAME = "#c8290b", "black"
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gedankenexperiment:
@@ -58,16 +51,16 @@ class Gedankenexperiment:
         Of square parts of the large surface, for `PARTS`, over that of the whole.
     """
 
-    surfaces: tuple[Surface, Surface]
-    contacts: tuple[Solution, Solution]
+    surfaces: tuple[rc.Surface, rc.Surface]
+    contacts: tuple[rc.Solution, rc.Solution]
     corner: tuple[int, int]
     rms: Array
 
 
 def case(seed: int = SEED) -> Gedankenexperiment:
     """Return the contacts of a rough surface and of a square about its highest point, at one depth."""
-    grid = Grid((POINTS, POINTS), 1 / POINTS)
-    surface = self_affine(grid, HURST, RMS, np.random.default_rng(seed))
+    grid = rc.Grid((POINTS, POINTS), 1 / POINTS)
+    surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(seed))
     heights, n = surface.heights, POINTS // SCALE
     peak = np.unravel_index(int(np.argmax(heights)), heights.shape)
     row, column = (int(np.clip(place - n // 2, 0, POINTS - n)) for place in peak)
@@ -77,34 +70,30 @@ def case(seed: int = SEED) -> Gedankenexperiment:
     outside[window] = -np.inf
     depth = float(heights.max() - outside.max())
     surfaces = surface.cropped(*window), surface
-    small, large = (press(each, 1.0, depth=depth) for each in surfaces)
+    small, large = (rc.press(each, 1.0, depth=depth) for each in surfaces)
     return Gedankenexperiment(surfaces, (small, large), (row, column), _rms_of_parts(heights))
 
 
 def draw(figure: Figure, data: Gedankenexperiment) -> None:
     """Draw the small indenter and the large one to one scale, and their contact."""
     panels = figure.subplots(1, 2, width_ratios=(1, SCALE))
-    side = 1 / SCALE
-    origin = (data.corner[1] / POINTS, data.corner[0] / POINTS)
-    for n, (axes, place) in enumerate(zip(panels, (origin, (0.0, 0.0)), strict=True)):
+    x, y = data.corner[1] / POINTS, data.corner[0] / POINTS
+    for n, (axes, place) in enumerate(zip(panels, ((x, y), (0.0, 0.0)), strict=True)):
         surface, contact = data.surfaces[n], data.contacts[n]
-        _indenter(axes, data, n, place)
         length = surface.grid.lengths[0]
+        left, right, top, bottom = place[0], place[0] + length, place[1], place[1] + length
+        _indenter(axes, data, n, (left, right, bottom, top))
         force, stiffness = contact.force / (surface.rms * length), contact.stiffness / length
-        centre, top, bottom = place[0] + length / 2, place[1], place[1] + length
-        axes.text(centre, top - 0.02, f"({n + 1})", fontsize=LABEL, ha="center", va="bottom")
+        centre, middle = (left + right) / 2, (top + bottom) / 2
+        axes.text(centre, top - 0.02, f"({n + 1})", ha="center", va="bottom")
         numbers = rf"$\bar{{F}}$ = {force:.4f},  $\bar{{k}}$ = {stiffness:.4f}"
-        axes.text(centre, bottom + 0.02, numbers, fontsize=LABEL, ha="center", va="top")
-        axes.set(xlim=(place[0], place[0] + length), xticks=[], yticks=[], aspect="equal")
-        axes.spines[:].set_visible(False)
-        middle = (top + bottom) / 2
-        axes.set_ylim(middle + 0.58, middle - 0.58)  # one scale for both
-    x, y = origin
-    panels[1].plot((x, x + side, x + side, x, x), (y, y, y + side, y + side, y), color=_FRAME, linewidth=1.4)
-    panels[1].text(x + 0.015, y + 0.015, "(1)", fontsize=LABEL, va="top")
+        axes.text(centre, bottom + 0.02, numbers, ha="center", va="top")
+        drawing.frameless(axes, xlim=(left, right), ylim=(middle + 0.58, middle - 0.58))  # one scale for both
+    drawing.box(panels[1], (x, x + 1 / SCALE), (y, y + 1 / SCALE), color="black", linewidth=1.4)
+    panels[1].text(x + 0.015, y + 0.015, "(1)", va="top")
 
 
-def verdicts(data: Gedankenexperiment) -> tuple[Verdict, ...]:
+def verdicts(data: Gedankenexperiment) -> Verdicts:
     """Return what both indenters share, and how the rms height of a part compares with that of the whole."""
     small, large = data.contacts
     force, stiffness = (getattr(small, name) / getattr(large, name) - 1 for name in ("force", "stiffness"))
@@ -114,21 +103,19 @@ def verdicts(data: Gedankenexperiment) -> tuple[Verdict, ...]:
     same = np.array_equal(large.contact, expected)
     ratio = float(data.rms[0] / data.rms[PARTS.index(SCALE)])
     halvings = np.log2(data.rms[:-1] / data.rms[1:])
-    return (
-        Verdict(
-            "small and large indenter: the same configuration, force and stiffness at one depth (4.25, 4.26)",
-            "F1 = F2, k1 = k2",
-            f"{'the same' if same else 'other'} cells in contact; F and k equal within "
-            f"{max(abs(force), abs(stiffness), 1e-15):.0e}",
-            same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6),
-        ),
-        Verdict(
-            "rms height of the large indenter over that of the small one (4.27)",
-            f"lambda^H = {SCALE**HURST:.3f}",
-            f"{ratio:.3f} on the mean over all places, as the longest wave is the side of the large one; between parts "
-            f"halved again and again the exponent is {', '.join(f'{x:.2f}' for x in halvings)} instead of {HURST:g}",
-            bool(abs(ratio / SCALE**HURST - 1) < 0.05),
-        ),
+    yield Verdict(
+        "small and large indenter: the same configuration, force and stiffness at one depth (4.25, 4.26)",
+        "F1 = F2, k1 = k2",
+        f"{'the same' if same else 'other'} cells in contact; F and k equal within "
+        f"{max(abs(force), abs(stiffness), 1e-15):.0e}",
+        same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6),
+    )
+    yield Verdict(
+        "rms height of the large indenter over that of the small one (4.27)",
+        f"lambda^H = {SCALE**HURST:.3f}",
+        f"{ratio:.3f} on the mean over all places, as the longest wave is the side of the large one; between parts "
+        f"halved again and again the exponent is {series(halvings, '.2f')} instead of {HURST:g}",
+        bool(abs(ratio / SCALE**HURST - 1) < 0.05),
     )
 
 
@@ -141,20 +128,11 @@ def _rms_of_parts(heights: Array) -> Array:
     return np.asarray(np.sqrt([1 - each.var() / heights.var() for each in means]))
 
 
-def _indenter(axes: Axes, data: Gedankenexperiment, number: int, place: tuple[float, float]) -> None:
-    from matplotlib.colors import ListedColormap
-
-    surface, large = data.surfaces[number], data.surfaces[1].heights
-    side = surface.grid.lengths[0]
-    extent = (place[0], place[0] + side, place[1] + side, place[1])
-    axes.imshow(
-        surface.heights,
-        cmap="Greys_r",
-        vmin=float(large.min()),
-        vmax=float(large.max()),
-        extent=extent,
-        interpolation="nearest",
-        alpha=0.75,
-    )
+def _indenter(
+    axes: Axes, data: Gedankenexperiment, number: int, extent: tuple[float, float, float, float]
+) -> None:
+    large = data.surfaces[1].heights
+    grey: Any = {"cmap": "Greys_r", "vmin": float(large.min()), "vmax": float(large.max()), "alpha": 0.75}
+    axes.imshow(data.surfaces[number].heights, extent=extent, interpolation="nearest", **grey)
     seen = np.where(data.contacts[number].contact, 1.0, np.nan)
-    axes.imshow(seen, cmap=ListedColormap([_CONTACT]), extent=extent, interpolation="nearest")
+    axes.imshow(seen, cmap=ListedColormap([drawing.LINES]), extent=extent, interpolation="nearest")

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
+import roughcontact as rc
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.rough_line import loading_curves
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.surface import shapes
-from roughcontact.surface.surface import Surface
 from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["WavyLine", "case", "draw", "verdicts"]
 
@@ -37,7 +32,6 @@ CHOSEN = (
 )
 SIZE = (7.2, 3.9)
 
-_LINE = "#0072b2"
 _LEVELS = ("#8b1a1a", "#d55e00", "#b07d00")  # of d1, d2, d3
 
 
@@ -55,7 +49,7 @@ class WavyLine:
         At the three depths, for E* = 1.
     """
 
-    line: Surface
+    line: rc.Surface
     amplitudes: Array
     pressed: LineCurves
 
@@ -72,10 +66,10 @@ def case(seed: int = SEED) -> WavyLine:
     """Return the line and its contact at three depths; nothing is random, the seed is not used."""
     lengths = 2 * np.pi / WAVES.wavenumbers(COUNT)
     points = round(float(lengths[0] / lengths[-1])) * CREST
-    grid = Grid(points, float(lengths[0]) / points, periodic=True)
+    grid = rc.Grid(points, float(lengths[0]) / points, periodic=True)
     amplitudes = WAVES.amplitudes(COUNT)
     first, *others = (
-        shapes.wave(grid, float(h), float(length)) for h, length in zip(amplitudes, lengths, strict=True)
+        rc.shapes.wave(grid, float(h), float(length)) for h, length in zip(amplitudes, lengths, strict=True)
     )
     line = sum(others, first)
     depths = np.array([amplitudes[2], 2.4 * amplitudes[2], amplitudes[1]])
@@ -84,33 +78,23 @@ def case(seed: int = SEED) -> WavyLine:
 
 def draw(figure: Figure, data: WavyLine) -> None:
     """Draw the line with its levels of indentation (a), and the highest crest enlarged (b)."""
-    left, right = figure.subplots(1, 2, width_ratios=(1.3, 1))
-    box = (-0.05, 0.05), (-0.23, 0.015)
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1.3, 1))
+    across, upright = (-0.05, 0.05), (-0.23, 0.015)
     _line(left, data, (-0.5, 0.5), (float(data.line.heights.min()) - 0.1, 0.15))
-    _line(right, data, *box)
-    (x0, x1), (y0, y1) = box
-    left.plot((x0, x1, x1, x0, x0), (y0, y0, y1, y1, y0), color="0.35", linewidth=0.8)
-    left.text(x1 + 0.015, y1, "(b)", fontsize=LABEL, va="center")
-    for axes, letter in ((left, "a"), (right, "b")):
-        axes.set_title(f"({letter})", fontsize=LABEL, loc="left")
-        axes.set_xlabel(r"$x\,/\,\lambda_0$", fontsize=LABEL)
-        axes.tick_params(labelsize=TICK)
+    _line(right, data, across, upright)
+    drawing.box(left, across, upright, color="0.35", linewidth=0.8)
+    left.text(across[1] + 0.015, upright[1], "(b)", va="center")
+    for axes in (left, right):
+        axes.set_xlabel(r"$x\,/\,\lambda_0$")
         axes.locator_params(axis="x", nbins=5)
     for n, (depth, colour) in enumerate(zip(data.pressed.depth, _LEVELS, strict=True), start=1):
         right.axhline(-depth, color=colour, linewidth=1.0, linestyle="--", zorder=3)
-        right.text(
-            1.02,
-            -depth,
-            f"$d_{n}$",
-            transform=right.get_yaxis_transform(),
-            va="center",
-            color=colour,
-            fontsize=LABEL,
-        )
-    left.set_ylabel(r"height below the crest / $h_0$", fontsize=LABEL)
+        beside = right.get_yaxis_transform()
+        right.text(1.02, -depth, f"$d_{n}$", transform=beside, va="center", color=colour)
+    left.set_ylabel(r"height below the crest / $h_0$")
 
 
-def verdicts(data: WavyLine) -> tuple[Verdict, ...]:
+def verdicts(data: WavyLine) -> Verdicts:
     """Return where contact is one spot, and what the asymptotic forms of 4.45 to 4.47 make of this line."""
     spots = [data.spots(float(depth)) for depth in data.pressed.depth]
     first, last = _one_spot(data)
@@ -124,26 +108,24 @@ def verdicts(data: WavyLine) -> tuple[Verdict, ...]:
     asymptotic = float(WAVES.corners(1, 1.0)[1][0])
     printed = asymptotic / FLAT_STIFFNESS * 4
     alpha = 1 / (WAVES.hurst + 1)
-    return (
-        Verdict(
-            "the shortest wave is flattened before the next crest of the middle one touches: one continuous spot (d3)",
-            "one spot",
-            f"{spots[0]}, {spots[1]} and {spots[2]} spots at d1, d2 and d3; one from {first:.3f} h0 to {last:.3f} h0, "
-            f"where the shortest wave touches at its flanks; the next crests do at {crests:.3f} h0",
-            bool(spots[2] == 1 and last < crests),
-        ),
-        Verdict(
-            "stiffness where the middle wave is flat, d = 2 h1 (eq. 4.46), over E* and the wavelength",
-            f"{printed:.4f}",
-            f"{stiffness[1]:.4f}; {asymptotic:.4f} by the corrected form, which holds for a large C",
-            bool(abs(stiffness[1] / printed - 1) < 0.05),
-        ),
-        Verdict(
-            "stiffness grows as F^(1/(H+1)) from one scale to the next (eq. 4.47)",
-            f"{alpha:.4f}",
-            f"{exponent:.4f} between the depths 2 h2 and 2 h1",
-            bool(abs(exponent / alpha - 1) < 0.02),
-        ),
+    yield Verdict(
+        "the shortest wave is flattened before the next crest of the middle one touches: one continuous spot (d3)",
+        "one spot",
+        f"{spots[0]}, {spots[1]} and {spots[2]} spots at d1, d2 and d3; one from {first:.3f} h0 to {last:.3f} h0, "
+        f"where the shortest wave touches at its flanks; the next crests do at {crests:.3f} h0",
+        bool(spots[2] == 1 and last < crests),
+    )
+    yield Verdict(
+        "stiffness where the middle wave is flat, d = 2 h1 (eq. 4.46), over E* and the wavelength",
+        f"{printed:.4f}",
+        f"{stiffness[1]:.4f}; {asymptotic:.4f} by the corrected form, which holds for a large C",
+        bool(abs(stiffness[1] / printed - 1) < 0.05),
+    )
+    yield Verdict(
+        "stiffness grows as F^(1/(H+1)) from one scale to the next (eq. 4.47)",
+        f"{alpha:.4f}",
+        f"{exponent:.4f} between the depths 2 h2 and 2 h1",
+        bool(abs(exponent / alpha - 1) < 0.02),
     )
 
 
@@ -160,7 +142,7 @@ def _one_spot(data: WavyLine) -> tuple[float, float]:
 def _line(axes: Axes, data: WavyLine, across: tuple[float, float], upright: tuple[float, float]) -> None:
     x = data.line.grid.coordinates[0] - data.line.grid.lengths[0] / 2
     heights = data.line.heights
-    axes.plot(x, heights, color=_LINE, linewidth=1.0, zorder=4)
+    axes.plot(x, heights, color=drawing.COLOURS[0], linewidth=1.0, zorder=4)
     for depth, colour in zip(data.pressed.depth[::-1], _LEVELS[::-1], strict=True):
         touching = data.touching(float(depth)).tolist()
         axes.fill_between(x, -depth, heights, where=touching, color=colour, alpha=0.35, linewidth=0)

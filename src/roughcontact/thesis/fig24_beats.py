@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.thesis.verdict import Verdict
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-__all__ = ["Heights", "Waves", "beat", "case", "draw", "verdicts"]
+__all__ = ["Beats", "Heights", "beat", "case", "draw", "verdicts"]
 
 TITLE = "one, two, four and eight modes of similar frequency, and the heights below their peak"
 MODES = (1, 2, 4, 8)
@@ -27,10 +24,10 @@ PHASES = 30  # sets of random phases of adjacent harmonics
 WINDOW = (0.01, 0.1)  # depths below the peak over the height of the peak
 SEED = 24
 CHOSEN = (
-    "the modes nest: the frequencies of n + 1 cosines, multiplied, are those of 2^n modes of one amplitude, "
-    f"here {', '.join(map(str, SHOWN))} waves",
-    f"heights are counted where the cosines are far apart: {', '.join(map(str, FREQUENCIES))} waves in "
-    f"one period, {PLACES} places",
+    "the modes nest: the frequencies of n + 1 cosines, multiplied, are those of 2^n modes of one amplitude, here "
+    f"{', '.join(map(str, SHOWN))} waves",
+    f"heights are counted where the cosines are far apart: {', '.join(map(str, FREQUENCIES))} waves in one period, "
+    f"{PLACES} places",
     f"beside them adjacent harmonics of one line from {FREQUENCIES[0]} waves on, {PHASES} sets of random phases",
     f"powers between depths of {WINDOW[0]:g} and {WINDOW[1]:g} of the peak's height",
 )
@@ -61,6 +58,11 @@ class Heights:
     nested: Array
     adjacent: Array
 
+    @property
+    def words(self) -> str:
+        """How many modes there are, in words."""
+        return f"{self.modes} mode{'s' if self.modes > 1 else ''}"
+
     def exponent(self, part: Array) -> float:
         """Return beta of the density of heights, z^beta (thesis, eq. 4.59)."""
         inside = (self.depth >= WINDOW[0] * (1 - 1e-9)) & (self.depth <= WINDOW[1] * (1 + 1e-9))
@@ -69,7 +71,7 @@ class Heights:
 
 
 @dataclass(frozen=True, slots=True)
-class Waves:
+class Beats:
     """What the figure shows: the waves, and the heights of each."""
 
     x: Array
@@ -82,12 +84,12 @@ def beat(x: Array, frequencies: tuple[int, ...]) -> Array:
     return np.asarray(np.prod([np.cos(2 * math.pi * f * x) for f in frequencies], axis=0))
 
 
-def case(seed: int = SEED, places: int = PLACES) -> Waves:
+def case(seed: int = SEED, places: int = PLACES) -> Beats:
     """Return lines of one, two, four and eight modes, and the distribution of heights about their peaks."""
     x = np.linspace(-0.5, 0.5, 4001)
     lines = tuple(beat(x, SHOWN[: stage + 1]) for stage in range(len(MODES)))
     rng = np.random.default_rng(seed)
-    return Waves(x, lines, tuple(_heights(stage, rng, places) for stage in range(len(MODES))))
+    return Beats(x, lines, tuple(_heights(stage, rng, places) for stage in range(len(MODES))))
 
 
 def _heights(stage: int, rng: np.random.Generator, places: int) -> Heights:
@@ -119,66 +121,54 @@ def _above(line: Array, peak: float, depth: Array) -> Array:
     return np.asarray(np.searchsorted(np.sort(1 - line / peak), depth) / line.size)
 
 
-def draw(figure: Figure, data: Waves) -> None:
+def draw(figure: Figure, data: Beats) -> None:
     """Draw the waves (a) to (d), and the heights below the peak (e)."""
     table = figure.add_gridspec(len(MODES), 2, width_ratios=(1.5, 1))
-    for row, (letter, line, heights, colour) in enumerate(
-        zip("abcd", data.lines, data.heights, _COLOURS, strict=True)
-    ):
-        axes = figure.add_subplot(table[row, 0])
+    rows = zip("abcd", data.lines, data.heights, _COLOURS, strict=True)
+    for place, (letter, line, heights, colour) in enumerate(rows):
+        axes = figure.add_subplot(table[place, 0])
         axes.plot(data.x, line, color=colour, linewidth=0.7)
         axes.set(xlim=(data.x[0], data.x[-1]), ylim=(-1.1, 1.1))
-        words = "mode" if heights.modes == 1 else "modes"
-        axes.set_title(f"({letter}) {heights.modes} {words}", fontsize=LABEL, loc="left", pad=2)
+        axes.set_title(f"({letter}) {heights.words}", pad=2)
         axes.set_axis_off()
-    _distribution(figure.add_subplot(table[:, 1]), data.heights)
+    axes = figure.add_subplot(table[:, 1], title="(e)", xlim=(1e-3, 1), ylim=(1e-6, 1.5), **drawing.LOG)
+    _distribution(axes, data.heights)
+    axes.set(xlabel="depth below the peak / height of the peak", ylabel="part of the line above it")
+    axes.legend(loc="lower right")
 
 
 def _distribution(axes: Axes, data: tuple[Heights, ...]) -> None:
     window = np.array(WINDOW)
     middle = math.sqrt(WINDOW[0] * WINDOW[1])
     for heights, colour in zip(data, _COLOURS, strict=True):
-        words = "mode" if heights.modes == 1 else "modes"
         counted = heights.nested * PLACES >= _FEWEST
         x, y = heights.depth[counted], heights.nested[counted]
-        axes.plot(x, y, color=colour, linewidth=1.4, label=f"{heights.modes} {words}")
+        axes.plot(x, y, color=colour, label=heights.words)
         if heights.modes > 2:  # of two modes both are one
-            axes.plot(heights.depth, heights.adjacent, ":", color=colour, linewidth=1.4)
+            axes.plot(heights.depth, heights.adjacent, ":", color=colour)
         power = (1 + math.log2(heights.modes)) / 2
         here = math.exp(np.interp(math.log(middle), np.log(x), np.log(y)))
-        axes.plot(window, here * (window / middle) ** power, "--", color="0.1", linewidth=1.1, zorder=4)
-    axes.plot([], [], ":", color="0.3", linewidth=1.4, label="adjacent harmonics")
-    axes.plot([], [], "--", color="0.1", linewidth=1.1, label="eq. 4.72")
-    axes.set(xscale="log", yscale="log", xlim=(1e-3, 1), ylim=(1e-6, 1.5))
-    axes.set_xlabel("depth below the peak / height of the peak", fontsize=LABEL)
-    axes.set_ylabel("part of the line above it", fontsize=LABEL)
-    axes.set_title("(e)", fontsize=LABEL, loc="left")
-    axes.tick_params(labelsize=TICK)
-    axes.legend(fontsize=TICK, frameon=False, loc="lower right")
+        axes.plot(window, here * (window / middle) ** power, "--", color="0.1", zorder=4)
+    drawing.key(axes, ":", "adjacent harmonics")
+    drawing.key(axes, "--", "eq. 4.72", color="0.1")
 
 
-def verdicts(data: Waves) -> tuple[Verdict, ...]:
+def verdicts(data: Beats) -> Verdicts:
     """Compare the powers of the densities with eq. 4.72."""
     law = [-0.5 + 0.5 * math.log2(each.modes) for each in data.heights]
     nested = [each.exponent(each.nested) for each in data.heights]
     adjacent = [each.exponent(each.adjacent) for each in data.heights]
-    asked = "beta = -1/2 + log2(N)/2: " + _row(law)
+    asked = "beta = -1/2 + log2(N)/2: " + series(law, ".2f")
     where = f"at depths of {WINDOW[0]:g} to {WINDOW[1]:g} of the peak"
-    return (
-        Verdict(
-            "power of the density of heights below the peak of 1, 2, 4 and 8 modes that are beats of beats",
-            asked,
-            f"{_row(nested)}, {where}",
-            bool(np.abs(np.subtract(nested, law)).max() < 0.1),
-        ),
-        Verdict(
-            "the same of any modes of similar frequency, such as adjacent harmonics of a rough line",
-            asked,
-            f"{_row(adjacent)}, {where}; the power counts independent phases, and adjacent harmonics have two",
-            bool(np.abs(np.subtract(adjacent, law)).max() < 0.1),
-        ),
+    yield Verdict(
+        "power of the density of heights below the peak of 1, 2, 4 and 8 modes that are beats of beats",
+        asked,
+        f"{series(nested, '.2f')}, {where}",
+        bool(np.abs(np.subtract(nested, law)).max() < 0.1),
     )
-
-
-def _row(values: list[float]) -> str:
-    return ", ".join(f"{value:.2f}" for value in values)
+    yield Verdict(
+        "the same of any modes of similar frequency, such as adjacent harmonics of a rough line",
+        asked,
+        f"{series(adjacent, '.2f')}, {where}; the power counts independent phases, and adjacent harmonics have two",
+        bool(np.abs(np.subtract(adjacent, law)).max() < 0.1),
+    )

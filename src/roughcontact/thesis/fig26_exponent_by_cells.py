@@ -2,28 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import TICK
+from roughcontact.study.common import on_common
 from roughcontact.study.fit_window import force_window
-from roughcontact.thesis.ensembles import (
-    curve_averages,
-    curve_fits,
-    resolution_studies,
-    stiffness_at,
-    without_parameters,
-)
-from roughcontact.thesis.stiffness_view import exponent_axes
-from roughcontact.thesis.verdict import Verdict, judged
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis import drawing
+from roughcontact.thesis.ensembles import curve_averages, curve_fits, resolution_studies
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.samples import without_parameters
+from roughcontact.thesis.verdict import Verdict, Verdicts, judged, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -44,22 +33,18 @@ _STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#d55e00", "^"))
 _FITS = ("exponent", "exponent_error", "exponent_low", "exponent_high", "window_low", "count", "samples")
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return one study for each number of cells."""
     return resolution_studies(scale)
 
 
 def averages(*squares: xarray.Dataset) -> xarray.Dataset:
     """Return exponents in the window of each grid and, named ``common_...``, in one window, and stiffnesses."""
-    import xarray
-
     parts = []
     for each in squares:
-        own, common = (
-            curve_fits(each)[list(_FITS)],
-            curve_fits(each, window=force_window(*COMMON))[list(_FITS)],
-        )
-        at = stiffness_at(curve_averages(each), [FORCE]).isel(force=0, drop=True)
+        own = curve_fits(each)[list(_FITS)]
+        common = curve_fits(each, window=force_window(*COMMON))[list(_FITS)]
+        at = on_common(curve_averages(each), [FORCE], at="force").isel(force=0, drop=True)
         part = own.assign({f"common_{name}": values for name, values in common.items()})
         part["stiffness"], part["stiffness_error"] = at["stiffness"], at["stiffness_error"]
         parts.append(without_parameters(part).expand_dims(points=[int(each["points"])]))
@@ -69,42 +54,27 @@ def averages(*squares: xarray.Dataset) -> xarray.Dataset:
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw the exponents, filled in the window of each grid and open in the common one."""
     axes = figure.subplots()
-    hurst = averages["hurst"].to_numpy()
-    for place, (points, (colour, mark)) in enumerate(
-        zip(averages["points"].to_numpy(), _STYLES, strict=False)
-    ):
+    hurst, grids = averages["hurst"].to_numpy(), averages["points"].to_numpy()
+    for place, (points, (colour, mark)) in enumerate(zip(grids, _STYLES, strict=False)):
         one = averages.sel(points=points)
         # Side by side, so that bars do not cover each other.
-        x = hurst + 0.012 * (place - (averages.sizes["points"] - 1) / 2)
-        for prefix, fill, style in (("", colour, "-"), ("common_", "white", ":")):
-            alpha = one[f"{prefix}exponent"]
-            bars = abs(np.stack([one[f"{prefix}exponent_{end}"] - alpha for end in ("low", "high")]))
-            axes.errorbar(
-                x,
-                alpha,
-                bars,
-                fmt=mark + style,
-                color=colour,
-                markerfacecolor=fill,
-                markersize=4.5,
-                linewidth=1.0,
-                elinewidth=0.9,
-                zorder=4,
-                label=f"{points}² cells, from {float(one['window_low'].mean()):.2g}" if not prefix else None,
-            )
-    axes.plot([], [], "o:", color="0.4", markerfacecolor="white", label=f"one window, from {COMMON[0]:g}")
+        x = hurst + 0.012 * (place - (len(grids) - 1) / 2)
+        words = f"{points}² cells, from {float(one['window_low'].mean()):.2g}"
+        given = {"color": colour, "markersize": 4.5, "linewidth": 1.0}
+        drawing.with_intervals(axes, x, one, "exponent", fmt=f"{mark}-", label=words, **given)
+        drawing.with_intervals(
+            axes, x, one, "common_exponent", fmt=f"{mark}:", markerfacecolor="white", **given
+        )
+    drawing.key(axes, "o:", f"one window, from {COMMON[0]:g}", color="0.4", markerfacecolor="white")
     x = np.linspace(-0.02, hurst[-1] + 0.05, 50)
-    axes.plot(x, 1 / (x + 1), "--", color="black", linewidth=1.1, label="1/(H + 1)")
-    exponent_axes(axes, r"exponent $\alpha$ of $k \sim F^{\alpha}$")
+    axes.plot(x, 1 / (x + 1), "--", color="black", label="1/(H + 1)")
     lowest = float(min(averages["exponent_low"].min(), averages["common_exponent_low"].min()))
     # With room for the legend below.
-    axes.set(xlim=(hurst[0] - 0.05, hurst[-1] + 0.05), ylim=(lowest - 0.16, 1.02))
-    axes.legend(
-        fontsize=TICK, frameon=False, loc="lower left", title="cells, window in force", title_fontsize=TICK
-    )
+    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.16, 1.02))
+    axes.legend(loc="lower left", title="cells, window in force")
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say whether the exponent depends on the number of cells, in windows of each grid and in a common one."""
     # One surface of a grid is no mean, and has no error to be judged by.
     averages = averages.isel(points=averages["samples"][:, 0].to_numpy() > 1)
@@ -115,34 +85,32 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
         for n, points in zip(averages["samples"][:, 0], averages["points"].values, strict=True)
     )
     grid = low["stiffness"].isel(points=-1) / low["stiffness"].isel(points=0) - 1
-    return (
-        Verdict(
-            "alpha depends on the number of cells for low H",
-            "it does",
-            f"{_each(low['exponent'])} on {_sizes(averages)} cells for H < -0.2, each in the window above its 20 "
-            f"cells, errors about {float(low['exponent_error'].mean()):.3f}; surfaces a value: {counts}",
-            _differs(low["exponent"], low["exponent_error"]),
-        ),
-        Verdict(
-            "the dependence is one on the number of modes, not on the forces of the fit",
-            "the small-scale limit decides",
-            f"{_each(low['common_exponent'])} where all are fitted between {COMMON[0]:g} and {COMMON[1]:g}, errors "
-            f"about {float(low['common_exponent_error'].mean()):.3f}; stiffness at {FORCE:g} on the finest grid "
-            f"{float(grid.mean()):+.1%} from the coarsest",
-            _differs(low["common_exponent"], low["common_exponent_error"]),
-        ),
-        Verdict(
-            "a constant for H < 0",
-            "constant",
-            f"the same within {float(abs(flat).max()):.3f} from H = {float(low['hurst'][0]):g} to "
-            f"{float(low['hurst'][-1]):g} on each grid",
-            judged(flat, low["exponent_error"], 0.02),
-        ),
+    yield Verdict(
+        "alpha depends on the number of cells for low H",
+        "it does",
+        f"{_means(low['exponent'])} on {_sizes(averages)} cells for H < -0.2, each in the window above its 20 cells, "
+        f"errors about {float(low['exponent_error'].mean()):.3f}; surfaces a value: {counts}",
+        _differs(low["exponent"], low["exponent_error"]),
+    )
+    yield Verdict(
+        "the dependence is one on the number of modes, not on the forces of the fit",
+        "the small-scale limit decides",
+        f"{_means(low['common_exponent'])} where all are fitted between {COMMON[0]:g} and {COMMON[1]:g}, errors about "
+        f"{float(low['common_exponent_error'].mean()):.3f}; stiffness at {FORCE:g} on the finest grid "
+        f"{float(grid.mean()):+.1%} from the coarsest",
+        _differs(low["common_exponent"], low["common_exponent_error"]),
+    )
+    yield Verdict(
+        "a constant for H < 0",
+        "constant",
+        f"the same within {float(abs(flat).max()):.3f} from H = {float(low['hurst'][0]):g} to "
+        f"{float(low['hurst'][-1]):g} on each grid",
+        judged(flat, low["exponent_error"], 0.02),
     )
 
 
-def _each(exponents: xarray.DataArray) -> str:
-    return ", ".join(f"{float(value):.3f}" for value in exponents.mean("hurst"))
+def _means(exponents: xarray.DataArray) -> str:
+    return series(exponents.mean("hurst"))
 
 
 def _sizes(averages: xarray.Dataset) -> str:

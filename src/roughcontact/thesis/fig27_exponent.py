@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import TICK
+from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import laws, square_study
+from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_studies
-from roughcontact.thesis.stiffness_view import exponent_axes
-from roughcontact.thesis.verdict import Verdict, judged, spanned
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -31,10 +24,8 @@ CHOSEN = (
 SIZE = (6.4, 4.4)
 NEAR = 0.1  # of an exponent: what counts as agreement with the law
 
-_LINES, _SURFACES, _LAW = "#c8290b", "black", "#0072b2"
 
-
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the study of rough surfaces and that of rough lines, which figure 28 shares."""
     return square_study(scale), *line_studies(scale)
 
@@ -48,45 +39,16 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw the exponents of surfaces as crosses, those of lines as lines, and 1/(H + 1)."""
     axes = figure.subplots()
     hurst = averages["hurst"].to_numpy()
-    *coarser, finest = averages["points"].to_numpy()
-    for points, style in zip(coarser, (":", "--"), strict=False):
-        words = rf"rough lines, $N = 2^{{{int(points).bit_length() - 1}}}$"
-        axes.plot(
-            hurst,
-            averages["line_exponent"].sel(points=points),
-            style,
-            color=_LINES,
-            linewidth=1.0,
-            label=words,
-        )
-    fine = averages.sel(points=finest)
-    band = fine["line_exponent_low"], fine["line_exponent_high"]
-    axes.fill_between(hurst, *band, color=_LINES, alpha=0.2, linewidth=0)
-    words = rf"rough lines, $N = 2^{{{int(finest).bit_length() - 1}}}$"
-    axes.plot(hurst, fine["line_exponent"], color=_LINES, linewidth=1.6, label=words)
-    alpha = averages["exponent"]
-    bars = abs(np.stack([averages["exponent_low"] - alpha, averages["exponent_high"] - alpha]))
-    axes.errorbar(
-        hurst,
-        alpha,
-        bars,
-        fmt="x",
-        color=_SURFACES,
-        markersize=5.5,
-        markeredgewidth=1.4,
-        elinewidth=0.9,
-        zorder=4,
-        label=f"surfaces, {averages.attrs['cells']}² cells",
-    )
-    x = np.linspace(-0.02, 2, 200)
-    axes.plot(x, 1 / (x + 1), color=_LAW, linewidth=1.2, zorder=2, label="1/(H + 1)")
-    axes.plot([2, hurst[-1] + 0.05], [1 / 3] * 2, "-.", color=_LAW, linewidth=1.2, zorder=2, label="1/3")
-    exponent_axes(axes, r"exponent $\alpha$ of $k \sim F^{\alpha}$")
-    axes.set(xlim=(hurst[0] - 0.05, hurst[-1] + 0.05), ylim=(0.28, 1.02))
-    axes.legend(fontsize=TICK, frameon=False, loc="upper right")
+    for points, style in zip(averages["points"].to_numpy()[:-1], (":", "--"), strict=False):
+        curve, words = averages["line_exponent"].sel(points=points), drawing.lines_words(points)
+        axes.plot(hurst, curve, style, color=drawing.LINES, linewidth=1.0, label=words)
+    drawing.both_methods(axes, averages, "exponent")
+    drawing.exponent_laws(axes, hurst)
+    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(0.28, 1.02))
+    axes.legend(loc="upper right")
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Compare the exponents with 1/(H + 1), with each other, and at both ends."""
     found = averages.dropna("hurst", subset=["exponent"])
     alpha, error, hurst = found["exponent"], found["exponent_error"], found["hurst"]
@@ -100,36 +62,33 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
     smooth, low = slice(2.01, None), slice(None, 0)
     ends = alpha.sel(hurst=smooth)[[0, -1]]
     plateau = alpha.sel(hurst=low)
-    said = f"{averages.attrs['surfaces']} surfaces of {averages.attrs['cells']}² cells a value"
-    return (
-        Verdict(
-            "alpha = 1/(H + 1) for 0 < H < 2",
-            "1/(H + 1)",
-            f"within {NEAR:.0%} of it {_range(near)}; most off at H = {worst:.2f}: {alpha.sel(hurst=worst):.3f} "
-            f"instead of {1 / (1 + worst):.3f}; errors about {float(error.mean()):.3f}, {said}",
-            judged(away.sel(hurst=middle), spread.sel(hurst=middle), NEAR),
-        ),
-        Verdict(
-            "the Hertzian exponent for H >= 2",
-            "1/3",
-            " and ".join(f"{float(value):.3f} at H = {float(value['hurst']):.2f}" for value in ends)
-            + "; in this window crests are not quite paraboloids any more",
-            judged(3 * alpha.sel(hurst=smooth) - 1, 3 * error.sel(hurst=smooth), NEAR),
-        ),
-        Verdict(
-            "boundary elements and rough lines are almost a perfect match",
-            "almost perfect",
-            f"differences {spanned(apart.sel(hurst=slice(0.39, None)), '+.3f')} for H >= 0.4, "
-            f"{spanned(apart.sel(hurst=low), '+.3f')} for H <= 0; errors about {float(both.mean()):.3f}",
-            judged(apart, both, 0.05),
-        ),
-        Verdict(
-            "a constant for H below about 0",
-            "constant, depends on the number of scales",
-            f"{float(plateau.min()):.3f} to {float(plateau.max()):.3f} from H = {float(hurst[0]):.2f} to 0, errors "
-            f"about {float(error.sel(hurst=low).mean()):.3f}; what it depends on: figures 23, 25 and 26",
-            judged(plateau - plateau.mean(), error.sel(hurst=low), 0.03),
-        ),
+    yield Verdict(
+        "alpha = 1/(H + 1) for 0 < H < 2",
+        "1/(H + 1)",
+        f"within {NEAR:.0%} of it {_range(near)}; most off at H = {worst:.2f}: {alpha.sel(hurst=worst):.3f} instead of "
+        f"{1 / (1 + worst):.3f}; errors about {float(error.mean()):.3f}, {counted(averages, 'surfaces')} a value",
+        judged(away.sel(hurst=middle), spread.sel(hurst=middle), NEAR),
+    )
+    yield Verdict(
+        "the Hertzian exponent for H >= 2",
+        "1/3",
+        " and ".join(f"{float(value):.3f} at H = {float(value['hurst']):.2f}" for value in ends)
+        + "; in this window crests are not quite paraboloids any more",
+        judged(3 * alpha.sel(hurst=smooth) - 1, 3 * error.sel(hurst=smooth), NEAR),
+    )
+    yield Verdict(
+        "boundary elements and rough lines are almost a perfect match",
+        "almost perfect",
+        f"differences {spanned(apart.sel(hurst=slice(0.39, None)), '+.3f')} for H >= 0.4, "
+        f"{spanned(apart.sel(hurst=low), '+.3f')} for H <= 0; errors about {float(both.mean()):.3f}",
+        judged(apart, both, 0.05),
+    )
+    yield Verdict(
+        "a constant for H below about 0",
+        "constant, depends on the number of scales",
+        f"{float(plateau.min()):.3f} to {float(plateau.max()):.3f} from H = {float(hurst[0]):.2f} to 0, errors about "
+        f"{float(error.sel(hurst=low).mean()):.3f}; what it depends on: figures 23, 25 and 26",
+        judged(plateau - plateau.mean(), error.sel(hurst=low), 0.03),
     )
 
 

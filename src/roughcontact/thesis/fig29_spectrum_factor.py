@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.plot.raster import TICK
+from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import square_study
+from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import each_line, line_studies
 from roughcontact.thesis.line_match import match, pairs
-from roughcontact.thesis.stiffness_view import exponent_axes
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -35,15 +29,13 @@ CHOSEN = (
 SIZE = (6.0, 4.2)
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the studies of lines and of surfaces that figures 27 and 28 are made of."""
     return (*line_studies(scale), square_study(scale))
 
 
 def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
     """Return lambda with its standard error, that of equal rms heights, and how well the matched curves agree."""
-    import xarray
-
     longest = each_line(lines).isel(points=-1)
     points = int(surfaces["points"])
     rows = []
@@ -74,41 +66,27 @@ def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw lambda against the Hurst exponent, with that of equal rms heights, Geike's pi and the limit 4."""
     axes = figure.subplots()
-    hurst = averages["hurst"]
+    factor = averages["factor"]
     # An error of a logarithm: of few samples it is not small.
-    factor = averages["factor"].to_numpy()
-    error = 2 * averages["factor_error"].to_numpy() / factor
-    axes.errorbar(
-        hurst,
-        factor,
-        np.abs(np.exp(np.multiply.outer([-1, 1], error)) - 1) * factor,
-        fmt="o-",
-        color="#0072b2",
-        markersize=3.8,
-        linewidth=1.1,
-        elinewidth=0.9,
-        capsize=2,
-        zorder=3,
-        label="equal stiffness, with two standard errors",
-    )
-    axes.plot(
-        hurst,
-        averages["factor_rms"],
-        "--",
-        color="#d55e00",
-        linewidth=1.3,
-        label=r"$\lambda$ of equal rms heights",
-    )
-    axes.axhline(math.pi, color="0.35", linewidth=1.0, linestyle="-.", label=r"$\pi$ (eq. 4.54)")
-    axes.axhline(
-        SINGLE_WAVE, color="0.35", linewidth=1.0, linestyle=":", label=r"4: a single wave, $H \to \infty$"
-    )
-    exponent_axes(axes, r"factor $\lambda$ of $C_{\mathrm{1D}} = \lambda\, q\, C_{\mathrm{2D}}$")
-    axes.set_ylim(0, 1.4 * max(SINGLE_WAVE, float(factor.max())))
-    axes.legend(fontsize=TICK, framealpha=0.9, edgecolor="white", loc="upper left")
+    spread = np.exp(2 * averages["factor_error"] / factor)
+    shown = averages.assign(factor_low=factor / spread, factor_high=factor * spread)
+    style = {"fmt": "o-", "color": drawing.COLOURS[0], "capsize": 2, "zorder": 3}
+    words = "equal stiffness, with two standard errors"
+    drawing.with_intervals(axes, averages["hurst"], shown, "factor", label=words, **style)
+    words = r"$\lambda$ of equal rms heights"
+    axes.plot(averages["hurst"], averages["factor_rms"], "--", color=drawing.COLOURS[1], label=words)
+    for value, dashes, words in (
+        (math.pi, "-.", r"$\pi$ (eq. 4.54)"),
+        (SINGLE_WAVE, ":", r"4: a single wave, $H \to \infty$"),
+    ):
+        axes.axhline(value, color="0.35", linewidth=1.0, linestyle=dashes, label=words)
+    top = 1.4 * max(SINGLE_WAVE, float(shown["factor_high"].max()))
+    words = r"factor $\lambda$ of $C_{\mathrm{1D}} = \lambda\, q\, C_{\mathrm{2D}}$"
+    drawing.label(axes, "Hurst exponent H", words, ylim=(0, top))
+    axes.legend(loc="upper left")
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say what lambda is, and whether it does what it is for."""
     inside = averages.sel(hurst=slice(0.15, 2.05))
     over = (inside["factor"] / inside["factor_rms"]).to_numpy()
@@ -119,20 +97,17 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
     values = ", ".join(f"{value:.2f} +- {error:.2f} at H = {hurst:.2g}" for value, error, hurst in rows)
     told = averages.attrs
     counts = f"{told['lines']} lines, {told['samples']} surfaces of {told['points']}² points"
-    return (
-        Verdict("lambda depends on H", "figure only", f"{values}; {counts}", None),
-        Verdict(
-            "with C1D = pi q C2D and one rms height (eq. 4.54) lines are as stiff as surfaces to a first approximation",
-            "lambda(H) adapts the spectrum even better",
-            f"lambda is {over.min():.2f} to {over.max():.2f} times that of equal rms heights for 0.2 < H < 2: forces "
-            f"differ by {abs(np.sqrt(over) - 1).max():.0%} at most",
-            None,
-        ),
-        Verdict(
-            "a line with this lambda has the stiffness of the surface at low loads, and need not be normalised",
-            "the same asymptotical behaviour",
-            f"mean stiffnesses agree to {mismatch.max():.1%} all over the window for 0.2 < H < 2, worst at "
-            f"H = {worst:.2g}",
-            bool(mismatch.max() < 0.05),
-        ),
+    yield Verdict("lambda depends on H", "figure only", f"{values}; {counts}", None)
+    yield Verdict(
+        "with C1D = pi q C2D and one rms height (eq. 4.54) lines are as stiff as surfaces to a first approximation",
+        "lambda(H) adapts the spectrum even better",
+        f"lambda is {over.min():.2f} to {over.max():.2f} times that of equal rms heights for 0.2 < H < 2: forces "
+        f"differ by {abs(np.sqrt(over) - 1).max():.0%} at most",
+        None,
+    )
+    yield Verdict(
+        "a line with this lambda has the stiffness of the surface at low loads, and need not be normalised",
+        "the same asymptotical behaviour",
+        f"mean stiffnesses agree to {mismatch.max():.1%} all over the window for 0.2 < H < 2, worst at H = {worst:.2g}",
+        bool(mismatch.max() < 0.05),
     )

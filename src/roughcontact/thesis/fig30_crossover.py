@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.study.ranges import Range
+from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import curve_averages, saturation_study
+from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import each_line, line_study
 from roughcontact.thesis.line_match import match, pairs
-from roughcontact.thesis.stiffness_view import FORCE_LABEL, hurst_colours, quiet, stiffness_axes
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -36,7 +29,7 @@ CHOSEN = (
 SIZE = (6.2, 5.6)
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return a study of lines at the Hurst exponents of figure 21, and that of its surfaces."""
     lines = line_study(
         "lines-of-figure-30",
@@ -49,8 +42,6 @@ def studies(scale: Scale) -> tuple[Study, ...]:
 
 def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
     """Return the mean curves of both on the forces of the surfaces, matched at low loads."""
-    import xarray
-
     every = each_line(lines)
     force = surfaces["dimensionless_force"].to_numpy()
     found = []
@@ -58,53 +49,44 @@ def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
         matched = match(line, surface, HIGHEST)
         moved = np.interp(np.log(force / matched.ratio), np.log(line.force), np.log(line.mean()))
         found.append((np.exp(moved), matched.ratio, matched.ratio * matched.error, matched.window[0]))
-    stiffness, ratio, error, low = map(np.array, zip(*found, strict=True))
+    columns = map(np.array, zip(*found, strict=True))
     whole = curve_averages(surfaces)[["force", "stiffness", "stiffness_error"]]
-    told = {
-        "samples": surfaces.sizes["sample"],
-        "lines": every.sizes["sample"],
-        "points": int(surfaces["points"]),
-    }
-    return (
-        whole.rename(stiffness="surface", stiffness_error="surface_error")
-        .assign(
-            line=xarray.DataArray(
-                stiffness,
-                dims=("hurst", "load"),
-                attrs={"long_name": "stiffness of lines at matched forces", "units": "1"},
-            ),
-            ratio=("hurst", ratio, {"long_name": "force of surfaces over that of lines", "units": "1"}),
-            ratio_error=("hurst", error, {"long_name": "standard error of it", "units": "1"}),
-            resolved=("hurst", low, {"long_name": "lowest stiffness of the match", "units": "1"}),
-        )
-        .assign_attrs(told)
+    whole = whole.rename(stiffness="surface", stiffness_error="surface_error")
+    for (name, words), values in zip(
+        (
+            ("line", "stiffness of lines at matched forces"),
+            ("ratio", "force of surfaces over that of lines"),
+            ("ratio_error", "standard error of it"),
+            ("resolved", "lowest stiffness of the match"),
+        ),
+        columns,
+        strict=True,
+    ):
+        whole[name] = ("hurst", "load")[: values.ndim], values, {"long_name": words, "units": "1"}
+    return whole.assign_attrs(
+        samples=surfaces.sizes["sample"], lines=every.sizes["sample"], points=int(surfaces["points"])
     )
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw both stiffnesses, and beneath them one over the other."""
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
-    stiffness_axes(upper)
-    hurst = averages["hurst"].to_numpy()
-    colours = hurst_colours(hurst[0], hurst[-1])
-    force = averages["force"].to_numpy()
-    for each in hurst:
-        one, colour = averages.sel(hurst=each), colours.to_rgba(each)
-        seen = one["surface"].to_numpy() >= float(one["resolved"])
-        upper.plot(force, one["line"], color=colour, linewidth=1.2, label=f"H = {each:g}")
-        upper.plot(force[seen], one["surface"].to_numpy()[seen], "x", color=colour, markersize=4.5)
-        lower.plot(force[seen], (one["line"] / one["surface"]).to_numpy()[seen], color=colour, linewidth=1.2)
-    upper.plot([], [], color="0.3", linewidth=1.2, label="lines")
-    upper.plot([], [], "x", color="0.3", markersize=4.5, label="surfaces")
-    upper.legend(fontsize=TICK, frameon=False, loc="lower right", ncols=2)
+    force = averages["force"]
+    for hurst, one, colour in drawing.by_hurst(averages):
+        surface = one["surface"].where(one["surface"] >= one["resolved"])
+        upper.plot(force, one["line"], color=colour, label=f"H = {hurst:g}")
+        upper.plot(force, surface, "x", color=colour, markersize=4.5)
+        lower.plot(force, one["line"] / surface, color=colour)
+    drawing.key(upper, "-", "lines")
+    drawing.key(upper, "x", "surfaces", markersize=4.5)
+    drawing.stiffness_axes(upper)
     upper.set_xlabel("")
+    upper.legend(loc="lower right", ncols=2)
     lower.axhline(1, color="0.5", linewidth=0.8, zorder=1)
-    lower.set_ylabel("lines / surfaces", fontsize=LABEL)
-    lower.set_xlabel(FORCE_LABEL, fontsize=LABEL)
-    quiet(lower)
+    drawing.label(lower, f"dimensionless {drawing.FORCE}", "lines / surfaces")
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say how far lines and surfaces are apart in the crossover, and at its end."""
     ratio = averages["line"] / averages["surface"]
     force = averages["force"]
@@ -115,17 +97,15 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
     last = float(averages["surface"].isel(load=-1).mean())
     told = averages.attrs
     counts = f"{told['lines']} lines, {told['samples']} surfaces of {told['points']}² points"
-    return (
-        Verdict(
-            "some deviations of lines from surfaces in the transition, which depend on H",
-            "figure only",
-            f"at forces from {CROSSOVER[0]:g} to {CROSSOVER[1]:g}: {each}; {counts}",
-            bool(max(abs(low).max(), high.max()) > 0.05),
-        ),
-        Verdict(
-            "both end in a constant stiffness",
-            "1 and 1.142 (eqs 4.7 and 4.14; exactly 1.1523)",
-            f"{float(averages['line'].isel(load=-1).mean()):.3f} and {last:.3f} at a force of {float(force[-1]):.3g}",
-            bool(abs(last / 1.1523 - 1) < 0.02),
-        ),
+    yield Verdict(
+        "some deviations of lines from surfaces in the transition, which depend on H",
+        "figure only",
+        f"at forces from {CROSSOVER[0]:g} to {CROSSOVER[1]:g}: {each}; {counts}",
+        bool(max(abs(low).max(), high.max()) > 0.05),
+    )
+    yield Verdict(
+        "both end in a constant stiffness",
+        "1 and 1.142 (eqs 4.7 and 4.14; exactly 1.1523)",
+        f"{float(averages['line'].isel(load=-1).mean()):.3f} and {last:.3f} at a force of {float(force[-1]):.3g}",
+        bool(abs(last / 1.1523 - 1) < 0.02),
     )

@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.thesis.asperity_ensembles import CHOSEN as _SHARED
-from roughcontact.thesis.asperity_ensembles import asperity_averages, law_exponent
-from roughcontact.thesis.asperity_view import studies
-from roughcontact.thesis.stiffness_view import hurst_colours, quiet, stiffness_axes
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.figure import Figure
-
+from roughcontact.thesis import drawing
+from roughcontact.thesis.asperity_ensembles import CHOSEN as SHARED
+from roughcontact.thesis.asperity_ensembles import asperity_averages, law_exponent, studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "interacting asperities of surfaces of several fractal dimensions"
 HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
-CHOSEN = (*_SHARED, "D_f = 2.1, 2.3, 2.5, 2.7, 2.9; means over 25 surfaces, on the small scale 8")
+CHOSEN = (*SHARED, "D_f = 2.1, 2.3, 2.5, 2.7, 2.9; means over 25 surfaces, on the small scale 8")
 SIZE = (7.4, 4.0)
 
 
@@ -40,59 +31,37 @@ def averages(asperities: xarray.Dataset) -> xarray.Dataset:
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw the mean stiffness for each fractal dimension with its slope (a), and the exponents (b)."""
-    left, right = figure.subplots(1, 2, width_ratios=(1.5, 1))
-    colours = hurst_colours(min(HURST), max(HURST))
-    _curves(left, averages, colours)
-    _exponents(right, averages, colours)
-    for letter, axes in zip("ab", (left, right), strict=True):
-        axes.set_title(f"({letter})", fontsize=LABEL, loc="left")
-
-
-def _curves(axes: Axes, averages: xarray.Dataset, colours: ScalarMappable) -> None:
-    stiffness_axes(axes)
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1.5, 1))
     force = averages["force"].to_numpy()
-    for each in averages["hurst"].to_numpy()[::-1]:
-        one, colour = averages.sel(hurst=each), colours.to_rgba(each)
+    for hurst, one, colour in reversed([*drawing.by_hurst(averages)]):
         stiffness, low = one["stiffness"].to_numpy(), float(one["window_low"])
         seen = force >= low
-        axes.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.35)
-        axes.plot(force[seen], stiffness[seen], "o-", color=colour, markersize=3, linewidth=1.2)
-        axes.plot([], [], "o-", color=colour, markersize=3, linewidth=1.2, label=f"$D_f$ = {3 - each:.1f}")
+        left.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.35)
+        words = f"$D_f$ = {3 - hurst:.1f}"
+        left.plot(force[seen], stiffness[seen], "o-", color=colour, markersize=3, label=words)
         x = np.array([low, float(one["window_high"])])
-        law = stiffness[seen][0] * (x / x[0]) ** law_exponent(float(each))
-        axes.plot(x, law, "--", color=colour, linewidth=1.3, zorder=4)
-    axes.plot([], [], "--", color="0.3", linewidth=1.3, label=r"slopes $1/(4 - D_f)$")
-    axes.legend(fontsize=TICK, frameon=False, loc="lower right")
-
-
-def _exponents(axes: Axes, averages: xarray.Dataset, colours: ScalarMappable) -> None:
-    dimension = 3 - averages["hurst"].to_numpy()
-    every = zip(dimension, averages["exponent"].values, averages["exponent_error"].values, strict=True)
-    for x, y, error in every:
-        axes.errorbar(x, y, 2 * error, fmt="o", color=colours.to_rgba(3 - x), markersize=4.5, capsize=2.5)
+        law = stiffness[seen][0] * (x / x[0]) ** law_exponent(hurst)
+        left.plot(x, law, "--", color=colour, zorder=4)
+        error = 2 * one["exponent_error"]
+        right.errorbar(3 - hurst, one["exponent"], error, fmt="o", color=colour, capsize=2.5)
+    drawing.key(left, "--", r"slopes $1/(4 - D_f)$")
+    drawing.stiffness_axes(left)
+    left.legend(loc="lower right")
     x = np.linspace(2.05, 2.95, 100)
-    axes.plot(x, 1 / (4 - x), "--", color="0.3", linewidth=1.3, zorder=1, label=r"$1/(4 - D_f)$")
-    axes.set_xlabel("fractal dimension $D_f$", fontsize=LABEL)
-    axes.set_ylabel("exponent, with two standard errors", fontsize=LABEL)
-    quiet(axes)
-    axes.legend(fontsize=TICK, frameon=False, loc="upper left")
+    right.plot(x, 1 / (4 - x), "--", color="0.3", zorder=1, label=r"$1/(4 - D_f)$")
+    drawing.label(right, "fractal dimension $D_f$", "exponent, with two standard errors")
+    right.legend(loc="upper left")
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Compare the exponents."""
-    exponents = averages["exponent"].to_numpy()
-    laws = np.array([law_exponent(float(each)) for each in averages["hurst"]])
+    exponents, hurst = averages["exponent"].to_numpy(), averages["hurst"].to_numpy()
+    laws = np.array([law_exponent(float(each)) for each in hurst])
     errors = averages["exponent_error"].to_numpy()
-    return (
-        Verdict(
-            "for small forces a power law with an exponent close to 1/(4 - D_f)",
-            f"{_row(laws)} for D_f = {_row(3 - averages['hurst'].to_numpy(), 1)}",
-            f"{_row(exponents)}, each +-{errors.max():.3f} or less, from {int(averages['samples'])} surfaces; the "
-            "law is too steep where H is low",
-            bool(np.abs(exponents - laws).max() < 0.05),
-        ),
+    yield Verdict(
+        "for small forces a power law with an exponent close to 1/(4 - D_f)",
+        f"{series(laws)} for D_f = {series(3 - hurst, '.1f')}",
+        f"{series(exponents)}, each +-{errors.max():.3f} or less, from {int(averages['samples'])} surfaces; the law is "
+        "too steep where H is low",
+        bool(np.abs(exponents - laws).max() < 0.05),
     )
-
-
-def _row(values: np.typing.NDArray[np.float64], digits: int = 3) -> str:
-    return ", ".join(f"{value:.{digits}f}" for value in values)

@@ -4,19 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.surface.fourier import synthesise
-from roughcontact.surface.spectrum import SelfAffineSpectrum
-from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+import roughcontact as rc
+from roughcontact.thesis import drawing
 
 __all__ = ["Roughness", "case", "draw"]
 
@@ -43,29 +37,29 @@ class Roughness:
     """A spectrum of the figure and a line that has it."""
 
     name: str
-    spectrum: SelfAffineSpectrum
-    line: Surface
+    spectrum: rc.SelfAffineSpectrum
+    line: rc.Surface
 
 
 def case(seed: int = SEED) -> tuple[Roughness, ...]:
     """Return the spectrum C1D [m^3] without a limit, with a plateau and with a cut, and a line of each."""
-    grid = Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
-    scale = SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid).scale
+    grid = rc.Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
+    scale = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid).scale
     limit = LIMIT * LENGTH
     spectra = (
-        SelfAffineSpectrum(HURST, dimension=1, scale=scale),
-        SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
-        SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
+        rc.SelfAffineSpectrum(HURST, dimension=1, scale=scale),
+        rc.SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
+        rc.SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
     )
     return tuple(
-        Roughness(name, spectrum, synthesise(grid, spectrum, np.random.default_rng(seed)))
+        Roughness(name, spectrum, rc.synthesise(grid, spectrum, np.random.default_rng(seed)))
         for name, spectrum in zip(_NAMES, spectra, strict=True)
     )
 
 
 def draw(figure: Figure, data: tuple[Roughness, ...]) -> None:
     """Draw the spectra (a) and the lines (b)."""
-    left, right = figure.subplots(1, 2, width_ratios=(1, 1.35))
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1, 1.35))
     _spectra(left, data)
     _lines(right, data)
 
@@ -88,11 +82,9 @@ def _spectra(axes: Axes, data: tuple[Roughness, ...]) -> None:
         axes.plot(x, y, color=colour, linewidth=width, zorder=order, label=each.name)
     axes.set(xscale="log", yscale="log", ylim=(lowest, 3), xlim=(0.8, POINTS / 2 * 1.3))
     axes.axvline(bend, color="0.6", linewidth=0.8, linestyle=":", zorder=1)
-    axes.set_xlabel(r"wavenumber $q\,/\,q_0$", fontsize=LABEL)
-    axes.set_ylabel(r"power spectrum $C_{\mathrm{1D}}\,/\,C_{\mathrm{1D}}(q_0)$", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK, which="both")
-    axes.legend(fontsize=TICK, frameon=False, loc="upper right")
-    axes.set_title("(a)", fontsize=LABEL, loc="left")
+    axes.set_xlabel(r"wavenumber $q\,/\,q_0$")
+    axes.set_ylabel(r"power spectrum $C_{\mathrm{1D}}\,/\,C_{\mathrm{1D}}(q_0)$")
+    axes.legend(loc="upper right")
 
 
 def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
@@ -100,18 +92,14 @@ def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
     base = 0.0
     for each, colour in zip(data, _COLOURS, strict=True):
         heights = each.line.heights / LENGTH
-        base -= float(heights.max()) + 0.03
+        top = base - 0.03
+        base = top - float(heights.max())
         axes.plot(x, heights + base, color=colour, linewidth=0.9)
-        axes.text(
-            0.0, float(heights.max()) + base + 0.004, each.name, fontsize=TICK, color=colour, va="bottom"
-        )
+        axes.text(0.0, top + 0.004, each.name, fontsize=drawing.TICK, color=colour, va="bottom")
         base += float(heights.min())
     # The wavelength of the cut, below the line that has it.
     y = base - 0.02
-    axes.annotate(
-        "", (0.5 + LIMIT, y), (0.5, y), arrowprops={"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0}
-    )
-    axes.text(0.5 + LIMIT + 0.015, y, r"$\lambda_c$", va="center", fontsize=LABEL)
+    drawing.arrow(axes, (0.5, y), (0.5 + LIMIT, y), "<->")
+    axes.text(0.5 + LIMIT + 0.015, y, r"$\lambda_c$", va="center")
     axes.set(xlim=(-0.01, 1.01), ylim=(y - 0.03, 0.01))
     axes.set_axis_off()
-    axes.set_title("(b)", fontsize=LABEL, loc="left")

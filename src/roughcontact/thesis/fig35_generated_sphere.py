@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
+import roughcontact as rc
 from roughcontact.plot.view import surface_view
-from roughcontact.surface import shapes
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 __all__ = ["case", "draw"]
 
@@ -31,14 +26,14 @@ CHOSEN = (
 SIZE = (5.4, 3.2)
 
 
-def case(seed: int = SEED) -> Surface:
+def case(seed: int = SEED) -> rc.Surface:
     """Return the paraboloid with the roughness on it."""
-    grid = Grid((POINTS, POINTS), LENGTH / (POINTS - 1))
-    roughness = self_affine(grid, HURST, RMS * LENGTH, np.random.default_rng(seed), nodal=True)
-    return shapes.paraboloid(grid, RADIUS) + roughness
+    grid = rc.Grid((POINTS, POINTS), LENGTH / (POINTS - 1))
+    roughness = rc.self_affine(grid, HURST, RMS * LENGTH, np.random.default_rng(seed), nodal=True)
+    return rc.shapes.paraboloid(grid, RADIUS) + roughness
 
 
-def draw(figure: Figure, data: Surface) -> None:
+def draw(figure: Figure, data: rc.Surface) -> None:
     """Draw the sphere from aside."""
     # Axes in space are square, and leave much of their square empty: these reach over the page.
     axes: Any = figure.add_subplot(projection="3d")
@@ -48,5 +43,5 @@ def draw(figure: Figure, data: Surface) -> None:
         place - length / 2 for place, length in zip(data.grid.coordinates, data.grid.lengths, strict=True)
     )
     inside = np.hypot(*np.meshgrid(y, x, indexing="ij")) <= LENGTH / 2
-    surface_view(axes, Surface(np.where(inside, data.heights, np.nan), data.grid), frame=False)
+    surface_view(axes, rc.Surface(np.where(inside, data.heights, np.nan), data.grid), frame=False)
     axes.set_box_aspect((1, 1, 0.3), zoom=1.15)

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from roughcontact.mdr import indenter
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.theory import pohrt_popov, rough_sphere
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Indenters", "case", "draw", "verdicts"]
 
@@ -32,8 +29,6 @@ CHOSEN = (
     f"drawn up to r = {SHOWN:g} L, heights enlarged",
 )
 SIZE = (7.2, 2.8)
-
-_FILL, _EDGE = "#cfe3f2", "#0072b2"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,24 +52,24 @@ def draw(figure: Figure, data: Indenters) -> None:
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     r = SHOWN * LENGTH * np.linspace(0, 1, 401) ** 2  # close to the tip, where the slope has no bound
     x = np.concatenate([-r[:0:-1], r])
-    names = ("$z_p = r^2/2R$", f"$z_s = Q\\,r^{{{HURST:g}}}$", "$z_c = z_p + z_s$")
     top = float(data.both.height(r[-1:])[0]) * 1.12
-    for letter, axes, profile, name in zip(
-        "abc", panels, (data.parabola, data.roughness, data.both), names, strict=True
+    for axes, profile, name in zip(
+        panels,
+        (data.parabola, data.roughness, data.both),
+        ("(a)  $z_p = r^2/2R$", f"(b)  $z_s = Q\\,r^{{{HURST:g}}}$", "(c)  $z_c = z_p + z_s$"),
+        strict=True,
     ):
         z = profile.height(np.abs(x))
-        axes.fill_between(x, z, top, color=_FILL, linewidth=0)
-        axes.plot(x, z, color=_EDGE, linewidth=1.4)
-        axes.set_title(f"({letter})  {name}", fontsize=LABEL)
-        axes.set_xlabel(r"$x\,/\,L$", fontsize=LABEL)
-        axes.tick_params(labelsize=TICK)
+        axes.fill_between(x, z, top, color="#cfe3f2", linewidth=0)
+        axes.plot(x, z, color=drawing.COLOURS[0], linewidth=1.4)
+        axes.set_title(name, loc="center")
+        axes.set_xlabel(r"$x\,/\,L$")
         axes.axhline(0, color="0.6", linewidth=0.8, zorder=0)
-    panels[0].set_ylabel(r"$z\,/\,L$", fontsize=LABEL)
-    panels[0].set_xticks([-0.5 * SHOWN, 0, 0.5 * SHOWN])
+    panels[0].set(xticks=[-0.5 * SHOWN, 0, 0.5 * SHOWN], ylabel=r"$z\,/\,L$")
     panels[0].set(xlim=(x[0], x[-1]), ylim=(-0.06 * top, top))
 
 
-def verdicts(data: Indenters) -> tuple[Verdict, ...]:
+def verdicts(data: Indenters) -> Verdicts:
     """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them."""
     rough, both, smooth = (
         indentation_curve(profile, 1.0, forces=FORCES * LENGTH**2)
@@ -87,23 +82,21 @@ def verdicts(data: Indenters) -> tuple[Verdict, ...]:
     off_law = float(np.abs(rough.stiffness / law - 1).max())
     off_force = float(np.abs(force / both.force - 1).max())
     ratio = both.stiffness / smooth.stiffness
-    return (
-        Verdict(
-            "the indenter Q r^H with Q of eq. 5.6 is as stiff as the rough surface (eq. 5.5)",
-            "k of eq. 5.5",
-            f"within {max(off_law, 1e-15):.0e}, with kappa(H) as Sneddon's integral gives it: the thesis does not say",
-            bool(off_law < 1e-10),
-        ),
-        Verdict(
-            "force and stiffness of the sum (eq. 5.9, with E* for E)",
-            "F(k) of eq. 5.9",
-            f"within {max(off_force, 1e-15):.0e} of the indentation of the profile",
-            bool(off_force < 1e-10),
-        ),
-        Verdict(
-            "treated as purely Hertzian, the stiffness is only overestimated",
-            "k_c <= k_p",
-            f"k_c/k_p from {ratio.min():.3f} at F = {FORCES[0]:.0e} E* L² to {ratio.max():.3f} at {FORCES[-1]:.0e}",
-            bool((ratio < 1).all()),
-        ),
+    yield Verdict(
+        "the indenter Q r^H with Q of eq. 5.6 is as stiff as the rough surface (eq. 5.5)",
+        "k of eq. 5.5",
+        f"within {max(off_law, 1e-15):.0e}, with kappa(H) as Sneddon's integral gives it: the thesis does not say",
+        bool(off_law < 1e-10),
+    )
+    yield Verdict(
+        "force and stiffness of the sum (eq. 5.9, with E* for E)",
+        "F(k) of eq. 5.9",
+        f"within {max(off_force, 1e-15):.0e} of the indentation of the profile",
+        bool(off_force < 1e-10),
+    )
+    yield Verdict(
+        "treated as purely Hertzian, the stiffness is only overestimated",
+        "k_c <= k_p",
+        f"k_c/k_p from {ratio.min():.3f} at F = {FORCES[0]:.0e} E* L² to {ratio.max():.3f} at {FORCES[-1]:.0e}",
+        bool((ratio < 1).all()),
     )

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.grid import RadialGrid
-from roughcontact.halfspace.operators.ring import ring
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+import roughcontact as rc
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Deflection", "case", "draw", "verdicts"]
 
@@ -32,7 +28,7 @@ CHOSEN = (
 )
 SIZE = (7.2, 3.2)
 
-_COMPUTED, _LAW = "#0072b2", "#d55e00"
+_COMPUTED, _LAW = drawing.COLOURS[:2]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,63 +60,48 @@ class Deflection:
 def case(seed: int = SEED) -> Deflection:
     """Return the deflection by the half-space's rings; nothing is random, the seed is not used."""
     inside, outside = 1 - _distances(1.0)[::-1], 1 + _distances(REACH - 1)
-    grid = RadialGrid(np.concatenate([inside, outside]))
+    grid = rc.RadialGrid(np.concatenate([inside, outside]))
     loaded = int(np.searchsorted(grid.radii, 1.0 - WIDTH / 4))
     pressure = np.zeros(grid.shape)
     pressure[loaded] = 1 / grid.cell_area[loaded]  # a unit force
     others = np.arange(grid.size) != loaded
-    return Deflection(grid.radii[others], 2 * ring(grid, 1.0).apply(pressure)[others])
+    return Deflection(grid.radii[others], 2 * rc.ring(grid, 1.0).apply(pressure)[others])
 
 
 def draw(figure: Figure, data: Deflection) -> None:
     """Draw deflection and approximation (a), and the error of the approximation (b)."""
-    left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1.25, 1))
     left.plot(data.radius, data.computed, color=_COMPUTED, linewidth=1.6, label="computed")
-    left.plot(data.radius, data.logarithm, "--", color=_LAW, linewidth=1.2, label="eq. A.21")
+    left.plot(data.radius, data.logarithm, "--", color=_LAW, label="eq. A.21")
     left.axvline(1.0, color="0.6", linewidth=0.8, linestyle=":")
-    left.set(xlim=(0, REACH), ylim=(0, 2))
-    left.set_xlabel(r"$r\,/\,a$", fontsize=LABEL)
-    left.set_ylabel(r"deflection $u_z\,\cdot 2 a E^*/F_N$", fontsize=LABEL)
+    words = r"deflection $u_z\,\cdot 2 a E^*/F_N$"
+    drawing.label(left, r"$r\,/\,a$", words, xlim=(0, REACH), ylim=(0, 2))
     for side, style, name in ((-1, "-", "inside"), (1, "--", "outside")):
         there = (side * (data.radius - 1) >= NEAREST) & (side * (data.radius - 1) <= 1)
-        right.plot(
-            np.abs(data.radius[there] - 1),
-            np.abs(data.error[there]),
-            style,
-            color=_COMPUTED,
-            linewidth=1.4,
-            label=name,
-        )
-    right.set(xscale="log", yscale="log")
-    right.set_xlabel(r"$|r/a - 1|$", fontsize=LABEL)
-    right.set_ylabel("relative error of eq. A.21", fontsize=LABEL)
-    for letter, axes in (("a", left), ("b", right)):
-        axes.set_title(f"({letter})", fontsize=LABEL, loc="left")
-        axes.tick_params(labelsize=TICK, which="both")
-        axes.grid(True, color="0.92", linewidth=0.8)
-        axes.set_axisbelow(True)
-        axes.legend(fontsize=TICK, frameon=False)
+        distance, error = np.abs(data.radius[there] - 1), np.abs(data.error[there])
+        right.plot(distance, error, style, color=_COMPUTED, linewidth=1.4, label=name)
+    drawing.label(right, r"$|r/a - 1|$", "relative error of eq. A.21", **drawing.LOG)
+    left.legend()
+    right.legend()
 
 
-def verdicts(data: Deflection) -> tuple[Verdict, ...]:
+def verdicts(data: Deflection) -> Verdicts:
     """Return the error of the approximation at some distances from the ring."""
     distance = np.abs(data.radius - 1)
     outside = data.radius > 1
     errors = [float(np.interp(x, distance[outside], np.abs(data.error[outside]))) for x in (0.1, 0.01, 0.005)]
     centre = float(data.computed[0])
-    return (
-        Verdict(
-            "in the vicinity of r = a the singularity is approximated by eq. A.21",
-            "|r/a - 1| << 1",
-            f"off by {errors[0]:.1%}, {errors[1]:.2%} and {errors[2]:.2%} outside, at |r/a - 1| = 0.1, 0.01 and 0.005",
-            bool(errors[1] < 0.01 and errors[2] < errors[1] < errors[0]),
-        ),
-        Verdict(
-            "deflection in the centre (eq. A.19)",
-            f"2/pi = {2 / np.pi:.4f}",
-            f"{centre:.4f}",
-            abs(centre - 2 / np.pi) < 1e-3,
-        ),
+    yield Verdict(
+        "in the vicinity of r = a the singularity is approximated by eq. A.21",
+        "|r/a - 1| << 1",
+        f"off by {errors[0]:.1%}, {errors[1]:.2%} and {errors[2]:.2%} outside, at |r/a - 1| = 0.1, 0.01 and 0.005",
+        bool(errors[1] < 0.01 and errors[2] < errors[1] < errors[0]),
+    )
+    yield Verdict(
+        "deflection in the centre (eq. A.19)",
+        f"2/pi = {2 / np.pi:.4f}",
+        f"{centre:.4f}",
+        abs(centre - 2 / np.pi) < 1e-3,
     )
 
 

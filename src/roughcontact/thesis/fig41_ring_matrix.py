@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.grid import RadialGrid
-from roughcontact.halfspace.operators.ring import ring
+import roughcontact as rc
 from roughcontact.thesis.matrix_view import matrix_view
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["case", "draw", "verdicts"]
 
@@ -34,26 +30,22 @@ SIZE = (7.4, 3.2)
 def case(seed: int = SEED, rings: int = RINGS) -> Array:
     """Return B of u = D/(pi E*) B p (eq. A.9), shape (rings, rings); nothing is random, the seed is not used."""
     # With E* = 1 and D = 1.
-    return math.pi * ring(RadialGrid.uniform(rings, float(rings)), 1.0).as_matrix()
+    return math.pi * rc.ring(rc.RadialGrid.uniform(rings, float(rings)), 1.0).as_matrix()
 
 
 def draw(figure: Figure, data: Array) -> None:
     """Draw the matrix (a), and what some rings displace (b)."""
     last = len(data) - 1
-    matrix_view(
-        figure, data, (0, last // 4, last // 2, 3 * last // 4, last), ("displaced ring", "loaded ring")
-    )
+    matrix_view(figure, data, (0, last // 4, last // 2, 3 * last // 4, last), "ring")
 
 
-def verdicts(data: Array) -> tuple[Verdict, ...]:
+def verdicts(data: Array) -> Verdicts:
     """Return how well conditioned the matrix is."""
     condition = [float(np.linalg.cond(matrix)) for matrix in (data, case(rings=2 * RINGS))]
-    return (
-        Verdict(
-            "the matrix is well conditioned",
-            "well conditioned",
-            f"condition number {condition[0]:.0f} for N = {RINGS}, {condition[1]:.0f} for {2 * RINGS}: about "
-            f"{condition[0] / RINGS:.1f} N",
-            bool(condition[0] < 1e3),
-        ),
+    yield Verdict(
+        "the matrix is well conditioned",
+        "well conditioned",
+        f"condition number {condition[0]:.0f} for N = {RINGS}, {condition[1]:.0f} for {2 * RINGS}: about "
+        f"{condition[0] / RINGS:.1f} N",
+        bool(condition[0] < 1e3),
     )

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.line_contact import line
+import roughcontact as rc
 from roughcontact.thesis.matrix_view import matrix_view
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["case", "draw", "verdicts"]
 
@@ -34,33 +30,31 @@ SIZE = (7.4, 3.2)
 def case(seed: int = SEED) -> Array:
     """Return B of u = D/(pi E*) B p (eq. A.9), shape (40, 40); nothing is random, the seed is not used."""
     # With E* = 1 and D = 1.
-    return math.pi * line(Grid(STRIPS, 1.0), 1.0, reference_length=float(STRIPS)).as_matrix()
+    return math.pi * rc.line(rc.Grid(STRIPS, 1.0), 1.0, reference_length=float(STRIPS)).as_matrix()
 
 
 def draw(figure: Figure, data: Array) -> None:
     """Draw the matrix (a), and what some strips displace (b)."""
     last = len(data) - 1
-    matrix_view(figure, data, (0, last // 2, last), ("displaced strip", "loaded strip"))
+    matrix_view(figure, data, (0, last // 2, last), "strip")
 
 
-def verdicts(data: Array) -> tuple[Verdict, ...]:
+def verdicts(data: Array) -> Verdicts:
     """Return whether the entries depend on the distance only, and whether eq. A.46 gives them."""
     off = np.arange(STRIPS)
     by_distance = data[0][np.abs(off[:, None] - off)]
     spread = float(np.abs(data - by_distance).max())
     # Without the constant: the distance is then counted in strips.
     own, next_one = data[0, :2] - 2 * math.log(STRIPS)
-    return (
-        Verdict(
-            "B_ij depends on |i - j| only",
-            "between the first and the last column",
-            f"in all columns, within {max(spread, 1e-15):.0e}",
-            bool(spread < 1e-12),
-        ),
-        Verdict(
-            "B_ii and B_i,i+1 as eq. A.46 is printed",
-            f"-3/2, {-next_one / 2:.4f}",
-            f"{own:.4f}, {next_one:.4f}: the factor -2 of eq. A.43 is lost",
-            bool(abs(own + 1.5) < 1e-6),
-        ),
+    yield Verdict(
+        "B_ij depends on |i - j| only",
+        "between the first and the last column",
+        f"in all columns, within {max(spread, 1e-15):.0e}",
+        bool(spread < 1e-12),
+    )
+    yield Verdict(
+        "B_ii and B_i,i+1 as eq. A.46 is printed",
+        f"-3/2, {-next_one / 2:.4f}",
+        f"{own:.4f}, {next_one:.4f}: the factor -2 of eq. A.43 is lost",
+        bool(abs(own + 1.5) < 1e-6),
     )

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
+import roughcontact as rc
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.surface.moments import grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
-from roughcontact.thesis.verdict import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["case", "draw", "verdicts"]
 
@@ -47,44 +42,35 @@ def draw(figure: Figure, data: Array) -> None:
     for modes, curve, colour in zip(MODES, data, _COLOURS, strict=True):
         name = "limit" if modes is None else f"$N$ = {modes}"
         axes.plot(HURST, curve, color=colour, linewidth=1.8 if modes is None else 1.2, label=name)
-    axes.plot(HURST, data[-1] / 2, ":", color="0.35", linewidth=1.2, label="limit of eq. A.76 as printed")
-    axes.axhline(math.pi, color="0.35", linewidth=0.9, linestyle="--")
-    axes.text(
-        0.985 * HURST[-1], math.pi + 0.02, r"$\pi$", fontsize=LABEL, ha="right", va="bottom", color="0.35"
-    )
-    axes.set(xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
-    axes.set_xlabel("Hurst exponent $H$", fontsize=LABEL)
-    axes.set_ylabel(r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
-    axes.grid(True, color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
-    axes.legend(fontsize=TICK, frameon=False, loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)
+    axes.plot(HURST, data[-1] / 2, ":", color="0.35", label="limit of eq. A.76 as printed")
+    drawing.level(axes, math.pi, r"$\pi$", ha="right")
+    words = r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$"
+    drawing.label(axes, "Hurst exponent $H$", words, xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)
 
 
-def verdicts(data: Array) -> tuple[Verdict, ...]:
+def verdicts(data: Array) -> Verdicts:
     """Return where lambda is pi, and what variance a line has with the factor and with the printed half of it."""
     at = {h: int(np.argmin(np.abs(HURST - h))) for h in (0.0, 1.0)}
     limit = data[-1]
     points = 129
-    surface, own = SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
-    variance = grid_moments(surface, Grid((points, points), 1 / points)).m0
+    surface, own = rc.SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
+    variance = rc.grid_moments(surface, rc.Grid((points, points), 1 / points)).m0
     shares = [
-        grid_moments(line_spectrum(surface, factor), Grid(points, 1 / points)).m0 / variance
+        rc.grid_moments(line_spectrum(surface, factor), rc.Grid(points, 1 / points)).m0 / variance
         for factor in (own, own / 2)
     ]
-    return (
-        Verdict(
-            "lambda approaches pi for H = 1 and many grid points, and for no other H",
-            f"{math.pi:.4f} at H = 1",
-            f"{limit[at[1.0]]:.4f} at H = 1; {limit[at[0.0]]:.4f} at H = 0, where 1024 waves to a side "
-            f"give {data[-2, at[0.0]]:.4f}",
-            bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3),
-        ),
-        Verdict(
-            "factor of eq. A.76, H = 1: both have one rms height",
-            f"{own / 2:.4f} on {points} points",
-            f"{own:.4f}; with it the line has {shares[0]:.6f} of the variance of the surface, with the printed one "
-            f"{shares[1]:.6f}",
-            bool(abs(shares[1] - 1) < 1e-3),
-        ),
+    yield Verdict(
+        "lambda approaches pi for H = 1 and many grid points, and for no other H",
+        f"{math.pi:.4f} at H = 1",
+        f"{limit[at[1.0]]:.4f} at H = 1; {limit[at[0.0]]:.4f} at H = 0, where 1024 waves to a side give "
+        f"{data[-2, at[0.0]]:.4f}",
+        bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3),
+    )
+    yield Verdict(
+        "factor of eq. A.76, H = 1: both have one rms height",
+        f"{own / 2:.4f} on {points} points",
+        f"{own:.4f}; with it the line has {shares[0]:.6f} of the variance of the surface, with the printed one "
+        f"{shares[1]:.6f}",
+        bool(abs(shares[1] - 1) < 1e-3),
     )

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL, TICK
+import roughcontact as rc
 from roughcontact.plot.view import surface_view
-from roughcontact.surface.midpoint import midpoint_surface
-from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
 
 __all__ = ["case", "draw"]
 
@@ -32,14 +27,19 @@ CHOSEN = (
 )
 SIZE = (7.2, 5.0)
 
+Array = npt.NDArray[np.float64]
+
+# Of two squares a side: where the nodes of a half step lie.
+_HALVES = np.indices((5, 5)).reshape(2, -1)
+_CENTRES, _EDGES = (_HALVES[:, (_HALVES % 2).sum(axis=0) == odd] / 2 for odd in (2, 1))
 _CENTRE, _EDGE, _DIAMOND, _NEXT = "#c8290b", "#0047b2", "#9ccbee", "#8fd08f"
 
 
-def case(seed: int = SEED) -> tuple[Surface, ...]:
+def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return the surface after each of `LEVELS` levels; each holds the nodes of the one before."""
     return tuple(
-        midpoint_surface(
-            Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2),
+        rc.midpoint_surface(
+            rc.Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2),
             HURST,
             np.random.default_rng(seed),
             displacement=RELATIVE * LENGTH,
@@ -48,79 +48,60 @@ def case(seed: int = SEED) -> tuple[Surface, ...]:
     )
 
 
-def draw(figure: Figure, data: tuple[Surface, ...]) -> None:
+def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
     """Draw the half steps (a) to (c) seen from above, and the surface after some levels."""
     steps = (
-        ("a", "centres of the squares", _square_step),
-        ("b", "middles of the diamonds", _diamond_step),
-        ("c", "squares of the next level", _next_level),
+        ("(a) centres of the squares", _square_step),
+        ("(b) middles of the diamonds", _diamond_step),
+        ("(c) squares of the next level", _next_level),
     )
-    for place, (letter, words, step) in enumerate(steps, start=1):
+    for place, (words, step) in enumerate(steps, start=1):
         axes = figure.add_subplot(2, 3, place)
         _squares(axes)
         step(axes)
-        axes.set_title(f"({letter}) {words}", fontsize=LABEL, loc="left")
+        axes.set_title(words)
     for place, (letter, level, surface) in enumerate(zip("def", LEVELS, data, strict=True), start=4):
-        axes = figure.add_subplot(2, 3, place, projection="3d")
-        surface_view(axes, surface, frame=False)
-        words = "level" if level == 1 else "levels"
-        axes.set_title(f"({letter}) {level} {words}", fontsize=LABEL, loc="left")
+        view = figure.add_subplot(2, 3, place, projection="3d")
+        surface_view(view, surface, frame=False)
+        view.set_title(f"({letter}) {level} {'level' if level == 1 else 'levels'}", loc="left")
 
 
 def _squares(axes: Axes) -> None:
     """Draw the squares of a level: two a side, so that diamonds between neighbours are seen."""
     for at in (0, 1, 2):
-        axes.plot((0, 2), (at, at), color="black", linewidth=1.2, zorder=2)
-        axes.plot((at, at), (0, 2), color="black", linewidth=1.2, zorder=2)
-    nodes = np.arange(3)
-    axes.plot(
-        *(each.ravel() for each in np.meshgrid(nodes, nodes)), "s", color="black", markersize=4, zorder=3
-    )
+        axes.plot((0, 2), (at, at), color="black", zorder=2)
+        axes.plot((at, at), (0, 2), color="black", zorder=2)
+    axes.plot(*np.indices((3, 3)).reshape(2, -1), "s", color="black", zorder=3)
     axes.set(xlim=(-0.15, 2.15), ylim=(-0.15, 2.15), aspect="equal")
     axes.set_axis_off()
-    axes.tick_params(labelsize=TICK)
 
 
 def _square_step(axes: Axes) -> None:
-    x, y = (each.ravel() for each in np.meshgrid((0.5, 1.5), (0.5, 1.5)))
-    for centre in zip(x, y, strict=True):
-        for corner in ((-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)):
-            start = (centre[0] + 0.9 * corner[0], centre[1] + 0.9 * corner[1])
-            end = (centre[0] + 0.2 * corner[0], centre[1] + 0.2 * corner[1])
-            axes.annotate(
-                "",
-                end,
-                start,
-                arrowprops={"arrowstyle": "->", "color": _CENTRE, "linewidth": 0.8, "alpha": 0.6},
-            )
-    axes.plot(x, y, "o", color=_CENTRE, markersize=9, zorder=4)
+    for x, y in _CENTRES.T:
+        for right, up in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+            start, end = ((x + far * right, y + far * up) for far in (0.45, 0.1))
+            drawing.arrow(axes, start, end, color=_CENTRE, linewidth=0.8, alpha=0.6)
+    _nodes(axes, _CENTRES)
 
 
 def _diamond_step(axes: Axes) -> None:
-    inner = [(0.5, 1.0), (1.5, 1.0), (1.0, 0.5), (1.0, 1.5)]
-    border = [(0.5, 0.0), (1.5, 0.0), (0.5, 2.0), (1.5, 2.0), (0.0, 0.5), (0.0, 1.5), (2.0, 0.5), (2.0, 1.5)]
-    for x, y in inner:
-        diamond = np.array([(x - 0.5, y), (x, y - 0.5), (x + 0.5, y), (x, y + 0.5)])
-        axes.fill(*diamond.T, facecolor=_DIAMOND, edgecolor="white", linewidth=1.2, alpha=0.8, zorder=1)
-    for x, y in border:
+    for x, y in _EDGES.T:
+        inside = 0 < x < 2 and 0 < y < 2
         # On the border the diamond lacks its fourth corner.
-        inward = np.clip(np.array([(x - 0.5, y), (x, y - 0.5), (x + 0.5, y), (x, y + 0.5)]), 0, 2)
-        axes.fill(*inward.T, facecolor=_DIAMOND, edgecolor="white", linewidth=1.2, alpha=0.4, zorder=1)
-    axes.plot(*np.meshgrid((0.5, 1.5), (0.5, 1.5)), "o", color=_CENTRE, markersize=9, zorder=4)
-    axes.plot(*zip(*inner, *border, strict=True), "o", color=_EDGE, markersize=5, zorder=4)
+        diamond = np.clip([(x - 0.5, y), (x, y - 0.5), (x + 0.5, y), (x, y + 0.5)], 0, 2)
+        shade = 0.8 if inside else 0.4
+        axes.fill(*diamond.T, facecolor=_DIAMOND, edgecolor="white", linewidth=1.2, alpha=shade, zorder=1)
+    _nodes(axes, _CENTRES, _EDGES)
 
 
 def _next_level(axes: Axes) -> None:
-    for x in (0.0, 0.5, 1.0, 1.5):
-        for y in (0.0, 0.5, 1.0, 1.5):
-            corners = np.array([(x, y), (x + 0.5, y), (x + 0.5, y + 0.5), (x, y + 0.5)])
-            axes.fill(*corners.T, facecolor=_NEXT, edgecolor="#2e7d32", linewidth=0.9, alpha=0.55, zorder=1)
-    _diamond_nodes(axes)
+    for x, y in np.indices((4, 4)).reshape(2, -1).T / 2:
+        corners = np.array([(x, y), (x + 0.5, y), (x + 0.5, y + 0.5), (x, y + 0.5)])
+        axes.fill(*corners.T, facecolor=_NEXT, edgecolor="#2e7d32", linewidth=0.9, alpha=0.55, zorder=1)
+    _nodes(axes, _CENTRES, _EDGES)
 
 
-def _diamond_nodes(axes: Axes) -> None:
-    nodes = np.arange(5) / 2
-    x, y = (each.ravel() for each in np.meshgrid(nodes, nodes))
-    halves = (2 * x).astype(int) % 2 + (2 * y).astype(int) % 2
-    axes.plot(x[halves == 1], y[halves == 1], "o", color=_EDGE, markersize=5, zorder=4)
-    axes.plot(x[halves == 2], y[halves == 2], "o", color=_CENTRE, markersize=9, zorder=4)
+def _nodes(axes: Axes, centres: Array, edges: Array | None = None) -> None:
+    if edges is not None:
+        axes.plot(*edges, "o", color=_EDGE, markersize=5, zorder=4)
+    axes.plot(*centres, "o", color=_CENTRE, markersize=9, zorder=4)

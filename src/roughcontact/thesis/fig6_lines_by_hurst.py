@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+import roughcontact as rc
+from roughcontact.thesis import drawing
 
 __all__ = ["case", "draw"]
 
@@ -29,23 +23,23 @@ CHOSEN = (
 )
 SIZE = (6.5, 6.0)
 
-_LINE = "#0072b2"
 
-
-def case(seed: int = SEED) -> tuple[Surface, ...]:
+def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return a periodic line for each exponent, with the same phases and rms height."""
-    grid = Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
-    return tuple(self_affine(grid, hurst, RMS * LENGTH, np.random.default_rng(seed)) for hurst in EXPONENTS)
+    grid = rc.Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
+    return tuple(
+        rc.self_affine(grid, hurst, RMS * LENGTH, np.random.default_rng(seed)) for hurst in EXPONENTS
+    )
 
 
-def draw(figure: Figure, data: tuple[Surface, ...]) -> None:
+def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
     """Draw the lines (a) to (e), one below the other, all to one scale."""
     panels = figure.subplots(len(data), 1, sharex=True, sharey=True)
     reach = 1.08 * max(float(np.abs(line.heights).max()) for line in data)
     for letter, axes, hurst, line in zip("abcde", panels, EXPONENTS, data, strict=True):
         x = (np.arange(line.heights.size) + 0.5) / line.heights.size
-        axes.plot(x, line.heights, color=_LINE, linewidth=0.9)
+        axes.plot(x, line.heights, color=drawing.COLOURS[0], linewidth=0.9)
         axes.set(xlim=(0, 1), ylim=(-reach, reach))
-        axes.set_ylabel(f"({letter})  H = {hurst:.1f}", fontsize=LABEL, rotation=0, ha="right", va="center")
+        axes.set_ylabel(f"({letter})  H = {hurst:.1f}", rotation=0, ha="right", va="center")
         axes.spines[:].set_visible(False)
         axes.tick_params(bottom=False, left=False, labelbottom=False, labelleft=False)

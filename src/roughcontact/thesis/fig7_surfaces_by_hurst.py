@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL
+import roughcontact as rc
 from roughcontact.plot.view import surface_view
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.surface import Surface
+from roughcontact.thesis.fig6_lines_by_hurst import EXPONENTS, LENGTH
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-__all__ = ["case", "draw"]
+__all__ = ["EXPONENTS", "case", "draw"]
 
 TITLE = "surfaces with H = 0, 0.5, 1, 1.5, 2 and the same phases"
-EXPONENTS = (0.0, 0.5, 1.0, 1.5, 2.0)
 POINTS = 128
-LENGTH = 1.0
 RMS = 0.05  # over the side
 SEED = 3
 CHOSEN = (
@@ -31,13 +23,15 @@ CHOSEN = (
 SIZE = (7.2, 4.7)
 
 
-def case(seed: int = SEED) -> tuple[Surface, ...]:
+def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return a periodic surface for each exponent, with the same phases and rms height."""
-    grid = Grid((POINTS, POINTS), LENGTH / POINTS, periodic=True)
-    return tuple(self_affine(grid, hurst, RMS * LENGTH, np.random.default_rng(seed)) for hurst in EXPONENTS)
+    grid = rc.Grid((POINTS, POINTS), LENGTH / POINTS, periodic=True)
+    return tuple(
+        rc.self_affine(grid, hurst, RMS * LENGTH, np.random.default_rng(seed)) for hurst in EXPONENTS
+    )
 
 
-def draw(figure: Figure, data: tuple[Surface, ...]) -> None:
+def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
     """Draw the surfaces (a) to (e): three above, two below."""
     # Six columns, of which each view takes two: so the lower row stands in the middle.
     table = figure.add_gridspec(2, 6)
@@ -45,4 +39,4 @@ def draw(figure: Figure, data: tuple[Surface, ...]) -> None:
     for letter, place, hurst, surface in zip("abcde", places, EXPONENTS, data, strict=True):
         axes = figure.add_subplot(place, projection="3d")
         surface_view(axes, surface, frame=False)
-        axes.set_title(f"({letter})  H = {hurst:.1f}", fontsize=LABEL, y=0.92)
+        axes.set_title(f"({letter})  H = {hurst:.1f}", loc="center", y=0.92)

@@ -10,16 +10,17 @@ from __future__ import annotations
 import pkgutil
 import re
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, cast
+from typing import Any, Literal, Protocol, TypeGuard, cast
+
+import matplotlib
+import xarray
+from matplotlib.figure import Figure
 
 import roughcontact.thesis
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.verdict import Verdict
+from roughcontact.plot.raster import TICK
+from roughcontact.study.study import Study
+from roughcontact.thesis.drawing import STYLE
+from roughcontact.thesis.verdict import Verdict
 
 __all__ = [
     "FIGURES",
@@ -27,6 +28,7 @@ __all__ = [
     "FigureModule",
     "Scale",
     "SimpleFigure",
+    "Studies",
     "drawn",
     "figure",
     "is_ensemble",
@@ -36,6 +38,9 @@ __all__ = [
 
 Scale = Literal["small", "thesis"]
 """How large the ensembles are: two minutes on two cores at most, or the counts of the thesis."""
+
+Studies = tuple[Study, ...]
+"""What the figure of an ensemble stands on."""
 
 _FIGURE = re.compile(r"(fig(\d+)|outlook_[a-z]+)(_[a-z_]+)?")
 
@@ -78,7 +83,7 @@ class SimpleFigure(FigureModule, Protocol):
 class EnsembleFigure(FigureModule, Protocol):
     """What the module of a figure holds that stands on studies."""
 
-    def studies(self, scale: Scale) -> tuple[Study, ...]:
+    def studies(self, scale: Scale) -> Studies:
         """Return the studies; those that figures share have one name and are run once."""
 
     def averages(self, *datasets: xarray.Dataset) -> xarray.Dataset:
@@ -105,10 +110,11 @@ def is_ensemble(found: SimpleFigure | EnsembleFigure) -> TypeGuard[EnsembleFigur
 
 def drawn(found: FigureModule, data: Any) -> Figure:
     """Return the picture of what a figure shows."""
-    from matplotlib.figure import Figure
-
     picture = Figure(figsize=found.SIZE, layout="constrained")
-    found.draw(picture, data)
+    with matplotlib.rc_context(STYLE):
+        found.draw(picture, data)
+    for axes in picture.axes:  # ticks are made when they are drawn
+        axes.tick_params(labelsize=TICK, which="both")
     return picture
 
 

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 import xarray
 
-from roughcontact.thesis.sample_means import (
-    apart,
+from roughcontact.thesis.samples import (
     converged,
     exponential,
     logarithm,
     means,
-    plus_minus,
     slope,
+    without_parameters,
 )
+from roughcontact.thesis.verdict import plus_minus
 
 
 def test_a_mean_has_its_error():
@@ -38,7 +38,7 @@ def test_loads_that_missed_their_tolerance_are_missing():
     found = converged(given)
     np.testing.assert_array_equal(found["k"], [[1.0, np.nan], [3.0, np.nan]])
     xarray.testing.assert_identical(found[["force", "spots", "status"]], given[["force", "spots", "status"]])
-    assert "points" not in apart(found).coords
+    assert "points" not in without_parameters(found).coords
 
 
 def test_a_slope_is_that_of_the_straight_line_and_leaves_out_what_is_missing():
