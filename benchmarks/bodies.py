@@ -62,7 +62,7 @@ def matrix(rng: Random) -> rc.Solution:
     cells = int(rng.integers(8, 40))
     grid = rc.Grid((cells, cells), 1 / cells)
     rough = rc.self_affine(grid, rng.uniform(-0.5, 2.0), 0.01, rng)
-    return pressed(rough, rc.half_space(grid, 1.0, "dense"), 10 ** rng.uniform(-5, 0))
+    return pressed(rough, rc.half_space(grid, 1.0, method="dense"), 10 ** rng.uniform(-5, 0))
 
 
 KINDS: dict[str, Callable[[Random], rc.Solution]] = {

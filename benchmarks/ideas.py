@@ -5,27 +5,28 @@ python benchmarks/ideas.py [n]
 
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 import roughcontact as rc
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.kernels import loader
-from roughcontact.solver import nested_iteration as cascade
-from roughcontact.solver.inner_operator import Plane
-from roughcontact.solver.restriction import lowest
+from roughcontact.solver import nested_iteration
+from roughcontact.solver.inner_operator import FullGrid
+from roughcontact.solver.nested_iteration import block_minimum
 
 EXTRAS = (
     "positive",
-    "between",
+    "submatrix",
     "coarsened",
     "approximate_inverse",
     "local_inverse",
-    "keeps_precision",
-    "quick",
-    "patches",
+    "single_precision",
+    "single_convolution",
+    "particle_mesh",
 )
+NOTHING = rc.Capabilities()
 
 
 @dataclass(frozen=True)
@@ -36,12 +37,21 @@ class Without:
     kept: tuple
 
     def __getattr__(self, name):
-        if name in set(EXTRAS) - set(self.kept):
-            raise AttributeError(name)
-        value = getattr(self.inner, name)
-        if name in ("restrict", "coarsened"):
-            return lambda *arguments: Without(value(*arguments), self.kept)
-        return value
+        return getattr(self.inner, name)
+
+    @property
+    def capabilities(self):
+        """Return what the operator states, with the default of each name that is not kept."""
+        stated = replace(self.inner.capabilities, coarsened=self._coarsened)
+        return replace(stated, **{name: getattr(NOTHING, name) for name in set(EXTRAS) - set(self.kept)})
+
+    def restrict(self, window):
+        """Return the operator of a window, which hides the same."""
+        return Without(self.inner.restrict(window), self.kept)
+
+    def _coarsened(self, grid):
+        coarse = self.inner.capabilities.coarsened(grid)
+        return None if coarse is None else Without(coarse, self.kept)
 
 
 def cases(n):
@@ -92,15 +102,19 @@ def main(n):
     none = property(lambda driver: 0.0)
     variants = {
         "all": (EXTRAS,),
-        "no inverse": without("approximate_inverse", "local_inverse", "patches"),
+        "no inverse": without("approximate_inverse", "local_inverse", "particle_mesh"),
         "|q| by FFT": without("local_inverse"),
-        "no relief": (EXTRAS, (Plane, "relief", none), (PatchOperator, "relief", none)),
+        "no Schur": (
+            EXTRAS,
+            (FullGrid, "diagonal_correction", none),
+            (PatchOperator, "diagonal_correction", none),
+        ),
         "no window": without("positive"),
-        "no list": without("between"),
-        "summits": (EXTRAS, (cascade, "raised", lowest)),
-        "means": (EXTRAS, (cascade, "raised", means)),
-        "no tiles": without("patches"),
-        "double": without("keeps_precision", "patches"),
+        "no list": without("submatrix"),
+        "summits": (EXTRAS, (nested_iteration, "block_separation", block_minimum)),
+        "means": (EXTRAS, (nested_iteration, "block_separation", means)),
+        "no tiles": without("particle_mesh"),
+        "double": without("single_precision", "particle_mesh"),
         "no machine": (EXTRAS, (loader, "is_available", lambda: False)),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))

@@ -1,32 +1,36 @@
-"""What an idea saves that is too small for one run to show: loads with and without it in turn, many times.
+"""What an idea saves that is too small for one run to show: processes with and without it, in turn.
 
-    python benchmarks/pairs.py [n] [rounds]
+    python benchmarks/pairs.py [rounds [cases]]
 
-The median of the seconds of one load, from heights to a certified pressure, and by how much more it takes without: the
-median of the ratios of neighbours. What disturbs the machine disturbs both.
+Each row is a case: the least seconds with all ideas, and for each idea how much longer it takes without: the median of
+the ratios of neighbours, and the ratio of the least. Processes take turns every case, so that what disturbs the machine
+disturbs all of them; each has two threads.
 """
 
 from __future__ import annotations
 
+import os
 import statistics
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache, partial
 from typing import Any
 
-from cases import CASES, Problem
+import numpy as np
+from cases import CASES
 
 import roughcontact as rc
-from roughcontact.kernels import buffers as room
-from roughcontact.solver.trial import Trial
+from roughcontact.kernels import buffers
+from roughcontact.solver.optimality import Iterate
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {
-    "memory that is kept": (room, "SMALL", room.LARGE),
-    "judging in one pass": (Trial, "fits_machine_code", lambda *_: False),
+    "memory that is kept": (buffers, "SMALL", buffers.LARGE),
+    "judging in one pass": (Iterate, "fits_machine_code", lambda *_: False),
 }
-SHOWN = ("fractal-0.8-0.046", "flat-free", "flat-periodic", "flat-half", "sphere")
 
 
 @contextmanager
@@ -40,43 +44,85 @@ def without(where: Any, name: str, other: Any) -> Iterator[None]:
         setattr(where, name, before)
 
 
-def seconds(problem: Problem) -> float:
-    """Return what one load takes [s]."""
-    start = time.perf_counter()
+problem_of = cache(lambda name, n: CASES[name](n, 0))  # made before the rounds that count
+
+
+def press(name: str, n: int) -> None:
+    """Press one case, from heights to a certified pressure."""
+    problem = problem_of(name, n)
     grid = rc.Grid(problem.heights.shape, problem.spacing, periodic=problem.periodic)
     rc.press(rc.Surface(problem.heights, grid), problem.modulus, force=problem.force)
-    return time.perf_counter() - start
 
 
-def in_turn(one: Callable[[], float], other: Callable[[], float], rounds: int) -> tuple[float, float]:
-    """Return the median of one time [s], and of the ratio of another to it, taken in turn."""
-    one(), other()
-    pairs = []
-    for k in range(rounds):
-        first, second = (one, other) if k % 2 else (other, one)
-        a, b = first(), second()
-        pairs.append((a, b) if k % 2 else (b, a))
-    return statistics.median(a for a, _ in pairs), statistics.median(b / a for a, b in pairs)
+def curve(n: int) -> None:
+    """Compute a curve of forty loads."""
+    grid = rc.Grid((n, n), 1 / n)
+    surface = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(0))
+    rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-5, 4.5e-3, 40))
 
 
-def main(n: int, rounds: int) -> None:
-    print(
-        f"| n = {n}, {rounds} rounds | with all | " + " | ".join(f"without {name}" for name in IDEAS) + " |"
+SHOWN: dict[str, Callable[[], None]] = {
+    f"{name}, {n}": partial(press, name, n)
+    for name, n in (
+        ("fractal-0.8-0.001", 512),
+        ("fractal-0.8-0.45", 512),
+        ("fractal-0.8-0.001", 1024),
+        ("fractal-0.8-0.45", 1024),
+        ("flat-periodic", 512),
+        ("flat-half", 512),
+        ("sphere", 1024),
     )
+} | {"curve, 256": partial(curve, 256)}
+
+
+def answer(idea: str) -> None:
+    """Time the cases that come in, without an idea."""
+    with without(*IDEAS[idea]) if idea else without(sys, "flags", sys.flags):
+        for line in sys.stdin:
+            start = time.perf_counter()
+            SHOWN[line.rstrip()]()
+            print(time.perf_counter() - start, flush=True)
+
+
+def main(rounds: int, cases: tuple[str, ...]) -> None:
+    workers = [
+        subprocess.Popen(
+            [sys.executable, __file__, "--without", idea],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "OMP_NUM_THREADS": "2"},
+        )
+        for idea in ("", *IDEAS)
+    ]
+
+    def seconds(k: int, name: str) -> float:
+        worker = workers[k]
+        assert worker.stdin is not None
+        assert worker.stdout is not None
+        worker.stdin.write(name + "\n")
+        worker.stdin.flush()
+        return float(worker.stdout.readline())
+
+    print(f"| {rounds} rounds | with all | " + " | ".join(f"without {name}" for name in IDEAS) + " |")
     print("|---" * (2 + len(IDEAS)) + "|")
-    for name in SHOWN:
-        problem, columns, alone = CASES[name](n, 0), [], 0.0
-        for idea in IDEAS.values():
-
-            def changed(idea: tuple[Any, str, Any] = idea, problem: Problem = problem) -> float:
-                with without(*idea):
-                    return seconds(problem)
-
-            alone, ratio = in_turn(lambda problem=problem: seconds(problem), changed, rounds)
-            columns.append(f"{ratio:.2f}")
-        print(f"| {name} | {alone:.3f} s | " + " | ".join(columns) + " |", flush=True)
+    for name in (name for name in SHOWN if name.startswith(cases)):
+        times = np.empty((rounds + 1, len(workers)))
+        for k in range(rounds + 1):  # the first is not counted
+            for w in np.roll(range(len(workers)), k):
+                times[k, w] = seconds(w, name)
+        least = times[1:].min(axis=0)
+        columns = [
+            f"{statistics.median(times[1:, w] / times[1:, 0]):.3f}, least {least[w] / least[0]:.3f}"
+            for w in range(1, len(workers))
+        ]
+        print(f"| {name} | {least[0]:.3f} s | " + " | ".join(columns) + " |", flush=True)
+    for worker in workers:
+        worker.terminate()
 
 
 if __name__ == "__main__":
-    given = [int(text) for text in sys.argv[1:]]
-    main(*(given + [512, 40][len(given) :]))
+    if sys.argv[1:2] == ["--without"]:
+        answer(sys.argv[2])
+    else:
+        main(int(sys.argv[1]) if sys.argv[1:] else 15, tuple(sys.argv[2:]) or ("",))

@@ -15,10 +15,10 @@ import numpy as np
 
 import roughcontact as rc
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
-from roughcontact.solver.conjugate_gradients import relax
-from roughcontact.solver.inner_operator import Driver, SinglePlane
+from roughcontact.solver.conjugate_gradients import conjugate_gradients
+from roughcontact.solver.inner_operator import InnerOperator, SingleFullGrid
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.vectors import fields_on
+from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
 
 SIZES = (128, 256, 512, 1024, 2048)
@@ -35,14 +35,14 @@ def least(work: Callable[[], object], times: int = 9) -> float:
     return 1e3 * min(found)
 
 
-def step(driver: Driver, region: np.ndarray, heights: np.ndarray) -> float:
+def step(driver: InnerOperator, region: np.ndarray, heights: np.ndarray) -> float:
     """Return what one step of conjugate gradients takes on a region [ms]: that many take more than few."""
-    kept, lacking = driver.gather(region), driver.narrow(driver.gather(heights))
+    kept, lacking = driver.gather(region), driver.scaled(driver.gather(heights))
     measure, none = Measure(driver.weights), np.zeros_like(lacking)
 
     def solve(count: int) -> None:
-        fields = fields_on(driver, measure, kept, lacking.copy(), none)
-        relax(driver, fields, limit=0.0, max_steps=count)
+        fields = vectors_on(driver, measure, kept, lacking.copy(), none)
+        conjugate_gradients(driver, fields, limit=0.0, max_steps=count)
 
     def steps(count: int) -> float:
         return least(lambda: solve(count))
@@ -69,8 +69,8 @@ def main() -> None:
             operator = rc.half_space(grid, 1.0)
             rough = rc.self_affine(grid, 0.8, 1.0, np.random.default_rng(0)).heights
             regions = [summits(rough, part) for part in PARTS]
-            row = [least(lambda: operator.apply(rough)), step(SinglePlane(operator), regions[-1], rough)]  # noqa: B023
-            row += [step(operator.patches.on(Tiles.of(region)), region, rough) for region in regions]
+            row = [least(lambda: operator.apply(rough)), step(SingleFullGrid(operator), regions[-1], rough)]  # noqa: B023
+            row += [step(operator.particle_mesh.on(Tiles.of(region)), region, rough) for region in regions]
             kind = "periodic" if periodic else "free"
             print(f"| {n}^2 | {kind} | " + " | ".join(f"{t:.2f}" for t in row) + " |", flush=True)
 

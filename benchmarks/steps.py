@@ -1,4 +1,4 @@
-"""How the numbers of the descent were chosen: products of large contacts with each of them changed.
+"""How the numbers of `solver/tuning.py` were chosen: products of large contacts with each of them changed.
 
     python benchmarks/steps.py [n] [seeds]
 
@@ -16,29 +16,27 @@ from cases import CASES
 from pairs import without
 
 import roughcontact as rc
-from roughcontact.solver import bound_constrained_cg as projected
-from roughcontact.solver import compiled_vectors as compiled_fields
-from roughcontact.solver import iterative
+from roughcontact.solver import tuning
 
-CHANGES: tuple[tuple[Any, str, Any], ...] = (
-    (projected, "CAREFUL", 0.8),
-    (projected, "CAREFUL", 1.0),
-    (projected, "LEAST", 0.3),
-    (projected, "LEAST", 1.0),
-    (projected, "MOST", 1.0),
-    (projected, "MOST", 1.5),
-    (projected, "BOUND", (0.5, 1.1)),
-    (projected, "BOUND", (0.7, 1.3)),
-    (projected, "FREE", (0.7, 1.25)),
-    (projected, "FREE", (0.1, 10.0)),
-    (projected, "SLIGHT", 0.03),
-    (projected, "SLIGHT", 0.3),
-    (projected, "LEFT", 0.03),
-    (projected, "LEFT", 0.3),
-    (iterative, "DEPTH_OF_SOLVE", 0.1),
-    (iterative, "DEPTH_OF_SOLVE", 0.3),
-    (compiled_fields, "FEW", 0.01),
-    (compiled_fields, "FEW", 0.1),
+CHANGES: tuple[tuple[str, Any], ...] = (
+    ("TRIAL_STEP", 0.8),
+    ("TRIAL_STEP", 1.0),
+    ("SHORTEST_STEP", 0.3),
+    ("SHORTEST_STEP", 1.0),
+    ("LONGEST_STEP", 1.0),
+    ("LONGEST_STEP", 1.5),
+    ("ESTIMATE_AT_BOUNDS", (0.5, 1.1)),
+    ("ESTIMATE_AT_BOUNDS", (0.7, 1.3)),
+    ("ESTIMATE_FREE", (0.7, 1.25)),
+    ("ESTIMATE_FREE", (0.1, 10.0)),
+    ("LIFTED_RESIDUAL", 0.03),
+    ("LIFTED_RESIDUAL", 0.3),
+    ("BOUND_VIOLATION", 0.03),
+    ("BOUND_VIOLATION", 0.3),
+    ("INNER_FORCING", 0.1),
+    ("INNER_FORCING", 0.3),
+    ("STALE_CONSTRAINT_DIRECTION", 0.01),
+    ("STALE_CONSTRAINT_DIRECTION", 0.1),
 )
 SHOWN = ("flat-periodic", "flat-half", "flat-free", "fractal-0.8-0.45", "fractal-0.3-0.45", "sphere")
 
@@ -66,9 +64,9 @@ def main(n: int, seeds: int) -> None:
     print(f"| n = {n}, {seeds} seeds | " + " | ".join(SHOWN) + " | sum |")
     print("|---" * (2 + len(SHOWN)) + "|")
     shown("as it is", row(n, seeds))
-    for where, name, value in CHANGES:
-        label = f"{name} = {value} instead of {getattr(where, name)}"
-        with without(where, name, value):
+    for name, value in CHANGES:
+        label = f"{name} = {value} instead of {getattr(tuning, name)}"
+        with without(tuning, name, value):
             shown(label, row(n, seeds))
 
 

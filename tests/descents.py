@@ -7,12 +7,19 @@ import numpy as np
 import pytest
 
 from regions import generic, on, plane
-from roughcontact.solver.bound_constrained_cg import LEFT, Stride, descend
-from roughcontact.solver.inner_operator import Driver, Plane
+from roughcontact.solver import tuning
+from roughcontact.solver.bound_constrained_cg import StepEstimate, bound_constrained_cg
+from roughcontact.solver.inner_operator import FullGrid, InnerOperator
 
 SHAPE = (20, 24)
 KINDS = {"compiled": on, "generic": generic}
-STRIDES = (Stride(), Stride(0.3), Stride(3.0), Stride(0.3, known=True), Stride(3.0, known=True))
+ESTIMATES = (
+    StepEstimate(),
+    StepEstimate(0.3),
+    StepEstimate(3.0),
+    StepEstimate(0.3, known=True),
+    StepEstimate(3.0, known=True),
+)
 both_kinds = pytest.mark.parametrize("make", KINDS.values(), ids=KINDS)
 both_controls = pytest.mark.parametrize("conserve", [False, True], ids=["depth", "force"])
 both_planes = pytest.mark.parametrize("periodic", [False, True], ids=["free", "periodic"])
@@ -64,7 +71,7 @@ class Counted:
 class Start:
     """Where a descent begins, in units of what is lacking: who is free, what all carry, what is lacking."""
 
-    driver: Driver
+    driver: InnerOperator
     kept: np.ndarray
     base: np.ndarray
     lacking: np.ndarray
@@ -82,7 +89,7 @@ class Start:
         level = gap + (matrix_of(periodic) @ p.ravel()).reshape(SHAPE)
         lacking = (level[kept].mean() if conserve else depth) - level
         unit = np.abs(lacking[kept]).max()
-        return cls(Plane(plane(SHAPE, periodic)), kept, p / unit, lacking / unit, conserve, gap / unit)
+        return cls(FullGrid(plane(SHAPE, periodic)), kept, p / unit, lacking / unit, conserve, gap / unit)
 
     @property
     def own(self):
@@ -91,27 +98,35 @@ class Start:
     def fields(self, make=on):
         return make(self.driver, self.kept, self.lacking, self.base)
 
-    def descend(self, fields, stride=STRIDES[0], *, limit, max_steps=200):
+    def bound_constrained_cg(self, fields, estimate=ESTIMATES[0], *, limit, max_steps=200):
         """Return what became of a descent; where it ends is what it tells, and so are the products that it took."""
         driver = Counted(self.driver)
-        found = descend(
-            driver, fields, stride, conserve=self.conserve, own=self.own, limit=limit, max_steps=max_steps
+        found = bound_constrained_cg(
+            driver,
+            fields,
+            estimate,
+            conserve=self.conserve,
+            self_influence=self.own,
+            limit=limit,
+            max_steps=max_steps,
         )
-        if found.steps == max_steps or (found.lack <= limit and self.own * fields.excess() <= LEFT * limit):
+        if found.steps == max_steps or (
+            found.residual <= limit and self.own * fields.bound_violation() <= tuning.BOUND_VIOLATION * limit
+        ):
             assert found.steps == driver.count
-            assert found.lack == np.abs(fields.r * fields.inside).max()
+            assert found.residual == np.abs(fields.r * fields.free).max()
         return found
 
     def left(self, fields):
         """Return what is lacking in truth; of what is alike in the region nothing where the force is kept."""
-        left = self.lacking - self.driver.operator.apply(fields.change.astype(np.float64))
-        return left - left[fields.inside > 0].mean() if self.conserve else left
+        left = self.lacking - self.driver.operator.apply(fields.correction.astype(np.float64))
+        return left - left[fields.free > 0].mean() if self.conserve else left
 
 
 def within_bounds(start, fields, limit):
     """Whether no pressure pulls, and none is left where it should not be, beyond what is allowed to be left over."""
-    p, free = start.base + fields.change, fields.inside > 0
-    least = LEFT * limit / start.own
+    p, free = start.base + fields.correction, fields.free > 0
+    least = tuning.BOUND_VIOLATION * limit / start.own
     assert (free <= start.kept).all()
     assert p.min() >= -least
     assert np.abs(p[~free]).max() <= least
@@ -131,26 +146,26 @@ class Watched:
     def __getattr__(self, name):
         return getattr(self._fields, name)
 
-    def share(self):
-        self._resultant = self._fields.share()
+    def constraint_direction(self):
+        self._resultant = self._fields.constraint_direction()
         return self._resultant
 
-    def bound(self, beta, shift, step):
+    def project(self, beta, shift, step):
         self._shared = abs(step * shift * self._resultant)
-        found = self._fields.bound(beta, shift, step)
+        found = self._fields.project(beta, shift, step)
         self._force = found.force
         return found
 
-    def share_out(self, force):
+    def redistribute(self, force):
         assert force == self._force != 0
         self._shared += abs(force)
-        self._fields.share_out(force)
+        self._fields.redistribute(force)
         self._force, self.shared = 0.0, self.shared + 1
 
-    def measure(self, v):
+    def inner_products(self, v):
         assert not self._force
-        return self._fields.measure(v)
+        return self._fields.inner_products(v)
 
     def advance(self, alpha, mean):
-        self.moved += alpha * (np.abs(self._fields.t).sum() + self._shared / self._weight)
+        self.moved += alpha * (np.abs(self._fields.s).sum() + self._shared / self._weight)
         return self._fields.advance(alpha, mean)

@@ -115,7 +115,7 @@ def body(grid, operator, hurst=0.8):
 
 
 def plane(n, hurst=0.8, periodic=False, method="fft"):
-    return body(rc.Grid((n, n), 1.0, periodic), lambda grid: rc.half_space(grid, 1.0, method), hurst)
+    return body(rc.Grid((n, n), 1.0, periodic), lambda grid: rc.half_space(grid, 1.0, method=method), hurst)
 
 
 def singly_periodic():

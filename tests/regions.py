@@ -9,10 +9,9 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.kernels import loader
-from roughcontact.solver import vectors as fields_module
-from roughcontact.solver.compiled_vectors import CompiledFields
+from roughcontact.solver.compiled_vectors import CompiledVectors
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.vectors import fields_on
+from roughcontact.solver.vectors import ArrayVectors, vectors_on
 
 PRECISIONS = ("float32", "float64")
 
@@ -35,7 +34,7 @@ class Bare:
     """A driver whose preconditioner is the same for both kinds of fields."""
 
     operator: Operator
-    relief: ClassVar[float] = 0.0
+    diagonal_correction: ClassVar[float] = 0.0
 
     @property
     def weights(self):
@@ -55,7 +54,7 @@ class Seeing:
     """
 
     weights = 0.25
-    relief = 0.0
+    diagonal_correction = 0.0
     part = 1 / 256
 
     @classmethod
@@ -66,7 +65,7 @@ class Seeing:
 def on(driver, kept, lacking, base=None, *hardness):
     """Return the fields of a solve that begins with no change; what is lacking is not overwritten."""
     base = np.zeros_like(lacking) if base is None else base
-    return fields_on(driver, Measure(driver.weights), kept, lacking.copy(order="K"), base, *hardness)
+    return vectors_on(driver, Measure(driver.weights), kept, lacking.copy(order="K"), base, *hardness)
 
 
 def generic(*given):
@@ -78,10 +77,10 @@ def generic(*given):
 
 def both_of(*given):
     one, two = on(*given), generic(*given)
-    assert isinstance(one, CompiledFields)
-    assert isinstance(two, fields_module._Generic)
-    assert one.held is None
-    assert two.held is None
+    assert isinstance(one, CompiledVectors)
+    assert isinstance(two, ArrayVectors)
+    assert one.upper is None
+    assert two.upper is None
     return one, two
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory.tools.numeric import NUMBERS, WHOLE
+from roughcontact.validation import NUMBERS, WHOLE
 
 N = 16
 PERIODIC, FREE = rc.Grid((N, N), 1e-6, True), rc.Grid((N, N), 1e-6)
@@ -68,7 +68,7 @@ CALLS = {
     rc.singly_periodic: {"grid": rc.Grid((4, 4), 1e-6, (True, False)), "modulus": 1e9, "reference_length": 1e-3},
     rc.line: {"grid": LINE, "modulus": 1e9, "reference_length": 1e-3},
     rc.layer: {"grid": FREE, "modulus": STEEL, "thickness": 1e-5, "base": "bonded"},
-    rc.tangential_stiffness: {"region": MASK, "grid": FREE, "bodies": STEEL, "tolerance": 1e-7},
+    rc.tangential_stiffness: {"mask": MASK, "grid": FREE, "bodies": STEEL, "tolerance": 1e-7},
     rc.slide: {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "force": 1e-5, "tolerance": 1e-8},
     rc.load_cycle: {"amplitude": 1e-5, "cycles": 1, "steps": 8},
     rc.press: {"surface": CUT, "modulus": 1e9, "force": 1e-4, "tolerance": 1e-8, "hardness": 1e12},
@@ -144,7 +144,7 @@ def test_what_is_no_number_is_refused(call, name, optional):
         lambda: rc.magnify(ROUGH, 2.0, 1e300),
         lambda: rc.below(PRESSED, "a", 0.3),
         lambda: rc.below(PRESSED, 1e-6, "a"),
-        lambda: rc.prescribed_displacement(rc.half_space(FREE, 1e9), MASK, None),
+        lambda: rc.prescribed_displacement(MASK, None, operator=rc.half_space(FREE, 1e9)),
         lambda: rc.loading_curve(CUT, 1e9, forces=["a", 1.0]),
         lambda: rc.loading_curve(CUT, 1e9, forces=[1e-5, 1e-4]).fit((None, 1.0)),
         lambda: rc.slide(PRESSED, STEEL, friction=0.3, force=(1e-5, [1.0, 2.0])),

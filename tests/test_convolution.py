@@ -64,7 +64,7 @@ def by_whom(monkeypatch):
 
     monkeypatch.setattr(convolution, "convolve", plain)
     if machine.is_available():
-        from roughcontact.kernels.compiled_convolution import Convolution as Ready
+        from roughcontact.kernels.compiled_convolution import CompiledConvolution as Ready
 
         compiled = Ready.apply
 

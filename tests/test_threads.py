@@ -268,7 +268,7 @@ def test_what_a_solution_tells_does_not_hang_on_the_threads_of_blas(two_blas_thr
     """Another thread that presses would change them: sums of more than 10 000 products are divided among them."""
     rng, grid = np.random.default_rng(0), rc.Grid(shape, 1.0)
     separation, pressure = rng.permutation(grid.size).reshape(shape) / grid.size, rng.random(shape)
-    operator = rc.half_space(grid, 1.0, "fft" if grid.size > 400 else "dense")
+    operator = rc.half_space(grid, 1.0, method="fft" if grid.size > 400 else "dense")
     told = []
     for _ in range(2):
         problem = ContactProblem(separation, operator, Force(1.0))

@@ -21,7 +21,6 @@ _ROOMS = {
     "self_affine": "surface.fourier",
     "SelfAffineSpectrum": "surface.spectrum",
     "synthesise": "surface.fourier",
-    "RadialSpectrum": "surface.spectrum",
     "StretchedSpectrum": "surface.spectrum",
     "DirectionalSpectrum": "surface.spectrum",
     "Moments": "surface.moments",
@@ -75,12 +74,13 @@ _ROOMS = {
     "TangentialStiffness": "friction.tangential_stiffness",
     "tangential_stiffness": "friction.tangential_stiffness",
     "slide": "friction.slide",
-    "slide_path": "friction.slide_path",
-    "load_cycle": "friction.slide_path",
+    "slide_path": "friction.slide",
+    "load_cycle": "friction.slide",
     "SlipCurve": "friction.slip_curve",
     "slide_curve": "friction.slip_curve",
     "Geometry": "halfspace.operators.geometry",
     "Operator": "halfspace.operators.operator",
+    "Capabilities": "halfspace.operators.operator",
     "Force": "solver.control",
     "Depth": "solver.control",
     "ContactProblem": "contact.problem",
@@ -142,9 +142,9 @@ if TYPE_CHECKING:
     from roughcontact.files.read import read_line as read_line
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
+    from roughcontact.friction.slide import load_cycle as load_cycle
     from roughcontact.friction.slide import slide as slide
-    from roughcontact.friction.slide_path import load_cycle as load_cycle
-    from roughcontact.friction.slide_path import slide_path as slide_path
+    from roughcontact.friction.slide import slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve
     from roughcontact.friction.slip_curve import slide_curve as slide_curve
     from roughcontact.friction.slip_solution import TangentialSolution as TangentialSolution
@@ -156,6 +156,7 @@ if TYPE_CHECKING:
     from roughcontact.halfspace.operators.geometry import Geometry as Geometry
     from roughcontact.halfspace.operators.layer import layer as layer
     from roughcontact.halfspace.operators.line_contact import line as line
+    from roughcontact.halfspace.operators.operator import Capabilities as Capabilities
     from roughcontact.halfspace.operators.operator import Operator as Operator
     from roughcontact.halfspace.operators.ring import ring as ring
     from roughcontact.halfspace.operators.singly_periodic import singly_periodic as singly_periodic
@@ -211,7 +212,6 @@ if TYPE_CHECKING:
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.spectrum import DirectionalSpectrum as DirectionalSpectrum
-    from roughcontact.surface.spectrum import RadialSpectrum as RadialSpectrum
     from roughcontact.surface.spectrum import SelfAffineSpectrum as SelfAffineSpectrum
     from roughcontact.surface.spectrum import StretchedSpectrum as StretchedSpectrum
     from roughcontact.surface.surface import Surface as Surface

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, convolve, fast_even_length, is_numpy
-from roughcontact.kernels import compiled_convolution as machine
 from roughcontact.kernels import loader
+from roughcontact.kernels.compiled_convolution import CompiledConvolution, fits
 
 __all__ = ["Convolution", "padded_length"]
 
@@ -56,7 +56,7 @@ class Convolution:
         """Return the machine's kernel for fields of one shape and precision."""
         if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
             raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
-        ready = machine.Convolution.of(self._kernel(), shape, self.lengths, dtype.name)
+        ready = CompiledConvolution.of(self._kernel(), shape, self.lengths, dtype.name)
         self._ready[shape, dtype] = ready
         if dtype == np.float64:
             self._multiplier = None  # planes are large: none is kept twice
@@ -86,4 +86,4 @@ def padded_length(cells: int) -> int:
 def _in_machine_code(field: Array, lengths: Pair) -> bool:
     if not is_numpy(field) or field.ndim != 2 or field.shape[0] < ROWS or not loader.takes(field):
         return False
-    return machine.fits(lengths)
+    return fits(lengths)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import LARGEST, SMALLEST, moderate, scalar
+from roughcontact.validation import LARGEST, SMALLEST, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
 
@@ -39,7 +39,14 @@ class Grid:
 
     Notes
     -----
-    Lengths are ``n * spacing``: cells, not nodes (docs/conventions.md).
+    Lengths are ``n * spacing``: cells, not nodes (docs/conventions.md). Rows run along x; y increases downwards.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid(shape=(4, 8), spacing=0.5e-6, periodic=(False, True))
+    >>> grid.lengths, grid.size
+    ((2e-06, 4e-06), 32)
     """
 
     shape: tuple[int, ...]
@@ -110,7 +117,18 @@ class Grid:
         return tuple(() if periodic else (0, -1) for periodic in self.periodic)
 
     def window(self, slices: tuple[slice, ...]) -> Grid:
-        """Return the free grid of the cells in `slices` (one slice of step 1 an axis)."""
+        """Return the free grid of a block of cells.
+
+        Parameters
+        ----------
+        slices : tuple of slice
+            Range of cells along each axis, of step 1.
+
+        Returns
+        -------
+        Grid
+            Cells of the same size, free along every axis.
+        """
         shape = tuple(len(range(*part.indices(n))) for part, n in zip(slices, self.shape, strict=True))
         return Grid(shape, self.spacing, periodic=False)
 
@@ -128,6 +146,13 @@ class RadialGrid:
     ------
     ValueError
         If the radii do not increase from zero or above.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid([0.0, 1e-6, 3e-6])
+    >>> rings.radii.tolist(), f"{rings.area:.4g} m^2"
+    ([5e-07, 2e-06], '2.827e-11 m^2')
     """
 
     edges: Array
@@ -148,7 +173,19 @@ class RadialGrid:
 
     @classmethod
     def uniform(cls, rings: int, radius: float) -> RadialGrid:
-        """Return `rings` rings of one width over a disc of `radius` [m].
+        """Return rings of one width over a disc.
+
+        Parameters
+        ----------
+        rings : int
+            Number of rings.
+        radius : float
+            Radius of the disc [m].
+
+        Returns
+        -------
+        RadialGrid
+            Rings of the width ``radius / rings``.
 
         Raises
         ------
@@ -226,7 +263,18 @@ class RadialGrid:
         return ((0, -1) if self.edges[0] > 0 else (-1,),)
 
     def window(self, slices: tuple[slice, ...]) -> RadialGrid:
-        """Return the rings of one slice of step 1."""
+        """Return a range of neighbouring rings.
+
+        Parameters
+        ----------
+        slices : tuple of slice
+            One slice of step 1.
+
+        Returns
+        -------
+        RadialGrid
+            The rings in the slice.
+        """
         start, stop, _ = slices[0].indices(self.size)
         return RadialGrid(self.edges[start : stop + 1])
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-from roughcontact.theory.tools.domain import moderate, scalar, shown
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import moderate, require_numbers, scalar
 
-__all__ = ["Solid", "as_modulus", "number", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +20,13 @@ class Solid:
         Young's modulus [Pa]; infinite for a rigid body.
     poisson_ratio : float
         Poisson's ratio, above -1 and at most 1/2.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel = rc.Solid(young_modulus=210e9, poisson_ratio=0.3)
+    >>> f"{steel.shear_modulus / 1e9:.2f} GPa"
+    '80.77 GPa'
     """
 
     young_modulus: float
@@ -42,19 +47,67 @@ class Solid:
         return self.young_modulus / (2 * (1 + self.poisson_ratio))
 
 
-def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced modulus E* of two solids [Pa] (thesis, eq. 4.3).
+Bodies = Solid | tuple[Solid, Solid]
 
-    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Without a `second` solid the partner is rigid.
+
+def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
+    """Return the reduced modulus E* of two solids (thesis, eq. 4.3).
+
+    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Parameters
+    ----------
+    first : Solid
+    second : Solid, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is not a `Solid`, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> f"{rc.reduced_modulus(rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)) / 1e9:.2f} GPa"
+    '58.61 GPa'
     """
     compliance = sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _bodies(first, second))
     return _inverse(compliance)
 
 
 def reduced_shear_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced shear modulus G* of two solids [Pa] (beside thesis, eq. 4.5).
+    """Return the reduced shear modulus G* of two solids (beside thesis, eq. 4.5).
 
     1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2), so that k/k_t = E*/G* for a circle.
+
+    Parameters
+    ----------
+    first : Solid
+    second : Solid, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        G* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is not a `Solid`, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel = rc.Solid(210e9, 0.3)
+    >>> f"k/k_t = {rc.reduced_modulus(steel) / rc.reduced_shear_modulus(steel):.4f} = (1 - nu/2)/(1 - nu)"
+    'k/k_t = 1.2143 = (1 - nu/2)/(1 - nu)'
     """
     compliance = sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _bodies(first, second))
     return _inverse(compliance)
@@ -75,24 +128,27 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
             raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
         value = reduced_modulus(*modulus)
     else:
-        value = number("reduced modulus", modulus)
+        value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
 
 
-def number(name: str, value: Any) -> float:
-    """Return one real number.
+def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
+    """Return the two bodies of a contact; None for a rigid one.
 
     Raises
     ------
     ValueError
-        If it is none: a text, a list, nothing. The command line reads units, this does not.
+        If what is given is neither a Solid nor two of them.
     """
-    try:
-        return scalar(value, name)
-    except ValueError as error:
-        raise ValueError(f"the {name} must be one number in SI units, not {shown(value)}") from error
+    if isinstance(bodies, Solid):
+        return bodies, None
+    if isinstance(bodies, tuple) and len(bodies) == 2:
+        return bodies
+    raise ValueError(
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
+    )
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

@@ -31,13 +31,13 @@ def test_resistance_of_a_curve(invoke, curve):
 
 
 def test_of_the_interface(invoke, curve):
-    whole, interface = (
+    total, interface = (
         json.loads(invoke("conductance", curve, *COPPER, "--of", of, "--json").stdout)[
             "electrical_resistance"
         ]
-        for of in ("whole", "interface")
+        for of in ("total", "interface")
     )
-    assert (np.array(interface) < np.array(whole)).all()
+    assert (np.array(interface) < np.array(total)).all()
 
 
 def test_a_folder_serves_and_gets_files(invoke, curve):

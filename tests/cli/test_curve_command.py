@@ -56,7 +56,7 @@ def test_a_person_gets_one_line_a_load(invoke, rough):
     header = next(k for k, line in enumerate(answer.stdout.splitlines()) if "depth [" in line)
     rows = [line.split() for line in answer.stdout.splitlines()[header + 1 : header + 13]]
     np.testing.assert_allclose([float(row[0]) for row in rows], np.geomspace(1e-3, 1, 12), rtol=5e-4)
-    assert "saturation" in answer.stdout
+    assert "full-contact stiffness" in answer.stdout
 
 
 def test_progress_goes_to_standard_error(invoke, rough):

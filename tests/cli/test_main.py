@@ -36,7 +36,7 @@ def test_version():
         (("surface", "info"), ["--json", "--unit"]),
         (
             ("surface", "make"),
-            ["--hurst", "--rms", "--points", "--rolloff", "--cutoff", "--short", "--nodal"],
+            ["--hurst", "--rms", "--points", "--rolloff", "--long-cutoff", "--short-cutoff", "--nodal"],
         ),
     ],
 )

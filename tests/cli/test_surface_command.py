@@ -25,7 +25,8 @@ def test_a_surface_is_made_as_the_library_makes_it(invoke, tmp_path):
             "--points",
             "16x24",
         ),
-        *("--seed", "9", "--rolloff", "0.8mm", "--cutoff", "2mm", "--short", "0.2mm", "--periodic"),
+        *("--seed", "9", "--rolloff", "0.8mm", "--periodic"),
+        *("--long-cutoff", "2mm", "--short-cutoff", "0.2mm"),
     )
     assert answer.exit_code == 0
     grid = rc.Grid((16, 24), (1e-3 / 16, 3e-3 / 24), periodic=True)
@@ -69,11 +70,11 @@ def test_the_seed_makes_the_surface(invoke, tmp_path):
 
 def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
     path = tmp_path / "new.npz"
-    words = ("surface", "make", path, *MAKE, "--points", "16", "--seed", "7", "--short", "0.2mm")
+    words = ("surface", "make", path, *MAKE, "--points", "16", "--seed", "7", "--short-cutoff", "0.2mm")
     made = invoke(*words)
     history = json.loads(invoke("surface", "info", path, "--json").stdout)["provenance"]
     assert history[0].startswith("self-affine, H = 0.8, rms = 1e-06 m")
-    assert history[1] == f"made by roughcontact {rc.__version__}: seed 7, short 0.0002 m"
+    assert history[1] == f"made by roughcontact {rc.__version__}: seed 7, short_cutoff 0.0002 m"
     assert history[2].startswith("read from new.npz")
     assert "Note" not in made.stderr
     table = invoke("surface", "info", path)
@@ -96,7 +97,7 @@ def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
         (("--rms", "1N"), "--rms: '1N' is not a length"),
         (("--size", "0mm"), "--size: a side length must be positive"),
         (("--points", "0"), "--points: '0' is no number of points"),
-        (("--cutoff", "1um"), "no wave"),
+        (("--long-cutoff", "1um"), "no wave"),
         (("--nodal", "--periodic"), "nodal repeats the first row"),
     ],
 )

@@ -40,7 +40,7 @@ def test_spectrum_says_what_the_library_says(invoke, free):
     assert record["rms"] == pytest.approx(surface.levelled("plane").rms, rel=1e-12)
     spectrum = rc.power_spectrum(surface, per_decade=200)
     assert record["longest"] == pytest.approx(2 * np.pi / spectrum.q_min, rel=1e-12)
-    moments = rc.spectrum_moments(spectrum.rebinned(20), spectrum.q_min, spectrum.q_max)
+    moments = rc.spectrum_moments(spectrum.rebinned(20), q_min=spectrum.q_min, q_max=spectrum.q_max)
     assert [record["m0"], record["m2"], record["m4"]] == pytest.approx([moments.m0, moments.m2, moments.m4])
 
 
@@ -103,7 +103,8 @@ def test_spectrum_refuses_a_band_that_is_none(invoke, free, tmp_path, arguments,
 def test_prepare_takes_its_steps_in_the_order_that_it_states(invoke, holed, tmp_path, ending):
     out = tmp_path / f"ready.{ending}"
     answer = invoke(
-        *("surface", "prepare", holed, out, "--downsample", "2", "--long", "60um", "--short", "8um"),
+        *("surface", "prepare", holed, out, "--downsample", "2"),
+        *("--long-cutoff", "60um", "--short-cutoff", "8um"),
         *("--fill", "--form", "2", "--level", "plane", "--crop", "10:90,:100", "--json"),
     )
     assert answer.exit_code == 0, answer.stderr
@@ -148,7 +149,7 @@ def test_prepare_scans_averages_and_tapers_in_its_order(invoke, free, tmp_path):
     out = tmp_path / "out.npz"
     answer = invoke(
         *("surface", "prepare", path, out, "--window", "tukey", "--share", "0.5", "--average", "2"),
-        *("--short", "8um", "--tip", "20um", "--tip-shape", "paraboloid"),
+        *("--short-cutoff", "8um", "--tip", "20um", "--tip-shape", "paraboloid"),
     )
     assert answer.exit_code == 0, answer.stderr
     expected = (
@@ -209,7 +210,7 @@ def test_spectrum_of_a_line_scan_is_c1d_and_the_c2d_that_follows(invoke, line, t
     fit = rc.fit_spectrum(profile, limit="none")
     assert record["kind"] == "C1D"
     assert record["hurst"] == pytest.approx(fit.hurst, rel=1e-12)
-    moments = rc.spectrum_moments(profile.rebinned(20), profile.q_min, profile.q_max)
+    moments = rc.spectrum_moments(profile.rebinned(20), q_min=profile.q_min, q_max=profile.q_max)
     assert record["rms_slope"] == pytest.approx(moments.rms_slope, rel=1e-12)
     assert record["isotropic_rms_slope"] == pytest.approx(np.sqrt(2) * moments.rms_slope, rel=1e-12)
     table = np.genfromtxt(out / "spectrum.csv", delimiter=",", names=True)
@@ -235,9 +236,9 @@ def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
         (("--crop", "5:5,:"), "nothing is left"),
         (("--form", "egg"), "sphere or cylinder"),
         (("--form", "13"), "0 to 12"),
-        (("--short", "10"), "give its unit"),
-        (("--short", "1um"), "cut-off"),
-        (("--short", "20um", "--long", "8um"), "must be below"),
+        (("--short-cutoff", "10"), "give its unit"),
+        (("--short-cutoff", "1um"), "cut-off"),
+        (("--short-cutoff", "20um", "--long-cutoff", "8um"), "must be below"),
         (("--downsample", "0"), "from 1 up"),
         (("--downsample", "90"), "leaves less than two"),
         (("--alias",), "belongs to --downsample"),

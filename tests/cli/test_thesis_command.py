@@ -87,7 +87,7 @@ def test_what_failed_is_told(invoke, tmp_path, monkeypatch):
     def study(scale):
         parameters = ensembles.sphere_study("small").parameters | {"points": 17, "loads": 3}
         # A cut-off below the shortest wave leaves no wave: these cases fail when they are run.
-        rows = ({}, {"cutoff": 1e-3})
+        rows = ({}, {"long_cutoff": 1e-3})
         return Study(name="some", case="curve", samples=1, parameters=parameters, rows=rows)
 
     monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.sphere_study", study)

@@ -167,7 +167,7 @@ def test_two_libraries_are_not_mixed(library, rough):
     region = library.put(np.eye(*rough.grid.shape), "bool")
     operator = rc.half_space(rough.grid, 1.0)
     with pytest.raises(ValueError, match="the library that the region is of"):
-        rc.prescribed_displacement(operator, region, np.ones(rough.grid.shape))
+        rc.prescribed_displacement(region, np.ones(rough.grid.shape), operator=operator)
 
 
 def test_a_mask_is_pressed_where_it_lives(library, rough):

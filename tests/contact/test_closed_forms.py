@@ -90,7 +90,9 @@ def test_prescribed_displacement_of_hertz():
     grid = rc.Grid((n, n), 1 / n)
     heights = oracles.paraboloid(n, 1.0)
     disc = -2 * heights <= a**2
-    answer = rc.prescribed_displacement(rc.half_space(grid, 1.0), disc, a**2 + heights, tolerance=1e-10)
+    answer = rc.prescribed_displacement(
+        disc, a**2 + heights, operator=rc.half_space(grid, 1.0), tolerance=1e-10
+    )
     assert answer.residual <= 1e-10
     u = oracles.displacement(grid, 1.0, answer.pressure)
     np.testing.assert_allclose(u[disc], (a**2 + heights)[disc], rtol=0, atol=1.01e-10 * a**2)

@@ -57,7 +57,7 @@ def test_a_theory_is_silent_outside_its_domain(curve):
 def test_deviation_is_none_without_resolved_loads(curve):
     from dataclasses import replace
 
-    lost = replace(curve, cell_stiffness=float(curve.saturation))
+    lost = replace(curve, cell_stiffness=float(curve.full_contact_stiffness))
     assert np.isnan(lost.compare(hertz_law()).deviation("depth"))
     assert lost.compare(hertz_law()).to_record()["deviation"]["depth"] is None
 

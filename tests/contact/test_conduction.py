@@ -35,7 +35,7 @@ def test_along_a_curve():
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
     curve = rc.loading_curve(rough, MODULUS, forces=np.geomspace(1e-3, 1e-1, 5))
     whole = rc.conductance(curve, resistivities=(1e-8, 1e-8))
-    interface = rc.conductance(curve, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    interface = rc.conductance(curve, resistivities=(1e-8, 1e-8), of="interface")
     np.testing.assert_allclose(whole["electrical_conductance"], curve.stiffness / MODULUS / 1e-8, rtol=1e-14)
     assert (interface["electrical_resistance"] < whole["electrical_resistance"]).all()
     assert (np.diff(whole["electrical_resistance"]) <= 0).all()
@@ -84,7 +84,7 @@ def test_what_gives_way_conducts_too():
     found = rc.conductance(hard, resistivities=(1e-8, 1e-8))["electrical_conductance"]
     assert found == pytest.approx(punch / MODULUS / 1e-8, rel=1e-12)
     assert hard.stiffness < 0.9 * punch
-    interface = rc.conductance(hard, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    interface = rc.conductance(hard, resistivities=(1e-8, 1e-8), of="interface")
     assert interface["electrical_conductance"] > found
 
 

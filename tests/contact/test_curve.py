@@ -125,7 +125,7 @@ def test_curve_through_full_contact_of_a_periodic_surface():
     curve = rc.loading_curve(rough(32, hurst=1.5, periodic=True), 1.0, forces=[1e-4, 1e-2, 1.0, 2.0, 100.0])
     assert np.isinf(curve.stiffness[-2:]).all()
     assert curve.depth[-1] == pytest.approx(curve.depth[-2], rel=1e-7)
-    assert curve.saturation == np.inf
+    assert curve.full_contact_stiffness == np.inf
     assert not curve.resolved[-2:].any()
 
 
@@ -135,9 +135,11 @@ def test_resolution_limits():
     single = rc.contact_stiffness(np.eye(1, 64 * 64, 99, dtype=bool).reshape(64, 64), surface.grid, 1.0)
     full = rc.contact_stiffness(np.ones((64, 64), bool), surface.grid, 1.0)
     assert curve.cell_stiffness == pytest.approx(single, rel=1e-12)
-    assert curve.saturation == pytest.approx(full, rel=1e-3)
+    assert curve.full_contact_stiffness == pytest.approx(full, rel=1e-3)
     k = curve.stiffness
-    np.testing.assert_array_equal(curve.resolved, (k >= 20 * single) & (k < 0.9 * curve.saturation))
+    np.testing.assert_array_equal(
+        curve.resolved, (k >= 20 * single) & (k < 0.9 * curve.full_contact_stiffness)
+    )
     assert 0 < curve.resolved.sum() < len(curve)
 
 

@@ -115,7 +115,7 @@ def test_curve_dataset_holds_the_curve(curve):
     assert dataset.resolved.dtype == bool
     assert list(dataset.status.to_numpy()) == ["converged"] * 3
     assert dataset.modulus == MODULUS
-    assert dataset.saturation == curve.saturation
+    assert dataset.full_contact_stiffness == curve.full_contact_stiffness
 
 
 def test_the_classes_hand_out_the_same(solution, curve):
@@ -179,7 +179,7 @@ def test_a_line_has_units_of_its_own(body, units):
     solution = rc.press(line, MODULUS, force=1.0, operator=operator)
     for dataset in (curve_dataset(curve), solution_dataset(solution)):
         assert {name: dataset[name].attrs["units"] for name in units} == units
-        assert dataset.attrs["geometry"] == operator.geometry.value
+        assert dataset.attrs["geometry"] == operator.capabilities.geometry.value
         assert list(dataset.axis.values) == ["x"]
     assert solution_dataset(solution).pressure.dims == ("x",)
     for record in (curve_record(curve), solution_record(solution)):

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from descents import SHAPE, STRIDES, Counted, Start, both_controls, both_kinds, both_planes, within_bounds
+from descents import ESTIMATES, SHAPE, Counted, Start, both_controls, both_kinds, both_planes, within_bounds
 from regions import both_of, close, plane, region
 from roughcontact.kernels import loader
-from roughcontact.solver.bound_constrained_cg import BOUND, CAREFUL, FREE, LEFT, Descent, Stride, descend
-from roughcontact.solver.conjugate_gradients import relax
-from roughcontact.solver.inner_operator import Plane, SinglePlane
+from roughcontact.solver import tuning
+from roughcontact.solver.bound_constrained_cg import Minimised, StepEstimate, bound_constrained_cg
+from roughcontact.solver.conjugate_gradients import conjugate_gradients
+from roughcontact.solver.inner_operator import FullGrid, SingleFullGrid
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -22,25 +23,29 @@ pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine co
 def test_where_no_bound_is_met_they_are_conjugate_gradients(make, conserve):
     """However far the first step is expected to go; at given displacement those on a region of any sign."""
     operator, kept = plane(SHAPE), region(SHAPE, 4, 0.5)
-    lacking, driver = np.random.default_rng(4).standard_normal(SHAPE), Plane(operator)
+    lacking, driver = np.random.default_rng(4).standard_normal(SHAPE), FullGrid(operator)
     lacking -= lacking[kept].mean() * conserve
     plain = make(driver, kept, lacking, 1e3 * kept)
     found = []
-    for stride in STRIDES:
+    for estimate in ESTIMATES:
         fields, counted = make(driver, kept, lacking, 1e3 * kept), Counted(driver)
-        found.append(descend(counted, fields, stride, conserve=conserve, own=1.0, limit=0.0, max_steps=6))
+        found.append(
+            bound_constrained_cg(
+                counted, fields, estimate, conserve=conserve, self_influence=1.0, limit=0.0, max_steps=6
+            )
+        )
         assert found[-1].steps == counted.count == 6
-        np.testing.assert_array_equal(fields.inside > 0, kept)
-        if not conserve and stride is STRIDES[0]:
-            assert relax(driver, plain, limit=0.0, max_steps=6)[1] == 6
-        elif stride is STRIDES[0]:
+        np.testing.assert_array_equal(fields.free > 0, kept)
+        if not conserve and estimate is ESTIMATES[0]:
+            assert conjugate_gradients(driver, plain, limit=0.0, max_steps=6)[1] == 6
+        elif estimate is ESTIMATES[0]:
             plain = fields
         # Sums of 240 terms, in six steps.
-        close(fields.change, plain.change, np.abs(plain.change).max(), "float64", 6 * 240)
-        assert found[-1].stride.known
-        assert found[-1].stride.expected == pytest.approx(found[0].stride.expected, rel=1e-9)
-        assert found[-1].lack == pytest.approx(found[0].lack, rel=1e-9)
-        assert not conserve or abs(fields.change.sum()) < 1e-13 * np.abs(fields.change).sum()
+        close(fields.correction, plain.correction, np.abs(plain.correction).max(), "float64", 6 * 240)
+        assert found[-1].estimate.known
+        assert found[-1].estimate.expected == pytest.approx(found[0].estimate.expected, rel=1e-9)
+        assert found[-1].residual == pytest.approx(found[0].residual, rel=1e-9)
+        assert not conserve or abs(fields.correction.sum()) < 1e-13 * np.abs(fields.correction).sum()
 
 
 @both_kinds
@@ -49,14 +54,14 @@ def test_directions_are_conjugate(make, conserve):
     """Each to the one before, where they have no resultant, too."""
     taken = []
 
-    class Noting(Plane):
+    class Noting(FullGrid):
         def apply(self, pressure):
             taken.append((pressure.copy(), super().apply(pressure)))
             return taken[-1][1]
 
     kept, lacking = region(SHAPE, 4, 0.5), np.random.default_rng(4).standard_normal(SHAPE)
     start = Start(Noting(plane(SHAPE)), kept, 1e3 * kept, lacking - lacking[kept].mean(), conserve, lacking)
-    start.descend(start.fields(make), limit=0.0, max_steps=6)
+    start.bound_constrained_cg(start.fields(make), limit=0.0, max_steps=6)
     for (s, u), (t, v) in pairwise(taken):
         assert abs((t * u).sum()) < 1e-12 * math.sqrt((s * u).sum() * (t * v).sum())
 
@@ -75,16 +80,16 @@ def test_both_solve_the_same_system_to_the_same_limit(periodic, conserve):
     wanted[kept] = np.linalg.solve(matrix, lacking[kept] - level)
     # The answer is off by no more than the inverse makes of what is lacking.
     bound = np.sqrt(kept.sum()) * limit / np.linalg.eigvalsh(matrix)[0]
-    start = Start(Plane(operator), kept, 1e3 * kept, lacking, conserve, lacking)
+    start = Start(FullGrid(operator), kept, 1e3 * kept, lacking, conserve, lacking)
     for fields in both_of(start.driver, kept, lacking, start.base):
-        found = start.descend(fields, limit=limit)
-        assert found.lack <= limit
+        found = start.bound_constrained_cg(fields, limit=limit)
+        assert found.residual <= limit
         assert found.steps < 60
         left = start.left(fields)
         assert np.abs(left[kept]).max() < 1.01 * limit
         np.testing.assert_allclose(fields.r - fields.r[kept].mean() * conserve, left, rtol=0, atol=1e-12)
-        assert np.linalg.norm(fields.change - wanted) < bound
-        assert (fields.change[~kept] == 0).all()
+        assert np.linalg.norm(fields.correction - wanted) < bound
+        assert (fields.correction[~kept] == 0).all()
 
 
 @both_kinds
@@ -93,24 +98,24 @@ def test_a_descent_goes_on_where_another_left_off(make, conserve):
     """The next direction is conjugate to the last: begun anew, the change after so few steps would be far off."""
     kept, lacking = region(SHAPE, 4, 0.5), np.random.default_rng(4).standard_normal(SHAPE)
     lacking -= lacking[kept].mean() * conserve
-    start = Start(Plane(plane(SHAPE)), kept, 1e3 * kept, lacking, conserve, lacking)
+    start = Start(FullGrid(plane(SHAPE)), kept, 1e3 * kept, lacking, conserve, lacking)
     one, two, anew = (start.fields(make) for _ in range(3))
-    whole = start.descend(one, limit=0.0, max_steps=6)
-    found = Descent(math.inf, 0, Stride())
+    whole = start.bound_constrained_cg(one, limit=0.0, max_steps=6)
+    found = Minimised(math.inf, 0, StepEstimate())
     for steps in (2, 3, 1):
-        found = start.descend(two, found.stride, limit=0.0, max_steps=steps)
-    assert found.stride.expected == pytest.approx(whole.stride.expected, rel=1e-9)
-    close(two.change, one.change, np.abs(one.change).max(), "float64", 6 * 240)
-    start.descend(anew, limit=0.0, max_steps=5)
-    anew.t[...] = 0.0
-    start.descend(anew, limit=0.0, max_steps=1)
-    assert np.abs(anew.change - one.change).max() > 1e-6 * np.abs(one.change).max()
+        found = start.bound_constrained_cg(two, found.estimate, limit=0.0, max_steps=steps)
+    assert found.estimate.expected == pytest.approx(whole.estimate.expected, rel=1e-9)
+    close(two.correction, one.correction, np.abs(one.correction).max(), "float64", 6 * 240)
+    start.bound_constrained_cg(anew, limit=0.0, max_steps=5)
+    anew.s[...] = 0.0
+    start.bound_constrained_cg(anew, limit=0.0, max_steps=1)
+    assert np.abs(anew.correction - one.correction).max() > 1e-6 * np.abs(one.correction).max()
 
 
 @both_controls
 def test_both_go_as_far_in_single_precision(conserve):
     """Products are in single precision, too: what is left of a lack is known to some units of the first."""
-    driver, limit = SinglePlane(plane((40, 50))), 0.1
+    driver, limit = SingleFullGrid(plane((40, 50))), 0.1
     kept, rng = region((40, 50), 3, 0.5), np.random.default_rng(3)
     base = (rng.random((40, 50)) * (kept | (rng.random((40, 50)) < 0.02))).astype(np.float32)
     own = driver.operator.as_matrix(np.zeros(1, np.intp))[0, 0]
@@ -119,9 +124,9 @@ def test_both_go_as_far_in_single_precision(conserve):
     base /= own
     for fields in both_of(driver, kept, lacking, base):
         start = Start(driver, kept, base, lacking, conserve, lacking)
-        found = start.descend(fields, Stride(0.4), limit=limit)
-        assert found.lack <= limit
-        assert fields.change.dtype == fields.r.dtype == fields.inside.dtype == np.float32
+        found = start.bound_constrained_cg(fields, StepEstimate(0.4), limit=limit)
+        assert found.residual <= limit
+        assert fields.correction.dtype == fields.r.dtype == fields.free.dtype == np.float32
         _, free = within_bounds(start, fields, limit)
         assert free.sum() < kept.sum()
         assert np.abs(start.left(fields)[free]).max() < 1.01 * limit
@@ -132,20 +137,20 @@ def test_all_cells_would_pull(make):
     """None is left to take the force: it ends, with what they lack, and nothing has changed."""
     kept, lacking = region(SHAPE, 0, 0.5), np.random.default_rng(0).standard_normal(SHAPE)
     for pull, conserve in ((1e3, True), (1e3, False)):
-        start = Start(Plane(plane(SHAPE)), kept, -pull * kept, lacking, conserve, lacking)
+        start = Start(FullGrid(plane(SHAPE)), kept, -pull * kept, lacking, conserve, lacking)
         fields = start.fields(make)
         if conserve:
-            found = start.descend(fields, limit=1e-3)
+            found = start.bound_constrained_cg(fields, limit=1e-3)
             level = lacking[kept].mean()
-            assert found == Descent(pytest.approx(np.abs(lacking[kept] - level).max()), 0, Stride())
-            assert not fields.change.any()
+            assert found == Minimised(pytest.approx(np.abs(lacking[kept] - level).max()), 0, StepEstimate())
+            assert not fields.correction.any()
         else:
             # Nobody has to: all go to nothing.
-            assert start.descend(fields, limit=1e-3).lack == 0
-            assert np.abs(start.base + fields.change).max() <= LEFT * 1e-3 / start.own
-        assert not fields.inside.any()
+            assert start.bound_constrained_cg(fields, limit=1e-3).residual == 0
+            assert np.abs(start.base + fields.correction).max() <= tuning.BOUND_VIOLATION * 1e-3 / start.own
+        assert not fields.free.any()
         # Nor is there anything to begin with.
-        assert start.descend(fields, limit=1e-3) == Descent(0.0, 0, Stride())
+        assert start.bound_constrained_cg(fields, limit=1e-3) == Minimised(0.0, 0, StepEstimate())
 
 
 @both_kinds
@@ -154,14 +159,16 @@ def test_no_more_products_than_are_allowed(make, conserve):
     start = Start.near(5, False, conserve)
     for most in (0, 1, 2):
         fields = start.fields(make)
-        found = start.descend(fields, limit=1e-9, max_steps=most)
+        found = start.bound_constrained_cg(fields, limit=1e-9, max_steps=most)
         assert found.steps == most
-        assert found.stride.known == (most > 0)
-        assert fields.change.any() == (most > 0)
-        assert found.lack < 1 if most else found.lack == pytest.approx(1.0)
+        assert found.estimate.known == (most > 0)
+        assert fields.correction.any() == (most > 0)
+        assert found.residual < 1 if most else found.residual == pytest.approx(1.0)
     fields = start.fields(make)
-    assert start.descend(fields, limit=math.inf) == Descent(pytest.approx(1.0), 0, Stride())
-    assert not fields.change.any()
+    assert start.bound_constrained_cg(fields, limit=math.inf) == Minimised(
+        pytest.approx(1.0), 0, StepEstimate()
+    )
+    assert not fields.correction.any()
 
 
 @both_kinds
@@ -172,9 +179,9 @@ def test_what_is_solved_but_presses_elsewhere_goes_on(make, conserve):
     base = np.where(kept, 5.0, 0.0)
     for much in (1.0, 1e-6):
         astray = (~kept).astype(float) * much
-        start = Start(Plane(plane(SHAPE)), kept, base + astray, zeros, conserve, zeros)
+        start = Start(FullGrid(plane(SHAPE)), kept, base + astray, zeros, conserve, zeros)
         fields = start.fields(make)
-        found = start.descend(fields, limit=1e-3)
+        found = start.bound_constrained_cg(fields, limit=1e-3)
         assert (found.steps > 0) == (much == 1.0)
         within_bounds(start, fields, 1e-3)
 
@@ -183,11 +190,11 @@ def test_what_is_solved_but_presses_elsewhere_goes_on(make, conserve):
 def test_what_is_lacking_alike_is_none(make):
     kept, ones = region(SHAPE, 0, 0.5), np.ones(SHAPE)
     for level in (0.7, -0.1):
-        start = Start(Plane(plane(SHAPE)), kept, 1.0 * kept, level * ones, True, ones)
+        start = Start(FullGrid(plane(SHAPE)), kept, 1.0 * kept, level * ones, True, ones)
         fields = start.fields(make)
-        found = start.descend(fields, limit=1e-9)
-        assert found.lack <= 1e-9
-        assert np.abs(fields.change).max() < 1e-9
+        found = start.bound_constrained_cg(fields, limit=1e-9)
+        assert found.residual <= 1e-9
+        assert np.abs(fields.correction).max() < 1e-9
 
 
 @both_kinds
@@ -196,39 +203,47 @@ def test_what_is_lacking_alike_is_none(make):
 def test_a_step_that_is_expected_to_be_far_too_short_is_found_out(make, conserve, periodic):
     """Pressure that is left outside must not pass for what a step does: each product lengthens the next by a tenth."""
     start, short = Start.near(1, periodic, conserve), 1e-5
-    expected = start.descend(start.fields(make), limit=1e-6)
-    found = start.descend(start.fields(make), Stride(short, known=True), limit=1e-6)
-    assert found.steps <= 2 * expected.steps - math.log(short) / math.log(BOUND[1])
-    assert found.lack <= 1e-6
-    assert 0.1 < found.stride.expected < 10
+    expected = start.bound_constrained_cg(start.fields(make), limit=1e-6)
+    found = start.bound_constrained_cg(start.fields(make), StepEstimate(short, known=True), limit=1e-6)
+    assert found.steps <= 2 * expected.steps - math.log(short) / math.log(tuning.ESTIMATE_AT_BOUNDS[1])
+    assert found.residual <= 1e-6
+    assert 0.1 < found.estimate.expected < 10
 
 
 @pytest.mark.parametrize("factor", [-1.0, np.nan])
 def test_products_that_come_to_nothing_count(factor):
     start = Start.near(5, False, False)
 
-    class Wrong(Plane):
+    class Wrong(FullGrid):
         def apply(self, pressure):
             return factor * super().apply(pressure)
 
     driver = Counted(Wrong(start.driver.operator))
-    found = descend(driver, start.fields(), Stride(), conserve=False, own=1.0, limit=1e-3, max_steps=9)
+    found = bound_constrained_cg(
+        driver, start.fields(), StepEstimate(), conserve=False, self_influence=1.0, limit=1e-3, max_steps=9
+    )
     assert 0 < found.steps == driver.count <= 9
 
 
 def test_what_is_expected_of_the_next_step():
     """What was best for the last; where that took cells to their bounds, no more than so much from what was known."""
-    assert Stride().next == CAREFUL
-    assert Stride(2.0, known=True).next == 2 * CAREFUL
+    assert StepEstimate().trial == tuning.TRIAL_STEP
+    assert StepEstimate(2.0, known=True).trial == 2 * tuning.TRIAL_STEP
     for best in (0.01, 0.8, 1.05, 30.0):
-        for stride in (Stride(), Stride(7.0)):
+        for estimate in (StepEstimate(), StepEstimate(7.0)):
             for lifts in (False, True):
-                assert stride.after(best, lifts=lifts) == Stride(best, known=True)
-        known = Stride(2.0, known=True)
-        for lifts, (least, most) in ((True, BOUND), (False, FREE)):
+                assert estimate.after(best, bounds_matter=lifts) == StepEstimate(best, known=True)
+        known = StepEstimate(2.0, known=True)
+        for lifts, (least, most) in ((True, tuning.ESTIMATE_AT_BOUNDS), (False, tuning.ESTIMATE_FREE)):
             clipped = min(max(best, least), most)
-            assert known.after(2 * best, lifts=lifts) == Stride(2 * clipped, known=True)
-    assert FREE[0] < BOUND[0] < 1 < BOUND[1] < FREE[1]
+            assert known.after(2 * best, bounds_matter=lifts) == StepEstimate(2 * clipped, known=True)
+    assert (
+        tuning.ESTIMATE_FREE[0]
+        < tuning.ESTIMATE_AT_BOUNDS[0]
+        < 1
+        < tuning.ESTIMATE_AT_BOUNDS[1]
+        < tuning.ESTIMATE_FREE[1]
+    )
 
 
 @pytest.mark.parametrize("rings", [60, 300])

@@ -7,7 +7,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.solver import plastic as hard
 from roughcontact.solver.control import Depth, Force, Terms
-from roughcontact.solver.nested_iteration import coarse_guess
+from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.state import State
 from roughcontact.solver.status import Status
@@ -162,7 +162,7 @@ def test_nested_grids_are_asked_for_no_more_than_an_elastic_answer_has():
     wavy = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(4))
     body, separation = rc.half_space(grid, MODULUS), wavy.heights.max() - wavy.heights
     depths = separation.mean(), 1.2 * separation.mean()
-    full, deeper = (coarse_guess(body, separation, Depth(depth), rc.ActiveSet()) for depth in depths)
+    full, deeper = (nested_start(body, separation, Depth(depth), rc.ActiveSet()) for depth in depths)
     np.testing.assert_array_equal(full[0], deeper[0])
     assert full[1] == deeper[1]
 

@@ -22,7 +22,7 @@ def rough():
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("load", [{"force": 4e-3}, {"depth": 0.015}], ids=str)
 def test_the_certificate_is_that_of_the_exact_sum(rough, method, solver, load):
-    operator = rc.half_space(rough.grid, 1.0, method)
+    operator = rc.half_space(rough.grid, 1.0, method=method)
     found = rc.press(rough, 1.0, **load, operator=operator, solver=SOLVERS[solver])
     assert oracles.certificate(rough, 1.0, found.pressure, found.depth) < 1.1e-8
     exact = rc.press(rough, 1.0, **load, tolerance=1e-10)
@@ -33,7 +33,7 @@ def test_the_certificate_is_that_of_the_exact_sum(rough, method, solver, load):
 
 def test_a_rough_sum_takes_more_rounds_and_ends_all_the_same(rough):
     """Order 4: wrong by a thousandth, and still certified to 1e-8."""
-    operator = rc.half_space(rough.grid, 1.0, "multilevel")
+    operator = rc.half_space(rough.grid, 1.0, method="multilevel")
     crude = type(operator)(operator.exact, order=4, near=4)
     found = rc.press(rough, 1.0, force=4e-3, operator=crude, solver=rc.ActiveSet(dense_limit=0))
     assert oracles.certificate(rough, 1.0, found.pressure, found.depth) < 1.1e-8

@@ -173,11 +173,11 @@ def test_histograms_are_densities():
         ({"force": 1.0, "depth": 1.0}, "force and depth"),
         ({"force": 1.0, "modulus": 0.0}, "reduced modulus"),
         ({"force": 1.0, "tolerance": 0.0}, "tolerance must lie"),
-        ({"force": [1.0]}, "the force must be one number"),
-        ({"depth": [1.0]}, "the depth must be one number"),
-        ({"pressure": [1.0]}, "the pressure must be one number"),
-        ({"force": 1.0, "tolerance": "1e-8"}, "the tolerance must be one number"),
-        ({"force": 1.0, "hardness": "1GPa"}, "the hardness must be one number"),
+        ({"force": [1.0]}, "force must be one number"),
+        ({"depth": [1.0]}, "depth must be one number"),
+        ({"pressure": [1.0]}, "pressure must be one number"),
+        ({"force": 1.0, "tolerance": "1e-8"}, "tolerance must be one number"),
+        ({"force": 1.0, "hardness": "1GPa"}, "hardness must be one number"),
         ({"force": 1.0, "operator": "fft"}, "an operator is wanted"),
         ({"force": 1.0, "solver": "active set"}, "a solver is wanted"),
         ({"force": 1.0, "solver": rc.PolonskyKeer}, "a solver is wanted"),
@@ -208,7 +208,7 @@ def test_masks_that_make_no_sense():
         (some.tolist(), np.zeros((4, 4)), "not zero"),
     ]:
         with pytest.raises(ValueError, match=message):
-            rc.prescribed_displacement(operator, region, u)
+            rc.prescribed_displacement(region, u, operator=operator)
 
 
 def test_missing_cells_leave_a_periodic_surface_a_way_out():
@@ -309,7 +309,7 @@ def test_two_moduli_are_one_too_many(kind):
         "foundation": lambda: rc.foundation(rows, 2.0),
     }
     method = kind if kind in ("dense", "moving-grid", "multilevel") else "fft"
-    operator = operators.get(kind, lambda: rc.half_space(grid, 2.0, method))()
+    operator = operators.get(kind, lambda: rc.half_space(grid, 2.0, method=method))()
     heights = np.random.default_rng(0).random(operator.grid.shape)
     body = rc.RadialProfile(heights, rings) if kind == "ring" else rc.Surface(heights, operator.grid)
     assert rc.press(body, 2.0, force=0.1, operator=operator).status.converged

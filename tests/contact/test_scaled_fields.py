@@ -10,13 +10,12 @@ from hypothesis import strategies as st
 from regions import close, plane, region
 from roughcontact.kernels import loader
 from roughcontact.kernels.constants import NEVER
-from roughcontact.solver import vectors as fields_module
-from roughcontact.solver.compiled_vectors import CompiledFields
+from roughcontact.solver.compiled_vectors import CompiledVectors
 from roughcontact.solver.control import Depth, Force, Terms
-from roughcontact.solver.inner_operator import Plane, SinglePlane
+from roughcontact.solver.inner_operator import FullGrid, SingleFullGrid
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.trial import Trial
-from roughcontact.solver.vectors import scaled_fields
+from roughcontact.solver.optimality import Iterate
+from roughcontact.solver.vectors import ArrayVectors, scaled_vectors
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -27,7 +26,7 @@ many = settings(max_examples=60, deadline=None, derandomize=True)
 class Asked:
     """What a solve is asked to begin with: a driver, what is asked, who is free, and what there is so far."""
 
-    driver: Plane
+    driver: FullGrid
     terms: Terms
     kept: np.ndarray
     start: np.ndarray
@@ -37,7 +36,7 @@ class Asked:
 
     @property
     def precision(self):
-        return self.driver.narrow(np.empty(0)).dtype
+        return self.driver.scaled(np.empty(0)).dtype
 
     @property
     def depth(self):
@@ -49,16 +48,16 @@ class Asked:
 
     def fields(self):
         measure = Measure(self.driver.weights)
-        trial = Trial(self.start, self.displacement, self.separation)
-        return scaled_fields(self.driver, measure, self.terms, self.kept, trial, otherwise=self.otherwise)
+        trial = Iterate(self.start, self.displacement, self.separation)
+        return scaled_vectors(self.driver, measure, self.terms, self.kept, trial, otherwise=self.otherwise)
 
     def both(self):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(loader, "is_available", lambda: False)
             two = self.fields()
         one = self.fields()
-        assert isinstance(one[0], CompiledFields)
-        assert isinstance(two[0], fields_module._Generic)
+        assert isinstance(one[0], CompiledVectors)
+        assert isinstance(two[0], ArrayVectors)
         return one, two
 
 
@@ -72,7 +71,7 @@ def asked(draw):
     carries = there & (rng.random(shape) < draw(st.sampled_from([0.0, 0.05, 0.7])))
     start = carries * np.abs(rng.standard_normal(shape)) * draw(st.sampled_from([1e-9, 1.0, 1e9]))
     separation = np.where(there, np.abs(rng.standard_normal(shape)), np.inf)
-    driver = draw(st.sampled_from([Plane, SinglePlane]))(plane(shape))
+    driver = draw(st.sampled_from([FullGrid, SingleFullGrid]))(plane(shape))
     terms = Terms(draw(st.sampled_from([Force(1.0), Depth(0.3)])))
     return Asked(driver, terms, kept, start, separation, rng.standard_normal(shape))
 
@@ -92,10 +91,10 @@ def test_scaled_fields(start):
         assert unit == pytest.approx(largest or start.otherwise, rel=0, abs=error)
         if largest < 2 * error:  # nothing but rounding
             continue
-        assert fields.inside.dtype == fields.r.dtype == fields.change.dtype == precision
-        np.testing.assert_array_equal(fields.inside, kept)
-        assert not fields.change.any()
-        assert fields.held is None
+        assert fields.free.dtype == fields.r.dtype == fields.correction.dtype == precision
+        np.testing.assert_array_equal(fields.free, kept)
+        assert not fields.correction.any()
+        assert fields.upper is None
         assert (fields.r[~there] == np.array(NEVER, precision)).all()
         # Each number is rounded in its precision, beside what is off in double precision, in a unit.
         wanted = (start.depth - finite) / unit
@@ -103,8 +102,8 @@ def test_scaled_fields(start):
             np.finfo(precision).eps * np.abs(wanted) + 4 * (error + np.finfo(np.float64).eps * size) / unit
         )
         assert (np.abs(fields.r - wanted)[there] <= bound[there] * (1 + np.abs(wanted[there]))).all()
-        assert fields.size() == pytest.approx(1.0, rel=0, abs=float(2 * np.finfo(precision).eps))
-        fields.change[...] = 0.0
+        assert fields.residual_max() == pytest.approx(1.0, rel=0, abs=float(2 * np.finfo(precision).eps))
+        fields.correction[...] = 0.0
         close(fields.pressure(start.start, unit), start.start * kept, start.start.max(), "float64", 0)
     for one, other in zip(
         given_fields, (kept, start.start, start.separation, start.displacement), strict=True
@@ -112,7 +111,7 @@ def test_scaled_fields(start):
         np.testing.assert_array_equal(one, other)
 
 
-@pytest.mark.parametrize("kind", [Plane, SinglePlane])
+@pytest.mark.parametrize("kind", [FullGrid, SingleFullGrid])
 @pytest.mark.parametrize(("otherwise", "wanted"), [(0.0, 1.0), (1e-3, 1e-3)])
 @pytest.mark.parametrize("terms", [Terms(Force(1.0)), Terms(Depth(0.25))])
 def test_the_unit_where_nothing_is_lacking(kind, otherwise, wanted, terms):
@@ -122,14 +121,14 @@ def test_the_unit_where_nothing_is_lacking(kind, otherwise, wanted, terms):
     given = kind(plane((5, 9))), terms, kept, start, level, np.zeros((5, 9)), otherwise
     for fields, unit in Asked(*given).both():
         assert unit == wanted
-        assert fields.size() == 0.0
+        assert fields.residual_max() == 0.0
         close(fields.r, np.where(kept, 0.0, -2.75 / wanted), 3 / wanted, fields.r.dtype, 2)
-        assert fields.excess() == pytest.approx(0.75 / wanted)
-        whole = fields.begin()
+        assert fields.bound_violation() == pytest.approx(0.75 / wanted)
+        whole = fields.restart()
         fields.precondition()
-        lifted, area, force = fields.bound(0.0, 0.0, 1.0)
-        assert fields.t[~kept] == pytest.approx(-0.75 / wanted)
-        assert not fields.t[kept].any()
+        lifted, area, force = fields.project(0.0, 0.0, 1.0)
+        assert fields.s[~kept] == pytest.approx(-0.75 / wanted)
+        assert not fields.s[kept].any()
         assert lifted == pytest.approx(0.75 / wanted * (~kept).sum())
         assert force == pytest.approx(-lifted * given[0].weights)
         assert area == whole == pytest.approx(kept.sum() * given[0].weights)
@@ -137,11 +136,11 @@ def test_the_unit_where_nothing_is_lacking(kind, otherwise, wanted, terms):
 
 def lifted_alone(fields, conserve):
     """Return a step that only takes pressures to their bounds; those inside share what that takes of the force."""
-    fields.begin()
-    found = fields.bound(0.0, 0.0, 0.0)
+    fields.restart()
+    found = fields.project(0.0, 0.0, 0.0)
     if conserve and found.lifted:
-        fields.share_out(found.force)
-    return fields.t
+        fields.redistribute(found.force)
+    return fields.s
 
 
 @many
@@ -155,11 +154,11 @@ def test_the_same_pressure_is_left(start, conserve):
     leaves = ~kept & (start.start > 0)
     for fields, by in ((one, unit), (two, other)):
         base = (start.start / by).astype(precision).astype(np.float64)
-        assert fields.excess() == pytest.approx(
+        assert fields.bound_violation() == pytest.approx(
             base[~kept].max(initial=0.0), rel=float(2 * np.finfo(precision).eps)
         )
         moved = lifted_alone(fields, conserve)
-        np.testing.assert_array_equal(fields.inside, kept)
+        np.testing.assert_array_equal(fields.free, kept)
         assert moved.dtype == precision
         lost, carried = base[leaves].sum(), base[kept].sum()
         shares = kept * (base / carried if carried > 0 else 1 / kept.sum())
@@ -168,12 +167,12 @@ def test_the_same_pressure_is_left(start, conserve):
         size = base + shares * lost
         assert (np.abs(moved - wanted) <= (20 + base.size / 8) * np.finfo(precision).eps * size).all()
         assert (moved[~kept & ~leaves] == 0).all()
-        assert not fields.change.any()
+        assert not fields.correction.any()
         lacking = fields.r.copy()
-        fields.measure(np.zeros_like(lacking))
+        fields.inner_products(np.zeros_like(lacking))
         fields.advance(1.0, 0.0)
         np.testing.assert_array_equal(fields.r, lacking)
-        assert fields.excess() == 0
+        assert fields.bound_violation() == 0
         is_left = fields.pressure(start.start, by)
         assert (is_left[~kept] == 0).all()
         if not conserve:
@@ -188,18 +187,18 @@ def test_the_same_pressure_comes_out(start):
     change = np.random.default_rng(kept.size).standard_normal(kept.shape).astype(start.precision)
     wanted = np.where(kept, np.maximum(start.start + unit * change.astype(np.float64), 0.0), 0.0)
     for fields, _ in start.both():
-        fields.change[...] = change
+        fields.correction[...] = change
         found = fields.pressure(start.start, unit)
         assert found.dtype == np.float64
         size = start.start + unit * np.abs(change)
         assert (np.abs(found - wanted) <= 2 * np.finfo(np.float64).eps * size).all()
         assert (found >= 0).all()
         assert (found[~kept] == 0).all()
-        np.testing.assert_array_equal(fields.change, change)
+        np.testing.assert_array_equal(fields.correction, change)
 
 
 @pytest.mark.parametrize("order", ["C", "F"])
-@pytest.mark.parametrize("kind", [Plane, SinglePlane])
+@pytest.mark.parametrize("kind", [FullGrid, SingleFullGrid])
 def test_what_scaled_fields_are_made_of_may_lie_otherwise(order, kind):
     rng = np.random.default_rng(8)
     kept, (start, separation, displacement) = rng.random((9, 14)) < 0.5, rng.random((3, 9, 14))

@@ -33,7 +33,7 @@ def test_a_1_3_step_of_conjugate_gradients():
     np.testing.assert_allclose(wrong, start + right)  # whatever the matrix is, and in units of a length
     assert np.abs(matrix @ wrong - right).max() > 1
     found = rc.prescribed_displacement(
-        rc.half_space(rc.Grid((5, 5), 1.0), 1.0), np.ones((5, 5), bool), 1.0, tolerance=1e-12
+        np.ones((5, 5), bool), 1.0, operator=rc.half_space(rc.Grid((5, 5), 1.0), 1.0), tolerance=1e-12
     )
     assert np.abs(matrix @ found.pressure.ravel() - right).max() < 1e-11
 
@@ -147,7 +147,7 @@ def test_a_59_needs_the_cell_and_the_padding():
     rng = np.random.default_rng(0)
     grid = rc.Grid((24, 30), 0.5)
     p = rng.random(grid.shape)
-    exact = (rc.half_space(grid, 1.0, "dense").as_matrix() @ p.ravel()).reshape(grid.shape)
+    exact = (rc.half_space(grid, 1.0, method="dense").as_matrix() @ p.ravel()).reshape(grid.shape)
     np.testing.assert_allclose(rc.half_space(grid, 1.0).apply(p), exact, rtol=1e-12)
     np.testing.assert_allclose(oracles.displacement(grid, 1.0, p), exact, rtol=1e-12)
 

@@ -37,10 +37,10 @@ def test_4_7_and_4_14_a_square_is_stiffer_than_printed():
     # The limit: errors 1/n and 1/n^1.593 (corners) taken out, the next ones 1/n^2 of 64.
     n = np.array([16.0, 32.0, 64.0])
     limit = np.linalg.solve(np.stack([np.ones(3), 1 / n, n**-1.593], axis=1), k)[0]
-    assert bounds.saturation(1.0, 1.0) == pytest.approx(limit, rel=1e-5)
+    assert bounds.full_contact_stiffness(1.0, 1.0) == pytest.approx(limit, rel=1e-5)
     # Even 64 x 64 cells, still 0.5 % short, lie above what is printed as the upper bound.
     assert k[-1] > printed_4_14(1.0, 1.0) * 1.003
-    assert bounds.king_saturation(1.0, 1.0) == pytest.approx(printed_4_14(1.0, 1.0), rel=1e-15)
+    assert bounds.king_full_contact_stiffness(1.0, 1.0) == pytest.approx(printed_4_14(1.0, 1.0), rel=1e-15)
 
 
 def uniform_triangles(n):

@@ -119,7 +119,7 @@ def test_remarks_give_units_scales_and_provenance(curve, tmp_path, source):
     assert lines[0].startswith("force,")
     assert "stiffness [N m-1]" in remarks[0]
     assert f"# modulus = {MODULUS!r} Pa" in remarks
-    assert f"# saturation = {float(curve.saturation)!r} N m-1" in remarks
+    assert f"# full_contact_stiffness = {float(curve.full_contact_stiffness)!r} N m-1" in remarks
     assert "# input_surface = made, for a test | levelled" in remarks
     assert len(lines) == 1 + len(remarks) + curve.sizes["load"]
 

@@ -113,7 +113,7 @@ def test_the_certificate_holds_on_the_host(library, pressed):
     assert back.on_host() is back
     assert isinstance(back.traction, np.ndarray)
     assert isinstance(back.problem.pressed.pressure, np.ndarray)
-    u = rc.shear_half_space(pressed.problem.grid, *BODIES).apply(back.traction)
+    u = rc.shear_half_space(pressed.problem.grid, BODIES).apply(back.traction)
     slip = np.hypot(*(u - back.displacement[:, None, None]))
     size, limit = np.hypot(*back.traction), MU * pressed.pressure
     assert (size <= limit * (1 + 1e-12)).all()
@@ -149,6 +149,6 @@ def test_forces_within_limits(library, k):
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])
 def test_sums_that_know_numpy_alone_say_so(library, pressed, method):
     grid = replace(pressed.problem.grid, periodic=(False, False))
-    operator = rc.shear_half_space(grid, *BODIES, method=method)
+    operator = rc.shear_half_space(grid, BODIES, method=method)
     with pytest.raises(TypeError, match="NumPy's arrays; 'fft'"):
         operator.apply(library.put(np.ones((2, *grid.shape))))

@@ -5,12 +5,11 @@ import pytest
 
 import roughcontact as rc
 import roughcontact.friction.slide as front
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
-from roughcontact.friction.slide import slide
-from roughcontact.friction.slide_path import slide_path
-from roughcontact.friction.slip_step import Step
+from roughcontact.friction.slide import slide, slide_path
+from roughcontact.friction.slip_step import SlipStep
 from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
 from roughcontact.halfspace.shear.shear_operator import shear_half_space
 from roughcontact.solver.status import Status
@@ -22,7 +21,7 @@ def certificate(answer, before, method="dense"):
     """Return the largest violation over the largest displacement, by loops over the cells in contact."""
     problem = answer.problem
     bodies = problem.bodies if isinstance(problem.bodies, tuple) else (problem.bodies,)
-    dense = shear_half_space(problem.pressed.problem.grid, *bodies, method=method)
+    dense = shear_half_space(problem.pressed.problem.grid, bodies, method=method)
     now = dense.apply(answer.traction) - answer.displacement[:, None, None]
     then = np.zeros_like(now) if before is None else before.slip
     largest = 0.0
@@ -76,16 +75,16 @@ def wide():
     grid = rc.Grid((40, 48), (1.2e-6, 1e-6))
     surface = rc.self_affine(grid, hurst=0.7, rms=1e-7, rng=np.random.default_rng(5))
     solution = rc.press(surface, bodies, pressure=0.006 * rc.reduced_modulus(*bodies))
-    operator = Interface.of(SUMS["multilevel"](grid, bodies), solution.contact).operator
+    operator = ContactCells.of(SUMS["multilevel"](grid, bodies), solution.contact).operator
     assert all(hierarchy.levels for hierarchy in operator._hierarchies)
     return solution, bodies
 
 
 SUMS = {
-    "moving-grid": lambda grid, bodies: shear_half_space(grid, *bodies, method="moving-grid"),
-    "multilevel": lambda grid, bodies: shear_half_space(grid, *bodies, method="multilevel"),
+    "moving-grid": lambda grid, bodies: shear_half_space(grid, bodies, method="moving-grid"),
+    "multilevel": lambda grid, bodies: shear_half_space(grid, bodies, method="multilevel"),
     "a rough sum, wrong by a thousandth": lambda grid, bodies: MultilevelShear(
-        shear_half_space(grid, *bodies), order=4, near=4
+        shear_half_space(grid, bodies), order=4, near=4
     ),
 }
 
@@ -136,7 +135,7 @@ def test_any_limits_any_loads(seed, k):
     grid = rc.Grid((14, 14), (1.0, rng.choice([1.0, 3.0])), bool(rng.random() < 0.3))
     contact = rng.random(grid.shape) < rng.choice([0.05, 0.5, 1.0])
     contact[3, 4] = True
-    interface = Interface.of(shear_half_space(grid, body), contact, None if k == 2 else (0.6, 0.8))
+    interface = ContactCells.of(shear_half_space(grid, body), contact, None if k == 2 else (0.6, 0.8))
     n = int(contact.sum())
     limit = 10 ** rng.normal(0, rng.choice([0.1, 1, 2]), n)
     traction, slip, scale = np.zeros((k, n)), np.zeros((k, n)), 0.0
@@ -149,7 +148,7 @@ def test_any_limits_any_loads(seed, k):
             force = part * direction * limit.sum() * interface.area
         else:
             shift = direction * 10 ** rng.uniform(-2, 2) * limit.max() * interface.self_influence
-        found = SlipNewton().run(Step(interface, limit, traction, slip, force, shift, scale, 1e-8))
+        found = SlipNewton().run(SlipStep(interface, limit, traction, slip, force, shift, scale, 1e-8))
         assert found.status is Status.CONVERGED
         assert found.steps < 200
         if force is not None:
@@ -178,9 +177,9 @@ def test_a_missed_tolerance_is_said(monkeypatch):
 
 def test_too_few_steps_are_said():
     body = rc.Solid(1.0, 0.3)
-    interface = Interface.of(shear_half_space(rc.Grid((12, 12), 1.0), body), np.ones((12, 12), bool))
+    interface = ContactCells.of(shear_half_space(rc.Grid((12, 12), 1.0), body), np.ones((12, 12), bool))
     limit = np.linspace(1, 2, 144)
-    step = Step(
+    step = SlipStep(
         interface, limit, np.zeros((2, 144)), np.zeros((2, 144)), np.array([0.0, 120.0]), None, 0.0, 1e-8
     )
     assert SlipNewton(max_steps=3).run(step).status is Status.MAX_STEPS

@@ -7,8 +7,7 @@ import oracles
 import pytest
 
 import roughcontact as rc
-from roughcontact.friction.slide import slide
-from roughcontact.friction.slide_path import load_cycle, slide_path
+from roughcontact.friction.slide import load_cycle, slide, slide_path
 from roughcontact.friction.slip_curve import slide_curve
 
 MU = 0.3

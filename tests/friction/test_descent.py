@@ -8,11 +8,11 @@ import pytest
 import roughcontact as rc
 import roughcontact.friction.descent as descent
 from libraries import LIBRARIES
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.descent import descended
 from roughcontact.friction.newton import SlipNewton
-from roughcontact.friction.slip_step import Step
+from roughcontact.friction.slip_step import SlipStep
 from roughcontact.solver.status import Status
 
 BODY = rc.Solid(1.0, 0.4)
@@ -24,7 +24,7 @@ def draw(seed, put=np.asarray):
     grid = rc.Grid((14, 16), (1.0, 1.5), periodic=bool(rng.random() < 0.5))
     k, contact = rng.integers(1, 3), rng.random(grid.shape) < 0.5
     n = int(contact.sum())
-    interface = Interface.of(
+    interface = ContactCells.of(
         rc.shear_half_space(grid, BODY), put(contact, "bool"), None if k == 2 else (0.6, 0.8)
     )
     limit = 10 ** rng.normal(0, 0.5, n)
@@ -32,7 +32,7 @@ def draw(seed, put=np.asarray):
     start, load = np.zeros((k, n)), rng.standard_normal(k)
     force = 0.8 * load / np.linalg.norm(load) * limit.sum() * interface.area if rng.random() < 0.5 else None
     shift = None if force is not None else load * limit.max() * interface.self_influence
-    step = Step(interface, put(limit), put(start), put(slip), force, shift, 0.0, 1e-8)
+    step = SlipStep(interface, put(limit), put(start), put(slip), force, shift, 0.0, 1e-8)
     return step, put(rng.standard_normal((k, n)) * limit)
 
 
@@ -68,9 +68,9 @@ def test_then_down_its_slope(k, monkeypatch):
     """All are to move alike, and the trial was a short wave, by whose small curvature a gradient step goes too far."""
     monkeypatch.setattr(descent, "GRADIENT_STEPS", 1)
     operator = rc.shear_half_space(rc.Grid((20, 20), 1.0), BODY)
-    interface = Interface.of(operator, np.ones((20, 20), bool), None if k == 2 else (1, 0))
+    interface = ContactCells.of(operator, np.ones((20, 20), bool), None if k == 2 else (1, 0))
     nothing, short = interface.zeros(), np.tile((-1.0) ** np.add.outer(range(20), range(20)).ravel(), (k, 1))
-    step = Step(interface, np.full(400, 30.0), nothing, nothing, None, np.ones(k), 0.0, 1e-8)
+    step = SlipStep(interface, np.full(400, 30.0), nothing, nothing, None, np.ones(k), 0.0, 1e-8)
     state, trial = step.state(nothing), step.state(1e-3 * short)
     lower, products = descended(step, state, trial)
     assert step.energy(lower) < min(step.energy(state), step.energy(trial))

@@ -98,7 +98,7 @@ def test_room_around_the_contact_makes_no_difference(answer):
 @pytest.mark.parametrize("periodic", [False, True])
 def test_the_sum_makes_no_difference(periodic):
     solution = pressed(surface(periodic=periodic))
-    dense = shear_half_space(solution.problem.grid, *BODIES, method="dense")
+    dense = shear_half_space(solution.problem.grid, BODIES, method="dense")
     load = {
         "friction": MU,
         "force": (0.3 * MU * solution.force, 0.4 * MU * solution.force),

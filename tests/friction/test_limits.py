@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.friction.slide import slide
-from roughcontact.friction.slide_path import slide_path
+from roughcontact.friction.slide import slide, slide_path
 from roughcontact.halfspace.shear.shear_operator import shear_half_space
 
 BODY = rc.Solid(1.0, 0.3)

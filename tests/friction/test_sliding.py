@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 
 MU = 0.3
 E = np.array([0.8, 0.6])
@@ -136,6 +136,6 @@ def test_the_slide_is_the_limit_of_partial_slip(case, slid):
 
 def test_a_slide_is_certified_by_its_product(monkeypatch):
     solution, body = pressed(0.3)
-    monkeypatch.setattr(Interface, "apply", lambda self, traction: np.nan * traction)
+    monkeypatch.setattr(ContactCells, "apply", lambda self, traction: np.nan * traction)
     with pytest.raises(rc.ConvergenceError):
         rc.slide(solution, body, friction=MU, force=MU * solution.force)

@@ -12,15 +12,14 @@ TINY = '''
 """Adds a number to some."""
 
 from roughcontact.kernels.code import Code
+from roughcontact.kernels.signature import Scalar, Vector, kernel
+from roughcontact.kernels.values import Index
 
-KINDS = {"add": "index reals real"}
 
-
-def write(module, precision):
-    with Code(module, "add", precision, KINDS["add"]) as code:
-        n, x, by = code.arguments
-        for at in code.range(0, n):
-            x.put(at, x.take_one(at) + by)
+@kernel
+def add(code: Code, n: Index, x: Vector, by: Scalar) -> None:
+    for i in code.range(0, n):
+        x[i] = x[i] + by
 '''
 
 
@@ -52,9 +51,9 @@ def translated(monkeypatch):
     """Return a list that grows with each translation."""
     done, translate = [], loader._translated
 
-    def counted(writer, precision):
-        done.append((writer.__name__, precision))
-        return translate(writer, precision)
+    def counted(kernels, precision):
+        done.append((next(iter(kernels.values())).body.__module__, precision))
+        return translate(kernels, precision)
 
     monkeypatch.setattr(loader, "_translated", counted)
     return done
@@ -67,7 +66,7 @@ def works():
     def found(precision="float64"):
         loader.functions.cache_clear()
         numbers = np.arange(5, dtype=precision)
-        loader.functions("tiny", precision)["add"](5, loader.address(numbers), 0.5)
+        loader.functions("tiny", precision)["add"](5, numbers, 0.5)
         return numbers.tolist() == [0.5, 1.5, 2.5, 3.5, 4.5]
 
     return found

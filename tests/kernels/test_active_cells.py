@@ -11,12 +11,12 @@ from regions import PRECISIONS, eighths
 from roughcontact.kernels import active_cells as region
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import (
-    Region,
+    ActiveCells,
     add_blocks,
-    lower,
-    near,
+    mask_above,
+    subtract_shifted,
     sum_blocks,
-    take_in,
+    sum_stencil,
     with_margins,
 )
 from roughcontact.kernels.constants import REACH, ROUNDINGS, WIDTH
@@ -112,13 +112,13 @@ def same(found, wanted, inside, size, rounding=2):
 
 @many
 @given(regions())
-def test_weigh(given_region):
+def test_correct_and_dot(given_region):
     inside, rng = given_region
     z, error, v, constant = fields(rng, inside, 4)
     taken = error * constant * inside.dtype.type(ALPHA)
     wanted, size = (z - taken) * inside, np.abs(z) + np.abs(taken)
     hidden(inside, z, error, v, constant)
-    sums = Region(inside).run("weigh", 4, z, inside, error, v, constant, ALPHA)
+    sums = ActiveCells(inside).run("correct_and_dot", 4, z, inside, error, v, constant, ALPHA)
     same(z, wanted, inside, size)
     there = inside > 0
     z, error, v, constant = (f[there].astype(np.float64) for f in (z, error, v, constant))
@@ -128,38 +128,38 @@ def test_weigh(given_region):
 
 @many
 @given(regions())
-def test_turn(given_region):
+def test_xpay(given_region):
     inside, rng = given_region
     t, z = fields(rng, inside, 2)
     wanted, size = t.astype(np.float64) * BETA + z, np.abs(t) + np.abs(z)
     hidden(inside, t, z)
-    assert Region(inside).run("turn", 0, t, z, BETA) == []
+    assert ActiveCells(inside).run("xpay", 0, t, z, BETA) == []
     same(t, wanted, inside, size)
 
 
 @many
 @given(regions())
-def test_measure(given_region):
+def test_dot_products(given_region):
     """A direction may have something outside: of its products that counts, of its sum it does not."""
     inside, rng = given_region
     t, v, r = fields(rng, inside, 3)
     a, b, c = (f.astype(np.float64) * reached(inside) for f in (t, v, r))
     terms = [a * b, inside * b, c * a, inside * c * a, inside * a, inside * c]
     hidden(inside, t, v, r)
-    sums = Region(inside).run("measure", 6, t, v, inside, r)
+    sums = ActiveCells(inside).run("dot_products", 6, t, v, inside, r)
     for found, one in zip(sums, terms, strict=True):
         close(found, one.sum(), one, inside.dtype)
 
 
 @many
 @given(regions())
-def test_advance(given_region):
+def test_axpy_and_max(given_region):
     inside, rng = given_region
     change, r, error, t = fields(rng, inside, 4)
     wanted = change + t.astype(np.float64) * ALPHA
     size, lack, before = np.abs(change) + np.abs(t), r * inside, r.copy()
     hidden(inside, change, r, error, t)
-    largest = Region(inside).run("advance", 1, change, r, error, t, inside, ALPHA, largest=True)[0]
+    largest = ActiveCells(inside).run("axpy_and_max", 1, change, r, error, t, inside, ALPHA, largest=True)[0]
     same(change, wanted, inside, size)
     same(error, lack, inside, 0)
     assert largest == np.abs(lack).max()
@@ -172,11 +172,11 @@ def test_what_carries_something_is_listed(given_region, carrying):
     """As whatever is inside; where others are listed with them, they can be forgotten."""
     inside, rng = given_region
     base, change = carrying(rng, inside)
-    t, cells = np.full_like(inside, 7.0), Region(inside, (base, change))
-    cells.run("turn", 0, t, np.ones_like(t), 0.0)
+    t, cells = np.full_like(inside, 7.0), ActiveCells(inside, (base, change))
+    cells.run("xpay", 0, t, np.ones_like(t), 0.0)
     there = reached(inside, base, change)
     np.testing.assert_array_equal(t, np.where(there, 1.0, 7.0))
-    assert cells.run("forget", 0, t, inside) == []
+    assert cells.run("multiply", 0, t, inside) == []
     np.testing.assert_array_equal(t, np.where(there, inside, 7.0))
 
 
@@ -190,22 +190,22 @@ def test_what_is_left_of_a_pressure_may_be_rounding(precision, cells, units, sta
     base = np.full(cells, start, precision)
     change, zeros, t = units * unit - base, np.zeros_like(base), np.ones_like(base)
     left = 0.0 if abs(units) <= ROUNDINGS else units * unit
-    others = Region(zeros, (base, change))
-    assert others.run("excess", 1, base, change, zeros, largest=True) == [abs(left)]
-    sums = others.run("bound", 4, base, change, zeros.copy(), t, zeros, zeros, 0.0, 0.0, 1.0)
+    others = ActiveCells(zeros, (base, change))
+    assert others.run("max_violation", 1, base, change, zeros, largest=True) == [abs(left)]
+    sums = others.run("project_step", 4, base, change, zeros.copy(), t, zeros, zeros, 0.0, 0.0, 1.0)
     assert sums == [0, cells * abs(left), cells * -left, 0]
     # Lanes of which nothing is left are not listed; a single cell always is.
     np.testing.assert_array_equal(t, 1.0 if cells > 1 and not left else -left)
     inside = np.ones_like(base)
     pulling = -64 * unit * inside
-    sums = Region(inside).run("bound", 4, base, change, inside, t, pulling, zeros, 0.0, 0.0, 1.0)
+    sums = ActiveCells(inside).run("project_step", 4, base, change, inside, t, pulling, zeros, 0.0, 0.0, 1.0)
     assert sums == [cells, cells * abs(left), cells * (64 * unit - left), 0]
     np.testing.assert_array_equal(t, -left)
 
 
 @many
 @given(regions(), pressures)
-def test_bound(given_region, carrying):
+def test_project_step(given_region, carrying):
     """Of eighths, so that nothing is rounded: all is as it should be, or not."""
     inside, rng = given_region
     was, (base, change) = inside > 0, carrying(rng, inside)
@@ -215,11 +215,11 @@ def test_bound(given_region, carrying):
     stays = was & (p + step >= 0)
     lifted = np.where(stays, 0.0, -p)
     wanted, gone = np.where(stays, step, lifted), was & ~stays
-    cells = Region(inside, (base, change))
+    cells = ActiveCells(inside, (base, change))
     for field in (t, z, uniform, base, change):
         field[~there] = np.nan
     given_base, given_change = base.copy(), change.copy()
-    sums = cells.run("bound", 4, base, change, inside, t, z, uniform, BETA, SHIFT, ALPHA)
+    sums = cells.run("project_step", 4, base, change, inside, t, z, uniform, BETA, SHIFT, ALPHA)
     np.testing.assert_array_equal(inside, stays)
     np.testing.assert_array_equal(t[there], wanted[there])
     assert np.isnan(t[~there]).all()
@@ -230,12 +230,12 @@ def test_bound(given_region, carrying):
 
 @many
 @given(regions())
-def test_share_out(given_region):
+def test_subtract_affine(given_region):
     inside, rng = given_region
     base, change, t = (eighths(rng, inside.shape, inside.dtype) for _ in range(3))
     wanted = t - inside * ((base + change + t) * 0.375 + 0.75)
     hidden(inside, base, change, t)
-    assert Region(inside).run("share_out", 0, base, change, inside, t, 0.375, 0.75) == []
+    assert ActiveCells(inside).run("subtract_affine", 0, base, change, inside, t, 0.375, 0.75) == []
     same(t, wanted, inside, 0)
 
 
@@ -246,24 +246,24 @@ def test_what_all_cells_carry_and_how_far_that_is_out_of_bounds(given_region, ca
     inside, rng = given_region
     base, change = carrying(rng, inside)
     lacking = (rng.integers(-40, 40, inside.shape) / 8).astype(inside.dtype)
-    p, there, cells = base + change, reached(inside, base, change), Region(inside, (base, change))
+    p, there, cells = base + change, reached(inside, base, change), ActiveCells(inside, (base, change))
     out = np.where(inside > 0, np.maximum(-p, 0.0), np.abs(p)).max()
     lack = (lacking * inside).sum(dtype=np.float64)
     for field in (base, change, lacking):
         field[~there] = np.nan
-    assert cells.run("excess", 1, base, change, inside, largest=True) == [out]
+    assert cells.run("max_violation", 1, base, change, inside, largest=True) == [out]
     wanted = [p.sum(dtype=np.float64), inside.sum(dtype=np.float64), lack]
-    assert cells.run("carried", 3, base, change, inside, lacking) == wanted
+    assert cells.run("masked_sums", 3, base, change, inside, lacking) == wanted
 
 
 @many
 @given(regions(), st.sampled_from([0.0, 0.5, 10.0]))
-def test_take_in(given_region, least):
+def test_mask_above(given_region, least):
     inside, rng = given_region
     lacking = fields(rng, inside, 1)[0]
     kept = inside > 0
     added = ~kept & (lacking > least)
-    worst = take_in(inside, lacking, least)
+    worst = mask_above(inside, lacking, least)
     np.testing.assert_array_equal(inside, kept | added)
     assert worst == (lacking[added].max() if added.any() else 0.0)
 
@@ -272,20 +272,20 @@ def test_what_is_never_touched_is_not_taken_in():
     inside = np.zeros((3, 7), np.float32)
     inside[0] = 1.0
     lacking = np.full((3, 7), -1e30, np.float32)
-    assert take_in(inside, lacking, 0.0) == 0.0
+    assert mask_above(inside, lacking, 0.0) == 0.0
     lacking[1, 5] = lacking[0, 0] = 2.0
-    assert take_in(inside, np.asfortranarray(lacking), 0.0) == 2.0
+    assert mask_above(inside, np.asfortranarray(lacking), 0.0) == 2.0
     assert inside.sum() == 8
     assert inside[1, 5] == 1
 
 
 @many
 @given(regions())
-def test_lower(given_region):
+def test_subtract_shifted(given_region):
     inside, rng = given_region
     r, v = fields(rng, inside, 2)
     wanted = r - (v.astype(np.float64) - BETA) * ALPHA
-    lower(r, v, ALPHA, BETA)
+    subtract_shifted(r, v, ALPHA, BETA)
     bound = 3 * np.finfo(r.dtype).eps * (np.abs(wanted) + np.abs(v) + 1)
     assert (np.abs(r - wanted) <= bound).all()
 
@@ -309,12 +309,12 @@ def test_margins_are_zero(given_region, precision):
 
 @many
 @given(regions())
-def test_near(given_region):
+def test_sum_stencil(given_region):
     """A sum over cells near each in one long row, in which each row follows the one before."""
     inside, rng = given_region
     field = with_margins(fields(rng, inside, 1)[0])
     weights = rng.standard_normal((REACH + 1, REACH + 1)).astype(inside.dtype)
-    found = near(Region(inside), field, weights)
+    found = sum_stencil(ActiveCells(inside), field, weights)
     nx, far = field.shape[1], REACH * (field.shape[1] + 1)
     row = np.pad(field.ravel().astype(np.float64), far)
     wanted, size = np.zeros(field.size), np.zeros(field.size)
@@ -344,7 +344,7 @@ def test_blocks(few, given_region, side, fits):
     shown = field.copy()
     if by_groups:
         hidden(inside, shown)
-    cells, (ny, nx) = Region(inside), field.shape
+    cells, (ny, nx) = ActiveCells(inside), field.shape
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(region, "FEW", few)
         sums = sum_blocks(cells, shown, side)
@@ -371,19 +371,19 @@ def test_sums_do_not_hang_on_the_number_of_threads(precision):
     z, error, v, r = fields(rng, inside, 4)
     answers = []
     for count in (1, 2, 3):
-        cells, t, change, wrong, rest = Region(inside), z.copy(), v.copy(), np.zeros_like(z), r.copy()
-        kept, pressed = inside.copy(), Region(inside, (z, v))
+        cells, t, change, wrong, rest = ActiveCells(inside), z.copy(), v.copy(), np.zeros_like(z), r.copy()
+        kept, pressed = inside.copy(), ActiveCells(inside, (z, v))
         with limit_threads(count):
             many_sums = [
-                pressed.run("bound", 4, z, v, kept, rest, error, r, BETA, SHIFT, ALPHA),
-                pressed.run("carried", 3, z, v, kept, rest),
-                pressed.run("excess", 1, z, v, kept, largest=True),
+                pressed.run("project_step", 4, z, v, kept, rest, error, r, BETA, SHIFT, ALPHA),
+                pressed.run("masked_sums", 3, z, v, kept, rest),
+                pressed.run("max_violation", 1, z, v, kept, largest=True),
             ]
-            pressed.run("share_out", 0, z, v, kept, rest, ALPHA, BETA)
-            one = cells.run("weigh", 4, t, inside, error, v, r, ALPHA)
-            two = cells.run("measure", 6, t, v, inside, error)
-            lower(rest, v, ALPHA, BETA)
-            largest = cells.run("advance", 1, change, rest, wrong, t, inside, ALPHA, largest=True)
+            pressed.run("subtract_affine", 0, z, v, kept, rest, ALPHA, BETA)
+            one = cells.run("correct_and_dot", 4, t, inside, error, v, r, ALPHA)
+            two = cells.run("dot_products", 6, t, v, inside, error)
+            subtract_shifted(rest, v, ALPHA, BETA)
+            largest = cells.run("axpy_and_max", 1, change, rest, wrong, t, inside, ALPHA, largest=True)
         answers.append([*many_sums, kept, one, two, largest, t, change, rest, wrong])
     for other in answers[1:]:
         for a, b in zip(answers[0], other, strict=True):
@@ -395,6 +395,6 @@ def test_sums_of_single_precision_are_those_of_double(precision):
     """A million tenths: single precision would lose some percent of them one by one."""
     inside = np.ones((1000, 1000), precision)
     tenth = np.full_like(inside, 0.1)
-    sums = Region(inside).run("measure", 6, tenth, inside, inside, inside)
+    sums = ActiveCells(inside).run("dot_products", 6, tenth, inside, inside, inside)
     assert sums[4] == pytest.approx(1e6 * float(tenth[0, 0]), rel=1e-10)
     assert sums[1] == 1e6

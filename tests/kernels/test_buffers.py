@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from roughcontact.kernels import buffers as room
-from roughcontact.kernels import loader
 from roughcontact.kernels.buffers import LARGE, LINE, MOST, SMALL, aligned, empty, zeros
+from roughcontact.kernels.calls import address
 
 COUNT = SMALL // 4  # numbers of which some memory is kept
 
@@ -20,7 +20,7 @@ def nothing_kept(monkeypatch):
 
 
 def where(array):
-    return loader.address(array)
+    return address(array)
 
 
 def kept():

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from roughcontact.kernels import buffers as room
 from roughcontact.kernels import loader
-from roughcontact.kernels.compiled_convolution import LARGE, Convolution, _transform, fits
+from roughcontact.kernels.compiled_convolution import LARGE, CompiledConvolution, _plan, fits
 from roughcontact.kernels.constants import HALF
 from roughcontact.threads import limit_threads
 
@@ -89,7 +89,7 @@ def large(shape, lengths, precision, seed=0):
     y, x = (np.arange(n // 2 + 1) for n in lengths)
     ripple = np.random.default_rng(seed).uniform(0.5, 1.5, (len(y), len(x)))
     multiplier = ripple / (1 + np.hypot(y[:, None], x))
-    return Convolution.of(multiplier, shape, lengths, precision), multiplier
+    return CompiledConvolution.of(multiplier, shape, lengths, precision), multiplier
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)
@@ -99,7 +99,7 @@ def test_the_same_as_the_sum_written_out(size, precision, seed):
     assert fits(lengths)
     whole, multiplier = kernel(lengths, seed)
     field = noise(shape, precision, seed + 1)
-    found = Convolution.of(multiplier, shape, lengths, precision).apply(field)
+    found = CompiledConvolution.of(multiplier, shape, lengths, precision).apply(field)
     assert found.shape == shape
     assert found.dtype == precision
     wanted = written_out(field.astype(np.float64), whole)
@@ -115,7 +115,7 @@ def test_each_length_along_rows_and_along_columns(length, precision):
         for shape, lengths in (((cells, 5), (length, 10)), ((5, cells), (10, length))):
             whole, multiplier = kernel(lengths)
             field = noise(shape, precision)
-            found = Convolution.of(multiplier, shape, lengths, precision).apply(field)
+            found = CompiledConvolution.of(multiplier, shape, lengths, precision).apply(field)
             wanted = written_out(field.astype(np.float64), whole)
             np.testing.assert_allclose(found, wanted, rtol=0, atol=rounding(field, multiplier, lengths))
 
@@ -146,7 +146,7 @@ def test_large_planes(shape, lengths, precision):
 def test_linear_and_symmetric(size, seed):
     shape, lengths = size
     multiplier = kernel(lengths, seed)[1]
-    convolution = Convolution.of(multiplier, shape, lengths, "float64")
+    convolution = CompiledConvolution.of(multiplier, shape, lengths, "float64")
     p, q = (noise(shape, "float64", seed + k) for k in (1, 2))
     close = 10 * rounding(np.abs(p) + np.abs(q), multiplier, lengths)
     both = convolution.apply(2 * p - 3 * q)
@@ -166,7 +166,7 @@ def test_nothing_comes_round_where_there_is_room(precision):
     for corner in ((0, 0), (0, -1), (-1, 0), (-1, -1)):
         field = np.zeros(shape, precision)
         field[corner] = 1.0
-        found = Convolution.of(multiplier, shape, lengths, precision).apply(field)
+        found = CompiledConvolution.of(multiplier, shape, lengths, precision).apply(field)
         atol = rounding(field, multiplier, lengths)
         square = found[::-1] if corner[0] else found
         square = square[:, ::-1] if corner[1] else square
@@ -211,7 +211,10 @@ def test_memory_is_kept_to(precision, lengths, monkeypatch):
 
     shape = (19, 27)
     whole, multiplier = kernel(lengths)
-    convolution, field = Convolution.of(multiplier, shape, lengths, precision), noise(shape, precision)
+    convolution, field = (
+        CompiledConvolution.of(multiplier, shape, lengths, precision),
+        noise(shape, precision),
+    )
     rooms = []
 
     def surrounded(shape, dtype):
@@ -234,7 +237,7 @@ def test_memory_is_kept_to(precision, lengths, monkeypatch):
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_fields_that_lie_otherwise_in_memory(precision):
     shape, lengths = (19, 26), (40, 54)
-    convolution = Convolution.of(kernel(lengths)[1], shape, lengths, precision)
+    convolution = CompiledConvolution.of(kernel(lengths)[1], shape, lengths, precision)
     field = noise(shape, precision)
     wanted = convolution.apply(field)
     every_other = np.zeros((38, 52), precision)
@@ -251,7 +254,7 @@ def test_the_field_is_left_as_it_is(precision, lengths):
     shape = (24, 30)
     field = noise(shape, precision)
     before = field.copy()
-    answer = Convolution.of(kernel(lengths)[1], shape, lengths, precision).apply(field)
+    answer = CompiledConvolution.of(kernel(lengths)[1], shape, lengths, precision).apply(field)
     np.testing.assert_array_equal(field, before)
     assert not np.shares_memory(answer, field)
 
@@ -261,7 +264,7 @@ def test_the_field_is_left_as_it_is(precision, lengths):
 def test_it_gives_its_kernel_back(precision, lengths):
     """Divided by a number and multiplied by it again: two roundings."""
     multiplier = kernel(lengths)[1]
-    found = Convolution.of(multiplier, (5, 7), lengths, precision).kernel()
+    found = CompiledConvolution.of(multiplier, (5, 7), lengths, precision).kernel()
     assert found.shape == multiplier.shape
     np.testing.assert_allclose(found, multiplier, rtol=2 * np.finfo(precision).eps)
 
@@ -280,6 +283,6 @@ def test_lengths_that_do_not_fit(lengths):
 
 def test_empty_halves_are_left_out():
     """A transform whose last half is padding begins with the butterfly that knows it."""
-    assert _transform(64, 32, "float64").radices[0] == HALF
-    assert HALF not in _transform(64, 33, "float64").radices
-    assert HALF not in _transform(50, 25, "float64").radices  # no whole quarters
+    assert _plan(64, 32, "float64").radices[0] == HALF
+    assert HALF not in _plan(64, 33, "float64").radices
+    assert HALF not in _plan(50, 25, "float64").radices  # no whole quarters

@@ -93,7 +93,7 @@ def test_code_without_the_function_is_made_anew(kept, translated, works):
     """An address of 0, which would end the process."""
     assert works()
     (file,) = kept.iterdir()
-    wrong = loader._translated(loader._families()["tiny"], "float32")
+    wrong = loader._translated(loader._kernels("tiny"), "float32")
     disk.keep(file.name, loader._key("tiny", "float64"), wrong)
     assert works()
     assert works()

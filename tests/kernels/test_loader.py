@@ -17,7 +17,7 @@ from roughcontact.kernels.processor import VARIABLE
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
-FAMILIES = ("fft", "judging", "passes", "scaling", "tile_kernels")
+FAMILIES = ("block_kernels", "fft", "plane_kernels", "tile_kernels", "vector_kernels")
 
 
 def test_code_is_translated_once(kept, translated, works):
@@ -92,27 +92,27 @@ def test_without_texts_code_is_made_and_not_kept(kept, translated, monkeypatch, 
 
 
 def test_a_function_that_was_never_written_is_an_error():
-    code = loader._translated(loader._families()["scaling"], "float64")
-    with pytest.raises(RuntimeError, match="widen, nothing are in the code"):
-        loader._loaded(code, {"widen": "", "nothing": ""}, "float64")
+    kernels = loader._kernels("block_kernels")
+    code = loader._translated({"sum_blocks": kernels["sum_blocks"]}, "float64")
+    with pytest.raises(RuntimeError, match=r"not all of sum_blocks, .* are in the code"):
+        loader._loaded(code, kernels, "float64")
 
 
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 def test_all_functions_that_a_module_promises_are_there(family, precision):
-    writer = loader._families()[family]
     found = loader.functions(family, precision)
-    assert found.keys() == writer.KINDS.keys()
+    assert found.keys() == loader._kernels(family).keys()
     assert all(callable(function) for function in found.values())
 
 
 def test_where_llvm_is_installed_it_is_used():
     """A mistake of ours in making code must not pass for a machine on which none can be made."""
-    loader.functions.__wrapped__("scaling", "float64")
+    loader.functions.__wrapped__("block_kernels", "float64")
 
 
 def test_what_llvm_cannot_do_here_numpy_does(monkeypatch):
-    def fails(writer, precision):
+    def fails(kernels, precision):
         raise RuntimeError("no such instruction")
 
     monkeypatch.setattr(loader, "_translated", fails)

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 from regions import PRECISIONS
 from roughcontact.kernels import loader, planes
 from roughcontact.kernels.constants import NEVER, WIDTH
-from roughcontact.kernels.planes import Look, levels, look, mark, narrow, widen
+from roughcontact.kernels.planes import (
+    Extremes,
+    add_scaled,
+    extremes,
+    level_range,
+    predict_active,
+    scale_down,
+)
 from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
@@ -74,13 +81,13 @@ def close(found, terms):
 
 @many
 @given(shapes(), st.sampled_from([0.0, 0.05, 0.5, 1.0]), st.sampled_from([0.0, 0.2, 1.0]))
-def test_look(sized, share, missing):
+def test_extremes(sized, share, missing):
     shape, rng = sized
     p, u, s = given_to(rng, shape, share, missing)
     if missing == 0.0:
         p -= 0.25  # some pull
     read_only(p, u, s)
-    seen, level, carries = look(p, u, s), u + s, p > 0
+    seen, level, carries = extremes(p, u, s), u + s, p > 0
     assert seen.highest == (level[carries].max() if carries.any() else -math.inf)
     assert seen.lowest == level.min()
     assert (seen.strongest, seen.weakest) == (p.max(), p.min())
@@ -98,20 +105,20 @@ def test_what_is_no_number_is_never_overlooked(sized, data, wrong):
     at = data.draw(st.integers(0, fields[0].size - 1))
     for k in data.draw(st.sampled_from([[0], [1], [0, 1]])):
         fields[k].ravel()[at] = wrong
-    assert look(*fields) is None
+    assert extremes(*fields) is None
     for field in fields:
         field.ravel()[at] = 0.0
-    assert isinstance(look(*fields), Look)
+    assert isinstance(extremes(*fields), Extremes)
 
 
 @many
 @given(shapes(), st.sampled_from([0.0, 0.05, 0.5, 1.0]), st.sampled_from([math.inf, 0.75, 0.0]))
-def test_mark(sized, share, own):
+def test_predict_active(sized, share, own):
     shape, rng = sized
     p, u, s = given_to(rng, shape, share)
     read_only(p, u, s)
     depth, least = 0.5, -0.25
-    region, count, wrong = mark(p, u, s, depth=depth, least=least, own=own)
+    region, count, wrong = predict_active(p, u, s, depth=depth, least=least, own=own)
     gap = u + s - depth
     asked = (p > 0) | (gap < least)
     pulls = asked & (p * own < gap) if own < math.inf else np.zeros(shape, bool)
@@ -123,31 +130,31 @@ def test_mark(sized, share, own):
     assert not region[np.isinf(s)].any()
 
 
-def test_bounds_of_a_mark_are_not_in_it():
+def test_limits_of_a_prediction_are_not_in_it():
     """What stands at the least gap stays out; what moves as far as its gap stays in."""
     p, u, s = np.array([0.0, 0.0, 2.0, 2.0]), np.zeros(4), np.array([1.0, 0.875, 2.5, 2.75])
-    region, count, wrong = mark(p, u, s, depth=1.5, least=-0.5, own=0.5)
+    region, count, wrong = predict_active(p, u, s, depth=1.5, least=-0.5, own=0.5)
     assert region.tolist() == [False, True, True, False]
     assert (count, wrong) == (2, 1)
 
 
 @many
 @given(shapes(), st.sampled_from([0.02, 0.5, 1.0]))
-def test_levels(sized, share):
+def test_level_range(sized, share):
     shape, rng = sized
     _, u, s = given_to(rng, shape)
     region = (rng.random(shape) < share) & np.isfinite(s)
     region.ravel()[rng.integers(region.size)] = True
     s[region & np.isinf(s)] = 3.0
     read_only(u, s, region)
-    found, level = levels(s, u, region), (s + u)[region]
+    found, level = level_range(s, u, region), (s + u)[region]
     assert (found.highest, found.lowest) == (level.max(), level.min())
     close(found.mean * level.size, level)
 
 
 @many
 @given(shapes(), st.sampled_from(PRECISIONS), st.sampled_from([0.0, 0.5, 1.0]))
-def test_narrow(sized, precision, share):
+def test_scale_down(sized, precision, share):
     shape, rng = sized
     p, u, s = given_to(rng, shape)
     region, depth, unit = rng.random(shape) < share, 0.375, 0.7
@@ -155,7 +162,7 @@ def test_narrow(sized, precision, share):
     (inside, lacking, base), kept = zip(
         *(amid(np.full(shape, np.nan, precision)) for _ in range(3)), strict=True
     )
-    narrow(s, u, p, region, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
+    scale_down(s, u, p, region, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
     np.testing.assert_array_equal(inside, region)
     there = np.isfinite(s)
     assert (lacking[~there] == np.array(NEVER, precision)).all()
@@ -171,13 +178,13 @@ def test_narrow(sized, precision, share):
 
 @many
 @given(shapes(), st.sampled_from(PRECISIONS), st.sampled_from([0.0, 0.5, 1.0]))
-def test_widen(sized, precision, share):
+def test_add_scaled(sized, precision, share):
     shape, rng = sized
     p, unit = np.abs(rng.standard_normal(shape)), 0.3
     change, kept = rng.standard_normal(shape).astype(precision) * 5, rng.random(shape) < share
     inside = kept.astype(precision)
     read_only(p, change, inside)
-    found = widen(p, change, inside, unit)
+    found = add_scaled(p, change, inside, unit)
     assert (found.dtype, found.shape) == (np.float64, shape)
     wanted = p + change.astype(np.float64) * unit
     # A product and a sum are rounded.
@@ -193,7 +200,7 @@ def test_what_comes_out_negative_is_nothing(precision):
     p = np.full(WIDTH + 1, 2.0)
     change = np.where(np.arange(WIDTH + 1) % 3 == 0, -5.0, -4.0).astype(precision)
     change[[4, -1]] = np.nan
-    assert not widen(p, change, np.ones_like(change), 0.5).any()
+    assert not add_scaled(p, change, np.ones_like(change), 0.5).any()
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -206,14 +213,14 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
         written = [np.zeros(shape, precision) for _ in range(3)]
         with limit_threads(count):
             totals = [
-                look(p, u, s),
-                mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
-                levels(s, u, region),
+                extremes(p, u, s),
+                predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
+                level_range(s, u, region),
             ]
             named = dict(zip(("inside", "lacking", "base"), written, strict=True))
-            narrow(s, u, p, region, depth=0.5, unit=0.3, **named)
-            written.append(widen(p, change, inside, 0.3))
-            written.append(mark(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])
+            scale_down(s, u, p, region, depth=0.5, unit=0.3, **named)
+            written.append(add_scaled(p, change, inside, 0.3))
+            written.append(predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])
         answers.append((totals, written))
     for totals, written in answers[1:]:
         assert totals == answers[0][0]
@@ -224,6 +231,6 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
 def test_sums_of_many_cells_are_sums_of_parts():
     """A million tenths, each a little too large; one by one their sum would be off by more."""
     tenths, zeros = np.full(10**6, 0.1), np.zeros(10**6)
-    seen = look(tenths, tenths, zeros)
+    seen = extremes(tenths, tenths, zeros)
     assert seen.count == 10**6
     assert seen.level == pytest.approx(math.fsum(tenths), rel=1e-12)

@@ -2,13 +2,18 @@
 
 import math
 from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+pytest.importorskip("llvmlite")
+
 from roughcontact.kernels import loader
+from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import WIDTH
+from roughcontact.kernels.signature import Doubles, Vector, kernel
+from roughcontact.kernels.totals import Totals
+from roughcontact.kernels.values import Index
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -18,29 +23,22 @@ SIZES = (0, 1, 3, 4, 7, 8, 9, 35)
 @cache
 def made(precision, most):
     """Return what finds a number, its negative, its square, and itself."""
-    from roughcontact.kernels.code import Code
-    from roughcontact.kernels.totals import leave_totals
 
-    kinds = "index reals doubles"
+    def tiny(code: Code, n: Index, a: Vector, totals: Doubles):
+        found = Totals(code, 4 - most, most, compensated=True)
+        for i in code.each(n):
+            x = a[i]
+            found.add(x, -x, x * x, x)
+        found.store(totals)
 
-    def write(module, precision):
-        with Code(module, "tiny", precision, kinds) as code:
-            n, a, totals = code.arguments
-
-            def body(at, take):
-                x = take(a, at)
-                return x, -x, x * x, x
-
-            leave_totals(code, n, body, totals, most, 4)
-
-    written = loader._translated(SimpleNamespace(__name__="tiny", write=write), precision)
-    return loader._loaded(written, {"tiny": kinds}, precision)["tiny"]
+    kernels = {"tiny": kernel(tiny)}
+    return loader._loaded(loader._translated(kernels, precision), kernels, precision)["tiny"]
 
 
 def totals_of(field, most=2):
     """Return what is left of a field, of which the first are the largest; nothing lies behind."""
     totals = np.full(6, 77.0)
-    made(field.dtype.name, most)(field.size, loader.address(field), loader.address(totals))
+    made(field.dtype.name, most)(field.size, field, totals)
     assert totals[4:].tolist() == [77, 77]
     return totals[:4]
 

@@ -81,7 +81,7 @@ class TestLineSpectrum:
     def test_makes_lines(self):
         grid = rc.Grid(1000, 1e-6)
         line = rc.synthesise(grid, line_spectrum(SURFACE), np.random.default_rng(0))
-        assert line.rms == pytest.approx(rc.grid_moments(line_spectrum(SURFACE), grid).rms_height, rel=1e-12)
+        assert line.rms == pytest.approx(rc.grid_moments(grid, line_spectrum(SURFACE)).rms_height, rel=1e-12)
 
     @pytest.mark.parametrize("factor", [0.0, -1.0, math.nan, math.inf])
     def test_refuses_a_factor_that_is_none(self, factor):
@@ -124,7 +124,7 @@ class TestTabulatedSpectrum:
         grid = rc.Grid(256, 1e-6, periodic=True)
         # C2D in rings of one wave's width, read off at the line's waves: the longest waves of a square, at 1 and
         # sqrt(2), fall into one ring, hence a few per cent.
-        discrete = rc.grid_moments(line, grid).m0 / math.pi * 2.5897  # lambda for H = 0.8, many waves
+        discrete = rc.grid_moments(grid, line).m0 / math.pi * 2.5897  # lambda for H = 0.8, many waves
         assert math.sqrt(discrete) == pytest.approx(1e-6, rel=0.1)
 
 

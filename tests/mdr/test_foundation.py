@@ -44,7 +44,7 @@ def test_given_depth(line):
 def test_a_curve_and_its_law(line):
     """Saturation is E* L; dimensionless numbers are those of a surface of that length."""
     curve = rc.loading_curve(line, MODULUS, operator=rc.foundation(line.grid, MODULUS))
-    assert curve.saturation == pytest.approx(MODULUS * line.grid.lengths[0])
+    assert curve.full_contact_stiffness == pytest.approx(MODULUS * line.grid.lengths[0])
     assert curve.cell_stiffness == pytest.approx(MODULUS * line.grid.spacing[0])
     assert curve.force_scale == pytest.approx(MODULUS * line.rms * line.grid.lengths[0])
     law = curve.fit()

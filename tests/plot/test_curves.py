@@ -56,7 +56,7 @@ def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
 def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
     stiffness_curve(axes, curve)
     factor = line(axes, "resolved").get_ydata()[0] / curve.stiffness[curve.resolved][0]
-    expected = [20 * curve.cell_stiffness * factor, curve.saturation * factor]
+    expected = [20 * curve.cell_stiffness * factor, curve.full_contact_stiffness * factor]
     assert level(axes) == pytest.approx(expected, rel=1e-12)
     low, high = axes.get_ylim()
     assert low < expected[0] < expected[1] < high
@@ -93,7 +93,7 @@ def test_the_outer_axes_have_no_dimension(curve):
     )
 
 
-def test_an_infinite_saturation_has_no_line(axes):
+def test_an_infinite_full_contact_stiffness_has_no_line(axes):
     grid = rc.Grid((16, 16), (1e-7, 1e-7), periodic=True)
     surface = rc.self_affine(grid, hurst=0.8, rms=1e-9, rng=np.random.default_rng(3))
     curve = rc.loading_curve(surface, MODULUS, pressures=[1e7, 1e8, 1e10])
@@ -149,7 +149,7 @@ def test_numbers_on_a_logarithmic_axis_are_few_and_at_least_two(ratio, first):
 
 def test_the_lower_limit_is_named_for_what_it_is(axes, curve):
     stiffness_curve(axes, curve)
-    assert [text.get_text() for text in axes.texts] == ["20 x one cell", "saturation"]
+    assert [text.get_text() for text in axes.texts] == ["20 x one cell", "full contact"]
 
 
 @pytest.mark.parametrize("kind", ["surface", "line"])
@@ -167,4 +167,4 @@ def test_on_a_line_no_stiffness_tells_what_is_resolved(axes):
     grid = rc.Grid(128, 1e-6)
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
     stiffness_curve(axes, rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)))
-    assert [text.get_text() for text in axes.texts] == ["saturation"]
+    assert [text.get_text() for text in axes.texts] == ["full contact"]

@@ -1,6 +1,6 @@
 """Solves that inexact operators drive: the same certified answers, and none the worse where these are wrong."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,12 +10,12 @@ from roughcontact.halfspace.sums import particle_mesh as patches
 from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches, PatchOperator
 from roughcontact.kernels import loader
 from roughcontact.solver import inner_operator as drivers
-from roughcontact.solver import subdomain as window
+from roughcontact.solver import tuning
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.conjugate_gradients import relax
-from roughcontact.solver.inner_operator import Driver, Plane, SinglePlane, driver_on
+from roughcontact.solver.conjugate_gradients import conjugate_gradients
+from roughcontact.solver.inner_operator import FullGrid, InnerOperator, SingleFullGrid, inner_operator_on
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.vectors import fields_on
+from roughcontact.solver.vectors import vectors_on
 
 ITERATIVE = ActiveSet(dense_limit=0)
 needs_machine_code = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
@@ -28,12 +28,20 @@ class Plain:
         self._operator = operator
 
     def __getattr__(self, name):
-        if name in ("patches", "keeps_precision"):
-            raise AttributeError(name)
-        value = getattr(self._operator, name)
-        if name in ("restrict", "coarsened"):
-            return lambda *arguments: plain(value(*arguments))
-        return value
+        return getattr(self._operator, name)
+
+    @property
+    def capabilities(self):
+        given = self._operator.capabilities
+        return replace(
+            given,
+            single_precision=False,
+            coarsened=lambda grid: plain(given.coarsened(grid)),
+            particle_mesh=rc.Capabilities().particle_mesh,
+        )
+
+    def restrict(self, window):
+        return plain(self._operator.restrict(window))
 
 
 def plain(operator):
@@ -50,16 +58,16 @@ def rough(request):
 TILES = pytest.param(PatchOperator, marks=needs_machine_code)
 
 
-@pytest.fixture(params=[TILES, SinglePlane])
+@pytest.fixture(params=[TILES, SingleFullGrid])
 def used(request, monkeypatch):
     """Let one kind of driver stand in wherever it can, and count its products."""
     kind = request.param
     for part in ("cover", "filled"):
         monkeypatch.setattr(Patches, part, 2.0 if kind is PatchOperator else 0.0)
     monkeypatch.setattr(patches, "LEAST", 0)
-    if kind is SinglePlane:
+    if kind is SingleFullGrid:
         monkeypatch.setattr(ListPatches, "tiles", lambda *_: None)
-        monkeypatch.setattr(window, "FILLED", 0.0)  # planes, not lists
+        monkeypatch.setattr(tuning, "LIST_FILLING", 0.0)  # planes, not lists
     counts = [0]
     apply = kind.apply
 
@@ -92,7 +100,7 @@ def test_the_answer_is_that_of_the_exact_operator(rough, used):
 def test_the_stiffness_is_that_of_the_exact_operator(rough, used):
     mask = pressed(rough, None).contact
     operator = rc.half_space(rough.grid, 1e9)
-    left = np.arange(rough.grid.shape[1]) < 40  # a part of the tiles, and more cells than are factorised
+    left = np.arange(rough.grid.shape[1]) < 40  # a part of the tiles, and more cells than are direct_limit
     region = mask | (left & (rough.heights > np.quantile(rough.heights[:, left], 0.4)))
     expected = rc.contact_stiffness(region, rough.grid, 1e9, operator=plain(operator))
     before = used[0]
@@ -120,7 +128,7 @@ def test_units_are_no_matter(used, modulus, spacing):
 class Wrong:
     """A driver that is none of the body's."""
 
-    true: Driver
+    true: InnerOperator
     factor: float
 
     def __getattr__(self, name):
@@ -138,11 +146,13 @@ def test_wrong_drivers_cost_time_and_no_more(monkeypatch, used, factor):
     expected = pressed(rough, plain(operator))
 
     def lying(operator, region, previous=None):
-        driver = driver_on(operator, region, previous.true if isinstance(previous, Wrong) else previous)
-        return driver if type(driver) is Plane else Wrong(driver, factor)
+        driver = inner_operator_on(
+            operator, region, previous.true if isinstance(previous, Wrong) else previous
+        )
+        return driver if type(driver) is FullGrid else Wrong(driver, factor)
 
-    monkeypatch.setattr("roughcontact.solver.active_set.driver_on", lying)
-    monkeypatch.setattr("roughcontact.solver.prescribed.driver_on", lying)
+    monkeypatch.setattr("roughcontact.solver.active_set.inner_operator_on", lying)
+    monkeypatch.setattr("roughcontact.solver.prescribed.inner_operator_on", lying)
     found = pressed(rough, operator)
     assert found.residual <= 1e-10
     assert found.depth == pytest.approx(expected.depth, rel=1e-8)
@@ -155,21 +165,21 @@ def test_wrong_drivers_cost_time_and_no_more(monkeypatch, used, factor):
 @needs_machine_code
 def test_who_drives():
     def kind(operator, region, previous=None):
-        return type(driver_on(operator, region, previous))
+        return type(inner_operator_on(operator, region, previous))
 
     tiny = rc.half_space(rc.Grid((32, 32), 1.0), 1.0)
-    assert kind(tiny, np.eye(32, dtype=bool)) is Plane
+    assert kind(tiny, np.eye(32, dtype=bool)) is FullGrid
     small = rc.half_space(rc.Grid((64, 64), 1.0), 1.0)
-    assert kind(small, np.eye(64, dtype=bool)) is SinglePlane
-    assert kind(plain(small), np.eye(64, dtype=bool)) is Plane
+    assert kind(small, np.eye(64, dtype=bool)) is SingleFullGrid
+    assert kind(plain(small), np.eye(64, dtype=bool)) is FullGrid
     large = rc.half_space(rc.Grid((512, 512), 1.0), 1.0)
-    assert kind(large, np.ones((512, 512), dtype=bool)) is SinglePlane
+    assert kind(large, np.ones((512, 512), dtype=bool)) is SingleFullGrid
     few = np.zeros((512, 512), dtype=bool)
     few[40:60, 100:130] = True
-    tiles = driver_on(large, few)
+    tiles = inner_operator_on(large, few)
     assert type(tiles) is PatchOperator
-    assert driver_on(large, few, tiles) is tiles
-    assert driver_on(large, few[::-1], tiles) is not tiles
+    assert inner_operator_on(large, few, tiles) is tiles
+    assert inner_operator_on(large, few[::-1], tiles) is not tiles
 
 
 @needs_machine_code
@@ -177,16 +187,16 @@ def test_one_driver_takes_off_what_it_says(rough):
     """`gain`: a change of pressure that one makes leaves this of an error, and what its products get wrong."""
     operator = rc.half_space(rough.grid, 1e9)
     region = rough.heights > np.quantile(rough.heights, 0.8)
-    patch = operator.patches.on(drivers.Tiles.of(region))
-    for driver in (SinglePlane(operator), patch):
+    patch = operator.particle_mesh.on(drivers.Tiles.of(region))
+    for driver in (SingleFullGrid(operator), patch):
         lacking = np.where(region, rough.heights, 0.0)
         unit = float(np.abs(lacking).max())
-        part = driver.narrow(driver.gather(lacking / unit))
+        part = driver.scaled(driver.gather(lacking / unit))
         measure, kept = Measure(driver.weights), driver.gather(region)
-        fields = fields_on(driver, measure, kept, part, np.zeros_like(part))
-        relax(driver, fields, limit=driver.gain, max_steps=200)
-        change = unit * driver.scatter(fields.change).astype(float)
+        fields = vectors_on(driver, measure, kept, part, np.zeros_like(part))
+        conjugate_gradients(driver, fields, limit=driver.contraction, max_steps=200)
+        change = unit * driver.scatter(fields.correction).astype(float)
         left = np.where(region, lacking - operator.apply(change), 0.0)
         # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).
         wrong = 1.5e-4 * operator.apply(np.abs(change)).max()
-        assert np.abs(left).max() <= driver.gain * unit + wrong
+        assert np.abs(left).max() <= driver.contraction * unit + wrong

@@ -20,7 +20,10 @@ SURFACE = rc.self_affine(rc.Grid((12, 14), 1 / 12), 0.8, 0.01, np.random.default
 LINE = rc.self_affine(rc.Grid(40, 1 / 40), 0.8, 0.01, np.random.default_rng(0))
 HALF = rc.self_affine(rc.Grid((12, 16), 1 / 12, (True, False)), 0.8, 0.01, np.random.default_rng(0))
 OPERATORS = {
-    **{method: rc.half_space(SURFACE.grid, 1.0, method) for method in ("fft", "dense", "moving-grid", "multilevel")},
+    **{
+        method: rc.half_space(SURFACE.grid, 1.0, method=method)
+        for method in ("fft", "dense", "moving-grid", "multilevel")
+    },
     "singly periodic": rc.half_space(HALF.grid, 1.0),
     "layer": rc.layer(SURFACE.grid, BODY, 0.5, base="bonded"),
     "line": rc.line(LINE.grid, 1.0),

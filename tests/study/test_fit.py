@@ -39,7 +39,7 @@ def curves(stiffness, *, hurst=HURST, cell=1e-3, **more):
             "dimensionless_stiffness": (dims, stiffness),
             "stiffness": (dims, scale * stiffness),
             "cell_stiffness": ((), scale * cell),
-            "saturation": ((), scale * 1.15),
+            "full_contact_stiffness": ((), scale * 1.15),
         }
         | more,
         {"hurst": hurst},
@@ -124,7 +124,7 @@ class TestWindow:
             inside = (means[i] > 20 / cells) & (means[i] < 0.9) & (FORCE <= 0.07)
             assert fits["count"][i] == inside.sum() > 3
 
-    def test_ends_with_saturation(self):
+    def test_ends_with_full_contact(self):
         stiffness = np.minimum(np.ones((3, 2, 1)) * 2 * FORCE**0.5, 1.0)
         fits = fit_power_laws(curves(stiffness), resolved_window(1e-9, 1.0, highest=1.0), rng=rng())
         assert (fits["window_high"] == FORCE[2 * FORCE**0.5 < 0.9][-1]).all()
@@ -151,8 +151,10 @@ class TestWindow:
 
     def test_wants_a_rule_where_curves_have_none(self):
         data = curves(scattered(3))
-        with pytest.raises(ValueError, match="for want of cell_stiffness, saturation: give a window"):
-            fit_power_laws(data.drop_vars(["cell_stiffness", "saturation"]), rng=rng())
+        with pytest.raises(
+            ValueError, match="for want of cell_stiffness, full_contact_stiffness: give a window"
+        ):
+            fit_power_laws(data.drop_vars(["cell_stiffness", "full_contact_stiffness"]), rng=rng())
         with pytest.raises(ValueError, match="on a line"):
             fit_power_laws(data.assign_attrs(geometry="line"), rng=rng())
         with pytest.raises(ValueError, match="from a dimensionless force to a larger one"):

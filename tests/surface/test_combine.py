@@ -89,7 +89,7 @@ def test_cost_of_interpolation(points, interpolation, bound, periodic):
     def wave(grid):
         return rc.Surface(np.cos(q * (np.arange(grid.size) + 0.5) / grid.size + 0.3), grid)
 
-    error = np.abs(resampled(wave(coarse), fine, interpolation).heights - wave(fine).heights)
+    error = np.abs(resampled(wave(coarse), fine, interpolation=interpolation).heights - wave(fine).heights)
     if not periodic:  # the ends are continued, or read off the outer parts of the polynomials
         error = error[14:-14]
     limit = bound * (q / n) ** (2 if interpolation == "linear" else 4)
@@ -131,7 +131,9 @@ def test_missing_points_stay_missing(interpolation):
     """The hole spreads to the new cells within one old cell of it, and no further."""
     heights = np.ones((9, 9))
     heights[4, 4] = np.nan
-    finer = resampled(rc.Surface(heights, rc.Grid((9, 9), 0.3)), rc.Grid((27, 27), 0.1), interpolation)
+    finer = resampled(
+        rc.Surface(heights, rc.Grid((9, 9), 0.3)), rc.Grid((27, 27), 0.1), interpolation=interpolation
+    )
     expected = np.ones((27, 27))
     expected[11:16, 11:16] = np.nan
     np.testing.assert_allclose(finer.heights, expected, rtol=1e-14)
@@ -177,7 +179,7 @@ def test_the_cost_to_a_contact():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: resampled(rough(), GRID, "quintic"), "interpolation must be"),
+        (lambda: resampled(rough(), GRID, interpolation="quintic"), "interpolation must be"),
         (lambda: resampled(rough(), rc.Grid((40, 48), (0.1, 0.2), True)), "periodic where the other"),
         (lambda: resampled(rough(rc.Grid((9, 9), 1.0, True)), rc.Grid((9, 9), 1.1, True)), "periods must be"),
         (lambda: resampled(rough(), rc.Grid(9, 1.0)), "the number of axes"),

@@ -262,7 +262,7 @@ def test_a_stretched_spectrum_keeps_its_power():
     grid = rc.Grid((256, 256), 1 / 256)
     ring = SelfAffineSpectrum(0.5, long_cutoff=1 / 16, short_cutoff=1 / 32)
     base, stretched = (
-        surface_moments(synthesise(grid, s, np.random.default_rng(5)), "spectral")
+        surface_moments(synthesise(grid, s, np.random.default_rng(5)), derivative="spectral")
         for s in (ring, StretchedSpectrum(ring, 2.0, 0.3))
     )
     # Waves on the rim of the band are in or out: some sqrt(rim) of the pi (32^2 - 16^2) waves, 1 %.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.taper import taper
+from roughcontact.surface.windows import window_values
 
 GRID = rc.Grid((12, 18), (1e-6, 2e-6), (True, False))
 HEIGHTS = np.random.default_rng(0).standard_normal(GRID.shape)
@@ -137,7 +137,7 @@ def test_a_line_cannot_be_turned():
     [("hann", 0.25, 3 / 8), ("welch", 0.25, 8 / 15), ("tukey", 0.4, 0.6 + 0.4 * 3 / 8), ("tukey", 0, 1.0)],
 )
 def test_windows_have_their_known_mean_square(window, share, power):
-    weights = taper(2000, window, share)
+    weights = window_values(window, 2000, share)
     # The midpoint rule of these windows, whose slopes are bounded by 2 pi / 0.4 times 2000 cells.
     assert float((weights**2).mean()) == pytest.approx(power, abs=1e-5)
     np.testing.assert_allclose(weights, weights[::-1], atol=1e-12)
@@ -146,7 +146,7 @@ def test_windows_have_their_known_mean_square(window, share, power):
 
 def test_only_free_axes_are_tapered():
     heights = SURFACE.tapered().heights
-    np.testing.assert_allclose(heights, (HEIGHTS - HEIGHTS.mean()) * taper(18, "hann"), rtol=1e-14)
+    np.testing.assert_allclose(heights, (HEIGHTS - HEIGHTS.mean()) * window_values("hann", 18), rtol=1e-14)
     assert SURFACE.tapered().provenance[-1] == "hann window, mean square times 0.375"
     with pytest.raises(ValueError, match="window must be"):
         SURFACE.tapered("bell")

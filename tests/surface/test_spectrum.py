@@ -81,7 +81,7 @@ def test_scaled_to_an_rms_height(dimension, unit):
     np.testing.assert_allclose(scaled(q), scaled.scale * law(q), rtol=1e-13)
     grid = rc.Grid((64,) * dimension, unit / 64)
     on_grid = law.scaled(0.3 * unit, grid, "disc")
-    assert grid_moments(on_grid, grid, "disc").rms_height == pytest.approx(0.3 * unit, rel=1e-13)
+    assert grid_moments(grid, on_grid, support="disc").rms_height == pytest.approx(0.3 * unit, rel=1e-13)
     assert on_grid.scale != pytest.approx(scaled.scale, rel=1e-3)
 
 
@@ -89,7 +89,7 @@ def test_the_sum_over_a_lattice():
     """Sum' (n^2 + m^2)^-(H+1) = 4 zeta(H+1) beta(H+1); beta(3) = pi^3/32, so 1.49 times the integral pi/H."""
     n = 256
     grid = rc.Grid((n, n), TAU / n)  # q counts waves, B^2 = C2D
-    total = grid_moments(SelfAffineSpectrum(2.0), grid).m0
+    total = grid_moments(grid, SelfAffineSpectrum(2.0)).m0
     beyond = TAU / 4 * (n / 2 - 1) ** -4.0  # the integral of q^-6 outside the circle in the square
     assert 0 < 4 * zeta(3) * np.pi**3 / 32 - total < 1.05 * beyond
 

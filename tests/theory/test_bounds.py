@@ -15,22 +15,28 @@ def test_one_cell():
     mask[2, 3] = True
     stiffness = rc.contact_stiffness(mask, rc.Grid((5, 5), 1e-7), 2e11)
     assert bounds.cell(2e11, 1e-7) == pytest.approx(stiffness, rel=1e-12)
-    # The factor of the text below eq. 4.16, with the printed saturation and with the right one.
-    assert bounds.cell(1.0, 1.0) / bounds.king_saturation(1.0, 1.0) == pytest.approx(0.7804, abs=5e-5)
-    assert bounds.cell(1.0, 1.0) / bounds.saturation(1.0, 1.0) == pytest.approx(0.7733, abs=5e-5)
+    # The factor of the text below eq. 4.16, with the printed full-contact stiffness and with the right one.
+    assert bounds.cell(1.0, 1.0) / bounds.king_full_contact_stiffness(1.0, 1.0) == pytest.approx(
+        0.7804, abs=5e-5
+    )
+    assert bounds.cell(1.0, 1.0) / bounds.full_contact_stiffness(1.0, 1.0) == pytest.approx(0.7733, abs=5e-5)
 
 
-def test_saturation():
-    assert bounds.saturation(2.0, np.array([1.0, 3.0])) == pytest.approx([2.304596, 6.913788], rel=1e-12)
-    assert bounds.king_saturation(1.0, 1.0) == pytest.approx(1.1419, abs=5e-5)
-    assert bounds.saturation(1.0, 1.0) / bounds.king_saturation(1.0, 1.0) == pytest.approx(1.0091, abs=5e-5)
+def test_full_contact_stiffness():
+    assert bounds.full_contact_stiffness(2.0, np.array([1.0, 3.0])) == pytest.approx(
+        [2.304596, 6.913788], rel=1e-12
+    )
+    assert bounds.king_full_contact_stiffness(1.0, 1.0) == pytest.approx(1.1419, abs=5e-5)
+    assert bounds.full_contact_stiffness(1.0, 1.0) / bounds.king_full_contact_stiffness(
+        1.0, 1.0
+    ) == pytest.approx(1.0091, abs=5e-5)
 
 
 @pytest.mark.parametrize(("points", "lowest"), [(513, 0.0348), (1025, 0.0174), (2049, 0.0087)])
 def test_window_of_the_thesis_grids(points, lowest):
     low, high = bounds.window(1.0, 1.0, 1 / (points - 1))
     assert low == pytest.approx(lowest, abs=5e-5)
-    assert high == bounds.saturation(1.0, 1.0)
+    assert high == bounds.full_contact_stiffness(1.0, 1.0)
     assert bounds.resolved(np.array([0.99, 1.01, 30.0]) * low, 1.0, 1.0, 1 / (points - 1)).tolist() == [
         0,
         1,

@@ -31,7 +31,7 @@ def test_both_laws_meet_at_the_crossover():
     assert CELL.stiffness(force, MODULUS) == pytest.approx(force / u0, rel=1e-12)
 
 
-def test_crossover_of_an_unrestricted_surface_lies_next_to_saturation():
+def test_crossover_of_an_unrestricted_surface_lies_next_to_full_contact():
     # Section 8.4: about 0.17 of E* h L at H = 0.7, with u0 = 0.45 * 1.11 h.
     cell = Cell(0.7, 1.0, 1.0)
     assert cell.crossover_force(1.0, 0.45 * 1.11) == pytest.approx(0.185, abs=0.02)

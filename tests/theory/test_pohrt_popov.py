@@ -80,13 +80,13 @@ def test_refusals():
         pohrt_popov.prefactor(np.nan)
     with pytest.raises(ValueError, match=r"hurst must not exceed 2: one smooth crest"):
         pohrt_popov.scale_free_stiffness(1e-3, 2.1, 1.0, 1.0)
-    limit = bounds.saturation(1.0, 1.0)
+    limit = bounds.full_contact_stiffness(1.0, 1.0)
     for wrong in (
         lambda: pohrt_popov.stiffness(1.5, 0.3, 1.0, 1.0, 1.0),
         lambda: pohrt_popov.force(1.0001 * limit, 0.3, 1.0, 1.0, 1.0),
         lambda: pohrt_popov.depth(1.5, 0.3, 1.0, 1.0, 1.0),
         lambda: pohrt_popov.force_at_depth(10.0, 0.3, 1.0, 1.0, 1.0),
     ):
-        with pytest.raises(ValueError, match="passes the saturation"):
+        with pytest.raises(ValueError, match="passes the full-contact stiffness"):
             wrong()
     assert pohrt_popov.force(0.9999 * limit, 0.3, 1.0, 1.0, 1.0) > 0

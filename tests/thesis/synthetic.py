@@ -25,7 +25,7 @@ def curves(exponent, prefactor, hurst, **given):
             "stiffness": (every, 7.0 * stiffness),
             "status": (every, np.full(stiffness.shape, "converged")),
             "cell_stiffness": ((), 7.0 * 0.8911 / points),
-            "saturation": ((), 7.0 * 1.15),
+            "full_contact_stiffness": ((), 7.0 * 1.15),
         },
         {"hurst": hurst, "sample": np.arange(samples), "points": points},
         {"geometry": "surface"},

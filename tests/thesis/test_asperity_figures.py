@@ -40,7 +40,7 @@ def test_the_classical_curve_is_that_of_the_moments_of_a_surface():
     # Exact amplitudes: every surface has the same moments.
     surface = rc.self_affine(rc.Grid((128, 128), 1 / 128, periodic=True), 0.5, 1.0, np.random.default_rng(0))
     force = np.array([1e-3, 1e-2, 1e-1])
-    law = greenwood_williamson.law(rc.surface_moments(surface, "spectral"), 1.0, 1.0)
+    law = greenwood_williamson.law(rc.surface_moments(surface, derivative="spectral"), 1.0, 1.0)
     expected = law.quantities["interfacial_stiffness"](force)
     np.testing.assert_allclose(greenwood_williamson_stiffness(force, 0.5, 128), expected, rtol=1e-9)
 

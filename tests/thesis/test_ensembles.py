@@ -12,7 +12,7 @@ from roughcontact.thesis.ensembles import (
     curve_fits,
     laws,
     resolution_studies,
-    saturation_study,
+    full_contact_study,
     sphere_study,
     square_study,
 )
@@ -31,7 +31,7 @@ def test_the_studies_have_the_counts_of_the_thesis():
     [one] = sphere.combinations()
     assert (sphere.samples, one.points, one.radius, one.hurst, one.rms) == (50, 513, 0.5, 0.7, 9e-3)
     assert [each.samples for each in resolution_studies("thesis")][:2] == [500, 500]
-    assert {each.points for each in saturation_study("thesis").combinations()} == {1025}
+    assert {each.points for each in full_contact_study("thesis").combinations()} == {1025}
     assert {each.points for each in coarse_square_study("thesis").combinations()} == {257}
 
 
@@ -40,7 +40,7 @@ def test_every_store_has_one_study(scale):
     found = [
         square_study(scale),
         coarse_square_study(scale),
-        saturation_study(scale),
+        full_contact_study(scale),
         *resolution_studies(scale),
         sphere_study(scale),
     ]
@@ -48,7 +48,7 @@ def test_every_store_has_one_study(scale):
 
 
 def test_small_studies_are_other_stores_than_the_large_ones():
-    for study in (square_study, coarse_square_study, saturation_study, sphere_study):
+    for study in (square_study, coarse_square_study, full_contact_study, sphere_study):
         assert study("small").name != study("thesis").name
 
 

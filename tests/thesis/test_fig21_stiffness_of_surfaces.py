@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
 from roughcontact.thesis import fig21_stiffness_of_surfaces as fig21
-from roughcontact.thesis.ensembles import saturation_study
+from roughcontact.thesis.ensembles import full_contact_study
 from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 from thesis.synthetic import curves
@@ -35,7 +35,7 @@ def test_it_is_drawn(data):
 
 
 def test_full_contact_is_reached_on_few_cells():
-    study = saturation_study("small")
+    study = full_contact_study("small")
     parameters = study.parameters | {"points": 17, "loads": 4}
     few = Study(name="few", case="curve", samples=2, parameters=parameters, table={"hurst": (0.0, 1.0)})
     found = fig21.averages(exported(few))

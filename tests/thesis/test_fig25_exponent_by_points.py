@@ -23,7 +23,7 @@ def surfaces(points, exponent, rng):
             "dimensionless_stiffness": (("hurst", "sample", "load"), [curves] * 2),
             "stiffness": (("hurst", "sample", "load"), [3e5 * curves] * 2),
             "cell_stiffness": 3e5 * 0.0007,
-            "saturation": 3e5 * 1.15,
+            "full_contact_stiffness": 3e5 * 1.15,
         },
         {"hurst": [-0.5, 0.2], "points": points},
     )

@@ -105,7 +105,7 @@ def test_figure_30_moves_lines_to_surfaces_and_shows_what_is_left(lines):
             "stiffness": (dims, table),
             "status": (dims, np.full((3, 5, 27), Status.CONVERGED.value)),
             "cell_stiffness": 0.0009,
-            "saturation": 1.15,
+            "full_contact_stiffness": 1.15,
         },
         {"hurst": HURST, "points": 1025, "modulus": 1.0, "size": 1.0},
     )

@@ -79,7 +79,7 @@ def test_a_body_that_sinks_in_does_not_obey_that_of_the_gap():
 @pytest.fixture(scope="module")
 def export():
     study = outlook_energy.studies("small")[0]
-    parameters = study.parameters | {"points": 32, "shortest": 1 / 8, "loads": 9, "highest_force": 1.0}
+    parameters = study.parameters | {"points": 32, "short_cutoff": 1 / 8, "loads": 9, "highest_force": 1.0}
     return exported(Study(**(dict(study) | {"samples": 2, "parameters": parameters})), seconds=True)
 
 

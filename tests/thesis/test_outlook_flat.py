@@ -20,7 +20,7 @@ RMS = 0.01
 @pytest.fixture(scope="module")
 def export():
     (study,) = outlook_flat.studies("small")
-    parameters = study.parameters | {"points": 64, "shortest": 1 / 32, "loads": 7, "lowest_force": 0.01}
+    parameters = study.parameters | {"points": 64, "short_cutoff": 1 / 32, "loads": 7, "lowest_force": 0.01}
     rows = [row for row in study.rows if min(row.values()) >= 1 / 8]
     given = {"samples": 2, "parameters": parameters, "rows": rows}
     return exported(Study(**(dict(study) | given)), seconds=True)
@@ -100,10 +100,10 @@ def linear(rate, exponent=1.0):
         },
         {
             "periodic": [False, True],
-            "cutoff": ("row", [*rows[:5], *[np.nan] * 3]),
+            "long_cutoff": ("row", [*rows[:5], *[np.nan] * 3]),
             "rolloff": ("row", [*[np.nan] * 5, *rows[5:]]),
             "points": points,
-            "shortest": 4 / points,
+            "short_cutoff": 4 / points,
             "sample": np.arange(4),
         },
     )

@@ -24,17 +24,17 @@ def test_the_rows_are_ceilings_then_waves_and_one_ceiling_for_all_of_them():
     for scale, points in (("small", 128), ("thesis", 256)):
         (study,) = outlook_hardness.studies(scale)
         last = points // 4
-        assert study.rows[0] == {"shortest": 1 / last}
+        assert study.rows[0] == {"short_cutoff": 1 / last}
         assert [row["relative_hardness"] for row in study.rows[1:6]] == list(outlook_hardness.CEILINGS)
         grid = rc.Grid((points, points), 1 / points)
         pressures = []
         for row in study.rows[6:]:
-            spectrum = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_cutoff=row["shortest"])
-            slope = rc.grid_moments(spectrum, grid).rms_slope
+            spectrum = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_cutoff=row["short_cutoff"])
+            slope = rc.grid_moments(grid, spectrum).rms_slope
             if "relative_hardness" in row:
                 pressures.append(row["relative_hardness"] * slope)  # of one spectrum, over E*
         whole = rc.SelfAffineSpectrum(outlook_hardness.HURST, short_cutoff=1 / last)
-        given = outlook_hardness.GIVEN * rc.grid_moments(whole, grid).rms_slope
+        given = outlook_hardness.GIVEN * rc.grid_moments(grid, whole).rms_slope
         np.testing.assert_allclose(pressures, given, rtol=1e-12)
         assert len(pressures) == len(study.rows[6:]) / 2
 

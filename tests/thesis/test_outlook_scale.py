@@ -35,7 +35,7 @@ def export(growth=0.0, steepness=0.0, samples=4):
             "hurst": HURST,
             "row": np.arange(4),
             "points": ("row", points),
-            "shortest": ("row", 1 / waves),
+            "short_cutoff": ("row", 1 / waves),
             "drawn_on": 128,
             "sample": np.arange(samples),
         },
@@ -63,7 +63,7 @@ def test_the_longest_octave_is_that_of_the_waves_between_l_and_half_of_it():
     grid = rc.Grid((128, 128), 1 / 128)
     for hurst in HURST:
         long, all_waves, few = (
-            rc.grid_moments(rc.SelfAffineSpectrum(hurst, short_cutoff=each), grid).rms_height
+            rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=each)).rms_height
             for each in (1 / 2, 1 / 32, 1 / 8)
         )
         one = octave.sel(hurst=hurst)

@@ -53,9 +53,9 @@ ConductivityOption = Annotated[
 
 
 class Share(StrEnum):
-    """Which resistance: that of the whole contact, or of the interface alone."""
+    """Which resistance: the total one of the contact, or that of the interface alone."""
 
-    WHOLE = "whole"
+    TOTAL = "total"
     INTERFACE = "interface"
 
 
@@ -91,10 +91,8 @@ def conductance(
     conductivity: ConductivityOption = None,
     of: Annotated[
         Share,
-        typer.Option(
-            help="Resistance of the whole contact, the constriction towards it included, or of the interface alone."
-        ),
-    ] = Share.WHOLE,
+        typer.Option(help="Total resistance, macro-constriction included, or that of the interface alone."),
+    ] = Share.TOTAL,
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
@@ -108,8 +106,7 @@ def conductance(
         path = file / "curve.nc" if file.is_dir() else file
         with output(out) as folder:
             curve = _read(path)
-            stiffness = "stiffness" if of is Share.WHOLE else "interfacial_stiffness"
-            answer = with_conductance(curve, conductors, stiffness)
+            answer = with_conductance(curve, conductors, of.value)
             names = ["force", *(name for name in COLUMNS if name in answer)]
             if folder is not None:
                 _write(answer, names, folder)

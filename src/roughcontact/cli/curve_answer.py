@@ -155,7 +155,10 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
     facts = [
-        ("saturation", f"{quantity('saturation', curve.saturation)}, every measured cell in contact"),
+        (
+            "full-contact stiffness",
+            f"{quantity('full_contact_stiffness', curve.full_contact_stiffness)}, every measured cell in contact",
+        ),
         ("largest certificate", f"{curve.residual.max():.1e}"),
     ]
     if law is not None:

@@ -21,7 +21,7 @@ __all__ = ["EXAMPLES", "prepare"]
 
 EXAMPLES = """Examples:
 
-roughcontact surface prepare part.x3p flat.npz --level plane --long 0.8mm
+roughcontact surface prepare part.x3p flat.npz --level plane --long-cutoff 0.8mm
 
 roughcontact surface prepare part.x3p small.x3p --crop 100:612,0:512 --fill --downsample 2
 
@@ -54,10 +54,10 @@ TipOption = Annotated[
     str | None, _step("5. What a tip of this radius records; a large one takes long.", "2um")
 ]
 TipShapeOption = Annotated[TipShape | None, _step("5. Shape of its end (default: sphere).")]
-ShortOption = Annotated[
+ShortCutoffOption = Annotated[
     str | None, _step("6. Gaussian filter: take out waves shorter than this (S-filter).", "10um")
 ]
-LongOption = Annotated[
+LongCutoffOption = Annotated[
     str | None, _step("6. Gaussian filter: take out waves longer than this (L-filter).", "1mm")
 ]
 AverageOption = Annotated[int | None, _step("7. Average over pixels of K x K cells, as a camera does.", "K")]
@@ -83,8 +83,8 @@ def prepare(
     fill: FillOption = False,
     tip: TipOption = None,
     tip_shape: TipShapeOption = None,
-    short: ShortOption = None,
-    long: LongOption = None,
+    short_cutoff: ShortCutoffOption = None,
+    long_cutoff: LongCutoffOption = None,
     average: AverageOption = None,
     downsample: DownsampleOption = None,
     alias: AliasOption = False,
@@ -103,7 +103,19 @@ def prepare(
     with reported(file, out):
         require_output(out, file)
         wishes = Wishes(
-            crop, level, form, fill, tip, tip_shape, short, long, average, downsample, alias, window, share
+            crop,
+            level,
+            form,
+            fill,
+            tip,
+            tip_shape,
+            short_cutoff,
+            long_cutoff,
+            average,
+            downsample,
+            alias,
+            window,
+            share,
         )
         wanted = steps(wishes)
         surface = options.Reading(file, channel, unit, size, None, periodic).map_or_line()

@@ -38,7 +38,9 @@ _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against t
 _COARSE = 20.0  # of the table and the moments
 _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
 _UNITS = {
-    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", "rolloff", "cutoff", "short_end"), "m"),
+    **dict.fromkeys(
+        ("rms", "rms_in_band", "longest", "shortest", "rolloff", "long_cutoff", "short_cutoff"), "m"
+    ),
     **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
     **dict.fromkeys(
         ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
@@ -52,7 +54,7 @@ class Limit(StrEnum):
     AUTO = "auto"
     NONE = "none"
     ROLLOFF = "rolloff"
-    CUTOFF = "cutoff"
+    LONG_CUTOFF = "long_cutoff"
 
 
 class Direction(StrEnum):
@@ -180,7 +182,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 
     import roughcontact as rc
 
-    moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), spectrum.q_min, spectrum.q_max)
+    moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
     values = {
         "hurst": law.hurst,
         "standard_error": law.standard_error,
@@ -188,8 +190,8 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         "longest": 2 * math.pi / spectrum.q_min,
         "shortest": 2 * math.pi / spectrum.q_max,
         "rolloff": law.rolloff,
-        "cutoff": law.long_cutoff,
-        "short_end": law.short_cutoff,
+        "long_cutoff": law.long_cutoff,
+        "short_cutoff": law.short_cutoff,
         "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
         "rms_in_band": moments.rms_height,
         "rms_slope": moments.rms_slope,
@@ -215,7 +217,11 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
     ends = [
         (name.replace("_", " "), quantity("lengths", record[key]))
-        for name, key in (("roll-off", "rolloff"), ("cut-off", "cutoff"), ("short end", "short_end"))
+        for name, key in (
+            ("roll-off", "rolloff"),
+            ("long cut-off", "long_cutoff"),
+            ("short cut-off", "short_cutoff"),
+        )
         if record[key] is not None
     ]
     band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"

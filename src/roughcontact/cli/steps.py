@@ -158,7 +158,10 @@ def _tip(text: str | None, shape: TipShape | None) -> Step | None:
 def _filter(short: str | None, long: str | None) -> Step | None:
     cutoffs = {
         name: parse(text, LENGTH, option)
-        for name, text, option in (("short_cutoff", short, "--short"), ("long_cutoff", long, "--long"))
+        for name, text, option in (
+            ("short_cutoff", short, "--short-cutoff"),
+            ("long_cutoff", long, "--long-cutoff"),
+        )
         if text is not None
     }
     return Step("Filtering", lambda surface: _filtered(surface, cutoffs)) if cutoffs else None
@@ -169,7 +172,7 @@ def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
     if short is not None and short >= longest:
         # Most likely a unit was forgotten: nothing but the mean would be left.
         raise UsageError(
-            f"--short: a cut-off of {quantity('lengths', short)} leaves nothing of a map of "
+            f"--short-cutoff: a cut-off of {quantity('lengths', short)} leaves nothing of a map of "
             f"{quantity('lengths', longest)}; give its unit, such as 10um"
         )
     return surface.filtered(**cutoffs)

@@ -49,8 +49,8 @@ NewSizeOption = Annotated[
 PointsOption = Annotated[str, typer.Option(metavar="512", help="Points a side, or rows x columns.")]
 SeedOption = Annotated[str, typer.Option(metavar="1", help="Seed of the random phases.")]
 RolloffOption = Annotated[str | None, typer.Option(metavar="100um", help="Longer waves lie on a plateau.")]
-CutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
-ShortOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
+LongCutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
+ShortCutoffOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
 MakePeriodicOption = Annotated[bool, typer.Option("--periodic", help="For a surface that repeats itself.")]
 NodalOption = Annotated[
     bool, typer.Option("--nodal", help="Repeat the first row and column at the end: grids of 2^m + 1 points.")
@@ -95,8 +95,8 @@ def make(
     points: PointsOption = "512",
     seed: SeedOption = "1",
     rolloff: RolloffOption = None,
-    cutoff: CutoffOption = None,
-    short: ShortOption = None,
+    long_cutoff: LongCutoffOption = None,
+    short_cutoff: ShortCutoffOption = None,
     periodic: MakePeriodicOption = False,
     nodal: NodalOption = False,
     json: options.JsonOption = False,
@@ -112,9 +112,10 @@ def make(
         require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
         height, exponent = parse(rms, LENGTH, "--rms"), parse_number(hurst, "--hurst", "0.8")
         chosen = parse_seed(seed, "--seed")
+        given = {"rolloff": rolloff, "long_cutoff": long_cutoff, "short_cutoff": short_cutoff}
         waves = {
-            name: parse(text, LENGTH, f"--{name}")
-            for name, text in (("rolloff", rolloff), ("cutoff", cutoff), ("short", short))
+            name: parse(text, LENGTH, f"--{name.replace('_', '-')}")
+            for name, text in given.items()
             if text is not None
         }
         surface = rc.self_affine(
@@ -122,10 +123,10 @@ def make(
             exponent,
             height,
             np.random.default_rng(chosen),
-            rolloff=waves.get("rolloff"),
-            long_cutoff=waves.get("cutoff"),
-            short_cutoff=waves.get("short"),
             nodal=nodal,
+            rolloff=waves.get("rolloff"),
+            long_cutoff=waves.get("long_cutoff"),
+            short_cutoff=waves.get("short_cutoff"),
         )
         recipe = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
         made = f"made by roughcontact {rc.__version__}: {recipe}"

@@ -15,9 +15,9 @@ from roughcontact.halfspace.operators.build import half_space
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
-from roughcontact.material import Solid, number
+from roughcontact.material import Solid
 from roughcontact.solver.subdomain import bounding_box
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, scalar
 
 __all__ = [
     "StressPeak",
@@ -76,27 +76,58 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     Returns
     -------
     Stress
-        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)``, positive in tension; `von_mises`, `principal`,
+        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)`` [Pa], positive in tension; `von_mises`, `principal`,
         `largest_shear`.
 
     Raises
     ------
     ValueError
         If the solution is not that of a half-space under a surface, or depth or Poisson's ratio make no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> stress = rc.below(solution, 2e-6, rc.Solid(1e9, 0.3))
+    >>> f"{stress.von_mises.max() / 1e6:.1f} MPa"
+    '16.5 MPa'
     """
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
 @numeric
 def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
-    """Return the displacements at a depth, or at several, below a solved contact, as `below`.
+    """Return the displacements at a depth, or at several, below a solved contact.
 
     Of two bodies in contact it is the one that is given: their displacements add up to that of the surface.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a half-space under a surface, free or periodic along both axes.
+    depth : float or array, shape (nz,)
+        Depth below the surface [m], 0 or more.
+    solid : Solid
+        The body whose displacements are wanted, not rigid.
+
+    Returns
+    -------
+    Displacement
+        Arrays of shape ``(ny, nx)``, or ``(nz, ny, nx)`` [m].
 
     Raises
     ------
     ValueError
-        As `below`, if the solid is rigid, or the solution periodic along one axis only.
+        As for `below`, if the solid is rigid, or the solution periodic along one axis only.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> rc.displacement_below(solution, [0.0, 3e-6], rc.Solid(1e9, 0.3)).z.shape
+    (2, 32, 32)
     """
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
@@ -105,18 +136,34 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
 def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     """Return the largest equivalent stress of von Mises below a solved contact, and where it is.
 
-    Depths from half a cell to the extent of the contact are looked at in steps, those next to the best one closer
+    Depths from half a cell to the extent of the contact are searched in steps, those next to the best one closer
     until the depth is known to a thousandth. Sideways the answer is that of a cell.
 
     Parameters
     ----------
-    solution, solid
-        As of `below`.
+    solution : Solution
+        Of a half-space under a surface, free or periodic.
+    solid : Solid or float
+        The body whose stresses are wanted, or its Poisson's ratio.
+
+    Returns
+    -------
+    StressPeak
+        The stress [Pa], its depth and its place.
 
     Raises
     ------
     ValueError
-        As `below`, or if nothing is in contact.
+        As for `below`, or if nothing is in contact.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> peak = rc.largest_von_mises(solution, 0.3)
+    >>> f"{peak.depth * 1e6:.1f} um below the surface"
+    '2.0 um below the surface'
     """
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
@@ -168,7 +215,7 @@ def half_space_grid(solution: Solution) -> Grid:
 
 def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
-    return solid.poisson_ratio if isinstance(solid, Solid) else number("Poisson's ratio", solid)
+    return solid.poisson_ratio if isinstance(solid, Solid) else scalar(solid, "Poisson's ratio")
 
 
 def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:

@@ -69,7 +69,18 @@ class Comparison:
     predicted: Mapping[str, Array]
 
     def ratio(self, quantity: str) -> Array:
-        """Return predicted over computed, shape (n,); NaN where either is missing or nothing is computed."""
+        """Return predicted over computed values.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        array, shape (n,)
+            NaN where either is missing or the computed value is zero.
+        """
         computed = self.computed[quantity]
         there = np.isfinite(computed) & (computed != 0)
         return np.asarray(
@@ -77,20 +88,45 @@ class Comparison:
         )
 
     def deviation(self, quantity: str) -> float:
-        """Return the root mean square of ln(predicted/computed) over the `common` loads; NaN without any.
+        """Return the root mean square of ln(predicted/computed) over the `common` loads.
 
-        0.1 is about ten per cent.
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        float
+            0.1 is about ten per cent; NaN without a common load.
         """
         ratio = self.ratio(quantity)[self.common(quantity)]
         return float(np.sqrt(np.mean(np.log(ratio) ** 2))) if ratio.size else float("nan")
 
     def common(self, quantity: str) -> npt.NDArray[np.bool_]:
-        """Return the mask of the resolved loads at which the theory holds and both are above zero, shape (n,)."""
+        """Return the loads at which the two are compared.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        bool array, shape (n,)
+            True where the load is resolved, the theory holds and both values are positive.
+        """
         ratio = self.ratio(quantity)
         return np.asarray(self.resolved & np.isfinite(ratio) & (ratio > 0))
 
     def words(self) -> str:
-        """Return the deviation of every quantity, and on how many of the resolved loads it rests where not on all."""
+        """Return the deviations as a text.
+
+        Returns
+        -------
+        str
+            The deviation of every quantity, and on how many of the resolved loads it rests where not on all.
+        """
         resolved, parts = int(self.resolved.sum()), []
         for name in self.predicted:
             count = int(self.common(name).sum())
@@ -100,7 +136,13 @@ class Comparison:
         return ", ".join(parts) or "nothing in common"
 
     def to_record(self) -> dict[str, Any]:
-        """Return the comparison as plain values, for JSON; None where there is no number."""
+        """Return the comparison as plain values, for JSON; None where there is no number.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         return {
             "theory": self.name,
             "source": self.source,

@@ -10,11 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
-from roughcontact.contact.dataset import check_conducting
+from roughcontact.contact.dataset import check_conducting, stiffness_for
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 __all__ = ["Conductors", "conductance"]
 
@@ -69,7 +69,7 @@ def conductance(
     *,
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
-    of: Literal["stiffness", "interfacial_stiffness"] = "stiffness",
+    of: Literal["total", "interface"] = "total",
 ) -> dict[str, Array]:
     """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
@@ -80,9 +80,9 @@ def conductance(
         way conduct like the others.
     resistivities, conductivities : tuple of float
         At least one of the two, see `Conductors`.
-    of : {"stiffness", "interfacial_stiffness"}
-        The conductance of the whole, the constriction towards the contact as a whole included, as two half-spaces
-        have it; or the share of the interface, against the mean gap.
+    of : {"total", "interface"}
+        The total conductance of two half-spaces, the macro-constriction towards the contact included, from the
+        stiffness; or that of the interface alone, from the interfacial stiffness.
 
     Returns
     -------
@@ -94,12 +94,20 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense, the contact is that of a line, whose conductance per length hangs on the
-        reference length, or of a curve under a hardness, whose stiffness leaves out cells that conduct.
+        If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
+        reference length, or if it is a curve under a hardness, whose stiffness leaves out cells that conduct.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8))
+    >>> f"{copper['electrical_resistance'] * 1e3:.1f} mOhm"
+    '2.0 mOhm'
     """
     materials = Conductors(resistivities, conductivities)
-    if of not in ("stiffness", "interfacial_stiffness"):
-        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")
+    stiffness = stiffness_for(of)
     if not isinstance(contact, Curve | Solution):
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
@@ -110,4 +118,4 @@ def conductance(
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
     check_conducting(scales.geometry, scales.hardness < math.inf)
-    return materials.of(np.asarray(getattr(contact, of), dtype=np.float64), scales.modulus)
+    return materials.of(np.asarray(getattr(contact, stiffness), dtype=np.float64), scales.modulus)

@@ -14,13 +14,13 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law, compared
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.stiffness import cell_stiffness, is_resolved, saturation
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness, is_resolved
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.status import Status
 from roughcontact.statistics.power_law import PowerLaw, fit_power_law
-from roughcontact.theory.tools.domain import number
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     import xarray
@@ -56,7 +56,7 @@ class Curve:
     rms : float
         Root mean square height of the surface [m].
     periodic : tuple of bool
-    cell_stiffness, saturation : float
+    cell_stiffness, full_contact_stiffness : float
         Stiffness of one cell, and of all measured cells in contact [N/m].
     nominal_area : float
         Area of all cells [m^2], of rings about a hole without it; length of a line [m].
@@ -83,7 +83,7 @@ class Curve:
     rms: float
     periodic: tuple[bool, ...]
     cell_stiffness: float
-    saturation: float
+    full_contact_stiffness: float
     nominal_area: float
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
@@ -93,11 +93,11 @@ class Curve:
 
     @property
     def resolved(self) -> npt.NDArray[np.bool_]:
-        """Mask of points above the one-cell artefact, below saturation, and solved to their tolerance."""
+        """Mask of points between the one-cell artefact and full contact, solved to their tolerance."""
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
         if self.geometry is Geometry.LINE:
             return solved & is_resolved(self.contact_area, self.spacing[0], self.lengths[0])
-        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.saturation)
+        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.full_contact_stiffness)
 
     @property
     def length(self) -> float:
@@ -137,18 +137,24 @@ class Curve:
         return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=depth > 0))
 
     def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
-        """Return the power law k ~ F^alpha (thesis, eq. 4.53) through the points of a window of force.
+        """Return the power law k ~ F^alpha through the points of a window of force (thesis, eq. 4.53).
 
         Parameters
         ----------
         window : tuple of float, optional
-            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07,
-            on a line all.
+            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07,
+            on a line all resolved points.
+
+        Returns
+        -------
+        PowerLaw
+            Exponent, prefactor and scatter, from least squares of the logarithms.
 
         Raises
         ------
         ValueError
-            If the window is none, or fewer than three points lie in it; the message names forces that would.
+            If the window is not a force and a larger one, or fewer than three points lie in it; the message names
+            forces that have more.
         """
         if window is None:
             limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
@@ -169,19 +175,24 @@ class Curve:
         )
 
     def compare(self, theory: Law, quantities: Sequence[str] | None = None) -> Comparison:
-        """Return what a theory says at the loads of this curve, beside what was computed.
+        """Return what a theory predicts at the loads of this curve, beside what was computed.
 
         Parameters
         ----------
         theory : Law
             For example ``rc.theory.persson.law(...)``, or one of `rc.loading_laws`.
         quantities : sequence of str, optional
-            Names of quantities of this curve; without, all that the theory speaks of.
+            Names of quantities of this curve; by default all that the theory predicts.
+
+        Returns
+        -------
+        Comparison
+            Computed and predicted values at every load, and their ratio.
 
         Raises
         ------
         ValueError
-            If a quantity is none of the curve's, or the theory says nothing about it.
+            If this is the curve of a line contact, has no such quantity, or the theory does not predict it.
         """
         return compared(self, theory, quantities)
 
@@ -206,13 +217,25 @@ class Curve:
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an `xarray.Dataset` with units and long names."""
+        """Return the curve as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.contact.dataset import curve_dataset
 
         return curve_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
-        """Return the curve as plain values, for JSON."""
+        """Return the curve as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.contact.dataset import curve_record
 
         return curve_record(self)
@@ -251,7 +274,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
         # A thousandth in the displacement is enough for a limit of nine tenths.
-        saturation=saturation(problem),
+        full_contact_stiffness=full_contact_stiffness(problem),
         nominal_area=problem.grid.area,
         geometry=problem.geometry,
         hardness=problem.hardness,

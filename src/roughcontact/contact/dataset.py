@@ -26,6 +26,7 @@ __all__ = [
     "plain_values",
     "solution_dataset",
     "solution_record",
+    "stiffness_for",
     "with_conductance",
     "with_theories",
 ]
@@ -45,7 +46,7 @@ _CURVE_POINTS = (
     "stiffness_residual",
     "resolved",
 )
-_CURVE_SCALES = ("modulus", "rms", "saturation", "cell_stiffness", "nominal_area")
+_CURVE_SCALES = ("modulus", "rms", "full_contact_stiffness", "cell_stiffness", "nominal_area")
 _SOLUTION_MAPS = ("pressure", "displacement", "gap", "contact")
 _SOLUTION_SCALARS = (
     "force",
@@ -140,9 +141,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     return record | {"geometry": kind.value, "units": units_of(record, kind)}
 
 
-def with_conductance(
-    dataset: xarray.Dataset, conductors: Conductors, of: str = "stiffness"
-) -> xarray.Dataset:
+def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = "total") -> xarray.Dataset:
     """Return the dataset of a curve with what it conducts as further columns along ``load``.
 
     Parameters
@@ -151,7 +150,7 @@ def with_conductance(
         As `curve_dataset` makes it, or as it was read from a file.
     conductors : Conductors
         The two bodies.
-    of : {"stiffness", "interfacial_stiffness"}
+    of : {"total", "interface"}
         See `roughcontact.conductance`.
 
     Raises
@@ -159,14 +158,27 @@ def with_conductance(
     ValueError
         If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
     """
-    if of not in ("stiffness", "interfacial_stiffness"):
-        raise ValueError(f"of must be 'stiffness' or 'interfacial_stiffness', not {of!r}")
-    missing = [name for name in ("force", of, "modulus") if name not in dataset]
-    if missing or dataset[of].dims != ("load",):
+    stiffness = stiffness_for(of)
+    missing = [name for name in ("force", stiffness, "modulus") if name not in dataset]
+    if missing or dataset[stiffness].dims != ("load",):
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
     check_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
-    found = conductors.of(dataset[of].to_numpy(), float(dataset["modulus"]))
+    found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
     return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
+
+
+def stiffness_for(of: str) -> str:
+    """Return the name of the stiffness that a conductance follows from.
+
+    Raises
+    ------
+    ValueError
+        If `of` is neither "total" nor "interface".
+    """
+    names = {"total": "stiffness", "interface": "interfacial_stiffness"}
+    if of not in names:
+        raise ValueError(f"of must be 'total' or 'interface', not {of!r}")
+    return names[of]
 
 
 def check_conducting(geometry: Geometry, yielding: bool) -> None:

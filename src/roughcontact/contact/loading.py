@@ -13,7 +13,7 @@ from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.solve import lock, solve_state
-from roughcontact.contact.stiffness import FrozenContact, frozen_contact, yields_not
+from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -21,9 +21,8 @@ from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.state import Solver, Tangent
-from roughcontact.solver.subdomain import Windows, embed, take
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
+from roughcontact.validation import number, numeric
 
 __all__ = ["loading_curve", "loading_path", "suggested_forces"]
 
@@ -104,8 +103,8 @@ def loading_curve(
 def suggested_forces(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
-    count: int = 30,
     *,
+    count: int = 30,
     operator: Operator | None = None,
 ) -> Array:
     """Return forces [N] over the range in which a rough surface is worth looking at.
@@ -133,19 +132,19 @@ def suggested_forces(
 
 
 def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
-    windows = Windows(problem.operator)
+    subdomains = SubdomainSolver(problem.operator)
     guess: tuple[Array, float] | None = None
     last: Tangent | None = None
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here = problem.under(control)
-        state, place = solve_state(here, solver, guess, windows)
+        state, subdomain = solve_state(here, solver, guess, subdomains)
         shape = problem.grid.shape
         frozen = frozen_contact(
-            windows.part(place),
-            yields_not(state.pressure, problem.hardness),
-            tangent=state.tangent or (last and Tangent(take(last.pressure, place), math.inf)),
+            subdomains.operator_on(subdomain),
+            elastic_contact(state.pressure, problem.hardness),
+            tangent=state.tangent or (last and Tangent(restrict(last.pressure, subdomain), math.inf)),
         )
-        pressure = embed(state.pressure, place, shape)
+        pressure = prolong(state.pressure, subdomain, shape)
         lock(pressure)
         solution = Solution(
             here,
@@ -154,7 +153,7 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
             state.status,
             state.residual,
             state.steps,
-            FrozenContact(frozen.stiffness, frozen.residual, embed(frozen.tangent, place, shape)),
+            FrozenContact(frozen.stiffness, frozen.residual, prolong(frozen.tangent, subdomain, shape)),
         )
         # That of another region: where to start. That of a whole period is infinite.
         last = Tangent(solution.frozen.tangent, math.inf) if solution.stiffness < math.inf else None
@@ -167,7 +166,7 @@ def _follow(problem: ContactProblem, controls: list[Control], solver: Solver) ->
                 guess = pressure, state.depth
             else:  # on the window alone: the plane is large
                 moved = state.pressure + advance * frozen.tangent
-                guess = embed(moved, place, shape), state.depth + advance
+                guess = prolong(moved, subdomain, shape), state.depth + advance
 
 
 def _advance(solution: Solution, following: Control) -> float | None:

@@ -11,28 +11,28 @@ import numpy.typing as npt
 from roughcontact.arrays import is_numpy, largest, namespace, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.notes import notes_on
+from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.stiffness import (
     CELLS,
     FrozenContact,
     cell_stiffness,
+    elastic_contact,
     frozen_contact,
+    full_contact_stiffness,
     is_resolved,
-    saturation,
-    yields_not,
 )
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.halfspace.operators.operator import exact_of, is_positive
+from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.solver.optimality import UNITS
 from roughcontact.solver.status import Status
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     import xarray
@@ -136,7 +136,7 @@ class Solution:
         """The response of the contact region as it is, displaced as one."""
         if self._frozen is not None:
             return self._frozen
-        return frozen_contact(self.problem.operator, yields_not(self.pressure, self.problem.hardness))
+        return frozen_contact(self.problem.operator, elastic_contact(self.pressure, self.problem.hardness))
 
     @property
     def stiffness(self) -> float:
@@ -165,7 +165,7 @@ class Solution:
         """
         if not bool(namespace(self.touching).any(self.touching)):
             return self.stiffness
-        region = yields_not(self.pressure, self.problem.hardness) | self.touching
+        region = elastic_contact(self.pressure, self.problem.hardness) | self.touching
         return frozen_contact(self.problem.operator, region).stiffness
 
     @cached_property
@@ -229,10 +229,10 @@ class Solution:
 
     @cached_property
     def resolved(self) -> bool:
-        """Whether the stiffness stands above the one-cell artefact and below saturation."""
+        """Whether the stiffness stands above the one-cell artefact and below the full-contact stiffness."""
         size, cell = self._size_and_cell
         line = self.problem.geometry is Geometry.LINE
-        whole = self.problem.grid.lengths[0] if line else saturation(self.problem)
+        whole = self.problem.grid.lengths[0] if line else full_contact_stiffness(self.problem)
         return bool(is_resolved(np.asarray(size), cell, whole))
 
     @property
@@ -312,13 +312,13 @@ class Solution:
         No cell is displaced by more than the depth. Where the body may bulge, measured cells do so by no more than
         their separation, and missing cells by any amount.
         """
-        if is_positive(self.problem.operator):
+        if capabilities(self.problem.operator).positive:
             return self.depth
         return max(self.depth, float(namespace(self.pressure).max(self.problem.separation)))
 
     def _mean_opening(self, opening: Array) -> float:
         """Mean over the measured cells of a field that is about zero in contact, by the open cells alone."""
-        problem, closed = self.problem, yields_not(self.pressure, self.problem.hardness)
+        problem, closed = self.problem, elastic_contact(self.pressure, self.problem.hardness)
         return mean_opening(exact_of(problem.operator), opening, closed, problem.measured)
 
     @one_blas_thread()

@@ -10,10 +10,10 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Depth
-from roughcontact.solver.nested_iteration import coarse_guess
+from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.state import Solver, State
 from roughcontact.solver.status import Status
-from roughcontact.solver.subdomain import Place, Windows, embed
+from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["lock", "solve", "solve_state"]
@@ -26,7 +26,7 @@ def solve(
     *,
     solver: Solver | None = None,
     initial: tuple[Array, float] | None = None,
-    windows: Windows | None = None,
+    subdomains: SubdomainSolver | None = None,
 ) -> Solution:
     """Return the solution of a contact problem; its status says whether the tolerance was met.
 
@@ -37,26 +37,28 @@ def solve(
         Settings of the method; the active set without.
     initial : tuple of array and float, optional
         Pressure [Pa] on the whole grid and depth [m] to start from; without, coarser grids are solved first.
-    windows : Windows, optional
+    subdomains : SubdomainSolver, optional
         Keeps restricted operators from one load to the next.
     """
-    state, place = solve_state(problem, solver or ActiveSet(), initial, windows or Windows(problem.operator))
-    pressure = embed(state.pressure, place, problem.grid.shape)
+    state, subdomain = solve_state(
+        problem, solver or ActiveSet(), initial, subdomains or SubdomainSolver(problem.operator)
+    )
+    pressure = prolong(state.pressure, subdomain, problem.grid.shape)
     lock(pressure)
     return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
 
 
 def solve_state(
-    problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, windows: Windows
-) -> tuple[State, Place]:
+    problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, subdomains: SubdomainSolver
+) -> tuple[State, Subdomain]:
     """Return the solver's last state on its window, and where that lies."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
         raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
     if isinstance(problem.control, Depth) and problem.control.value == 0:
         return _untouched(problem)
     with one_blas_thread():
-        guess = initial or coarse_guess(problem.operator, problem.separation, problem.control, solver)
-        return windows.solve(solver, problem.separation, problem.terms, guess)
+        guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)
+        return subdomains.solve(solver, problem.separation, problem.terms, guess)
 
 
 def lock(pressure: Array) -> None:
@@ -65,7 +67,7 @@ def lock(pressure: Array) -> None:
         pressure.flags.writeable = False
 
 
-def _untouched(problem: ContactProblem) -> tuple[State, Place]:
+def _untouched(problem: ContactProblem) -> tuple[State, Subdomain]:
     """At depth 0 the bodies touch and carry nothing."""
     shape = problem.grid.shape
     zero = namespace(problem.separation).zeros_like(problem.separation)

@@ -16,28 +16,27 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of, is_sem
 from roughcontact.material import Solid
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.prescribed import prescribe
-from roughcontact.solver.region import checked_region
+from roughcontact.solver.prescribed import checked_region, prescribe
 from roughcontact.solver.state import Tangent
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = [
     "CELLS",
-    "SATURATED",
+    "FULL_CONTACT_SHARE",
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
+    "elastic_contact",
     "frozen_contact",
+    "full_contact_stiffness",
     "is_resolved",
-    "saturation",
-    "yields_not",
 ]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-SATURATED = 0.9  # above this part of the saturation the finite size speaks (eq. 4.14)
+FULL_CONTACT_SHARE = 0.9  # above this part of the full-contact stiffness the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -60,7 +59,7 @@ class FrozenContact:
     tangent: Array
 
 
-def yields_not(pressure: Array, hardness: float) -> Mask:
+def elastic_contact(pressure: Array, hardness: float) -> Mask:
     """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
     return (pressure > 0) & (pressure < hardness)
 
@@ -132,8 +131,8 @@ def contact_stiffness(
 
 
 def is_resolved(size: Array, cell: float, whole: float) -> Mask:
-    """Return whether stiffnesses (of a line contact: widths) stand above a few cells and below saturation."""
-    return np.asarray((size >= CELLS * cell) & (size < SATURATED * whole))
+    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
+    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:
@@ -142,12 +141,12 @@ def cell_stiffness(operator: Operator) -> float:
     return float(np.ravel(operator.weights)[0]) / influence if influence > 0 else math.inf
 
 
-def saturation(problem: ContactProblem) -> float:
+def full_contact_stiffness(problem: ContactProblem) -> float:
     """Return the stiffness with all measured cells in contact [N/m]; infinite for a whole periodic surface.
 
     To a thousandth in the displacement: enough for a limit.
     """
     measured = namespace(problem.separation).isfinite(problem.separation)
     return problem.once(
-        "saturation", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
+        "full_contact_stiffness", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
     )

@@ -31,18 +31,18 @@ Array = npt.NDArray[np.float64]
 def loading_laws(
     surface: Surface, modulus: float | Solid | tuple[Solid, Solid], names: str | Sequence[str], **knowns: Any
 ) -> list[LoadingLaw]:
-    """Return theories of the contact of a surface, to be laid over its loading curve by `Curve.compare`.
+    """Return theories of the contact of a surface, to be compared with its loading curve by `Curve.compare`.
 
     Parameters
     ----------
     surface : Surface
-        Levelled, on a grid of two axes; missing points are filled for the spectrum.
+        Without tilt, on a grid of two axes; missing points are filled for the spectrum.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
         Of `roughcontact.theory.laws.LAWS`: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
-    **knowns
-        What is known better than the surface tells: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
+    **knowns : dict
+        What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
         ``radius``, see `roughcontact.theory.laws.SurfaceFacts`.
 
     Returns
@@ -54,12 +54,21 @@ def loading_laws(
     Raises
     ------
     ValueError
-        If a name is none, the surface is a line, or a theory needs what the surface does not tell.
+        If there is no theory of a name, the surface is a line, or a theory needs what the surface does not show.
 
     Notes
     -----
     Spectrum and moments are those of the very waves of a periodic surface; of a free one those of its power
     spectrum under a window, over the band to be relied upon. The Hurst exponent is fitted where none is given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((32, 32), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> [law.name for law in rc.loading_laws(surface, 1e9, ["persson", "gw"])]
+    ['Persson', 'Greenwood-Williamson']
     """
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise ValueError("these theories are about surfaces; give a grid of two axes")

@@ -29,8 +29,8 @@ def read(
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
     ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc`` and ``.sur`` are read
-    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A line scan is
-    refused: see `read_line`.
+    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a
+    profile is refused: see `read_line`.
 
     Parameters
     ----------
@@ -51,7 +51,8 @@ def read(
     Returns
     -------
     Surface
-        Not levelled; its provenance names the file, the format, the channel and the start of its SHA-256.
+        As measured, tilt included; its provenance names the file, the format, the channel and the start of its
+        SHA-256.
 
     Raises
     ------
@@ -65,6 +66,14 @@ def read(
     SurfaceWarning
         If several channels may be meant, or if the size or the heights are hardly those of a surface: lone
         spikes, slopes or heights beyond measure, random numbers.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> rc.write(ball, "ball.npz")
+    >>> rc.read("ball.npz").grid == ball.grid
+    True
     """
     return _read(path, height_map, 2, channel, unit, size, periodic)
 
@@ -77,18 +86,24 @@ def read_line(
     size: Size | None = None,
     periodic: bool | None = None,
 ) -> Surface:
-    """Return the line scan in a file as a surface on a grid of one axis, heights [m] of shape (n,).
+    """Return the profile in a file as a surface on a grid of one axis, heights [m] of shape (n,).
 
     Texts (``.txt``, ``.csv``, ``.tsv``, ``.asc``) hold one column of heights, or places and heights, under any
     lines of words; ``.npy``, ``.npz``, ``.nc``, ``.x3p`` (profiles) and ``.pro`` (Digital Surf) are read as well.
 
     Parameters
     ----------
-    path, channel, unit, periodic
-        As for `read`.
+    path : str or path
+        The file.
+    channel : str or int, optional
+        Name of the channel, or its position counted from 0, as for `read`.
+    unit : str or float, optional
+        Unit of the heights in the file, such as ``"nm"``, or metres per unit. It goes before what the file states.
     size : length, optional
-        Length of the line, ``n * spacing``: a number [m] or a text such as ``"10 um"``. It goes before what the
+        Length of the profile, ``n * spacing``: a number [m] or a text such as ``"10 um"``. It goes before what the
         file states.
+    periodic : bool, optional
+        Whether the profile repeats itself. Without it the file decides; one that is silent is read as free.
 
     Returns
     -------
@@ -106,6 +121,14 @@ def read_line(
     -----
     SurfaceWarning
         As for `read`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid(64, 1e-6), amplitude=1e-7, wavelength=32e-6)
+    >>> rc.write(wave, "wave.npz")
+    >>> rc.read_line("wave.npz").grid.lengths == wave.grid.lengths
+    True
     """
     return _read(path, line_scan, 1, channel, unit, size, periodic)
 

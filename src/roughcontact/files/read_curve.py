@@ -24,20 +24,38 @@ _POINTS = (
     *("force", "depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy"),
     *("residual", "stiffness_residual"),
 )
-_SCALES = ("modulus", "rms", "cell_stiffness", "saturation", "nominal_area")
+_SCALES = ("modulus", "rms", "cell_stiffness", "full_contact_stiffness", "nominal_area")
 _SIZES = ("lengths", "spacing", "periodic")
 _REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
 
 
 def read_curve(path: str | os.PathLike[str]) -> Curve:
-    """Return the loading curve in a ``.nc`` file that `write` made of it, to the last bit.
+    """Return the loading curve in a ``.nc`` file that `write` made of it.
 
     Columns that others have added to the file, such as theories and conductances, are passed over.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+
+    Returns
+    -------
+    Curve
+        To the last bit the one that was written.
 
     Raises
     ------
     ReadError
         If the file is missing, empty, damaged or holds no loading curve.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> rc.write(rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]), "curve.nc")
+    >>> len(rc.read_curve("curve.nc"))
+    2
     """
     file, data = content(path)
     if Path(path).suffix.casefold() != ".nc":

@@ -49,13 +49,22 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     what : Surface, Solution, TangentialSolution, Curve or SlipCurve
+        What is written.
     path : str or path
         File to write; one that is there is replaced.
 
     Raises
     ------
     WriteError
-        If the extension is none of these or not one for this value, or if the file cannot be written.
+        If the extension is not in the table or not for this value, or if the file cannot be written.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> rc.write(ball, "ball.npz")
+    >>> rc.read("ball.npz").grid == ball.grid
+    True
     """
     if isinstance(what, Surface):
         require_surface_file(path)

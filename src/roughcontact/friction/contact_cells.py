@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import beside, is_numpy, namespace
-from roughcontact.friction.selection import Selection
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.operator import self_influence
+from roughcontact.halfspace.operators.operator import exact_of, self_influence
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.halfspace.shear.shear_sums import DenseShear
 from roughcontact.solver.subdomain import bounding_box
+from roughcontact.validation import Array
 
-__all__ = ["Interface"]
+__all__ = ["ContactCells", "Selection"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+Cells = npt.NDArray[np.intp]
+Values = npt.NDArray[Any]
 
 # Up to so many cells a full matrix is made (32 MB of it) where it holds no more than a few numbers per cell of the
 # padded box, so that a product with it costs no more than the transforms.
@@ -28,7 +30,60 @@ NUMBERS = 10
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Interface:
+class Selection:
+    """The cells where a mask holds, in flat order.
+
+    Parameters
+    ----------
+    mask : bool array
+        Of any library; values and fields are arrays of the same.
+    cells : int array, shape (n,)
+        Their flat indices.
+    places : int array, shape (number of all cells,), or None
+        Where each cell stands in the list, n for one that does not; None on the host, which does without.
+    """
+
+    mask: Mask
+    cells: Cells
+    places: Cells | None
+
+    @classmethod
+    def of(cls, mask: Mask) -> Selection:
+        """Return the cells of a mask."""
+        if is_numpy(mask):
+            return cls(mask, np.flatnonzero(mask), None)
+        xp = namespace(mask)
+        flat = xp.reshape(mask, (-1,))
+        cells = xp.nonzero(flat)[0]
+        every = xp.arange(flat.shape[0], dtype=cells.dtype, device=mask.device)
+        return cls(mask, cells, xp.where(flat, xp.searchsorted(cells, every), cells.shape[0]))
+
+    @property
+    def count(self) -> int:
+        """Number of cells."""
+        return int(self.cells.shape[0])
+
+    def take(self, field: Values) -> Values:
+        """Return the values of a field of shape ``(k, *shape of the mask)`` on the cells, shape ``(k, n)``."""
+        xp = namespace(field)
+        return xp.take(xp.reshape(field, (field.shape[0], -1)), self.cells, axis=1)  # type: ignore[no-any-return]
+
+    def embed(self, values: Values) -> Values:
+        """Return the field of shape ``(k, *shape of the mask)`` with these values, shape (k, n), and zero elsewhere."""
+        k = values.shape[0]
+        if self.places is None:
+            field = np.zeros((k, self.mask.size), dtype=values.dtype)
+            field[:, self.cells] = values
+            return field.reshape(k, *self.mask.shape)
+        # No library but a few can write to a list of places, and all can read from one.
+        xp = namespace(values)
+        nothing = xp.zeros((k, 1), dtype=values.dtype, device=values.device)
+        field = xp.take(xp.concat([values, nothing], axis=1), self.places, axis=1)
+        return xp.reshape(field, (k, *self.mask.shape))  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactCells:
     """A list of cells under traction along given directions; fields on it have shape ``(k, n)``.
 
     Parameters
@@ -60,7 +115,7 @@ class Interface:
     @classmethod
     def of(
         cls, operator: ShearOperator, contact: Mask, along: tuple[float, float] | None = None
-    ) -> Interface:
+    ) -> ContactCells:
         """Return the interface of the `contact` cells of a grid, at least one; one component `along` a direction."""
         floating = bool(all(operator.grid.periodic) and namespace(contact).all(contact))
         basis = np.eye(2) if along is None else np.array([along])
@@ -74,8 +129,7 @@ class Interface:
                 cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
                 part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
         own = self_influence(part)
-        exact = getattr(part, "exact", None) or part
-        return cls(part, exact, Selection.of(region), basis, Selection.of(contact), floating, own)
+        return cls(part, exact_of(part), Selection.of(region), basis, Selection.of(contact), floating, own)
 
     @property
     def contact(self) -> Mask:

@@ -12,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, namespace, numbers
+from roughcontact.validation import Array
 
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "under_force", "violations", "within"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 AT_LIMIT = 1e-12  # part of the limit that is rounding: a traction as near to it is at it

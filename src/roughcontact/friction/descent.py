@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import inner
-from roughcontact.friction.slip_step import State, Step
+from roughcontact.friction.slip_step import SlipState, SlipStep
+from roughcontact.validation import Array
 
 __all__ = ["descended"]
-
-Array = npt.NDArray[np.float64]
 
 GRADIENT_STEPS = 3  # of a descent: enough to sort out who slips, and Newton's method is faster at the rest
 SUFFICIENT = 0.1  # part of what the slope promises that must come true
@@ -18,7 +14,7 @@ SHORTER, MUCH_SHORTER = 0.5, 0.1  # bounds of what a trial that went too far is 
 TRIALS = 20  # of a gradient step: what is wrong after so many is rounding
 
 
-def descended(step: Step, state: State, trial: State) -> tuple[State, int]:
+def descended(step: SlipStep, state: SlipState, trial: SlipState) -> tuple[SlipState, int]:
     """Return a state of lower energy than `state`, from which a `trial` went too far, and the products it took.
 
     First to the lowest point between the two, at no cost: whatever lies between is within the limits too, and the
@@ -48,14 +44,14 @@ def descended(step: Step, state: State, trial: State) -> tuple[State, int]:
     return state, steps
 
 
-def _between(state: State, other: State) -> tuple[float, float, float]:
+def _between(state: SlipState, other: SlipState) -> tuple[float, float, float]:
     """Return slope and curvature of the energy from one state to another, and the square of the way."""
     way = other.traction - state.traction
     curvature = inner(way, other.displacement - state.displacement)
     return inner(state.slipped, way), curvature, inner(way, way)
 
 
-def _mixed(state: State, other: State, part: float) -> tuple[Array, Array]:
+def _mixed(state: SlipState, other: SlipState, part: float) -> tuple[Array, Array]:
     """Return traction and displacement a part of the way from one state to another."""
     return (
         state.traction + part * (other.traction - state.traction),

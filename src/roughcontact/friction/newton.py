@@ -10,7 +10,7 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.friction.descent import descended
 from roughcontact.friction.slip_cg import Freedom, corrected
-from roughcontact.friction.slip_step import Slipped, State, Step
+from roughcontact.friction.slip_step import Slipped, SlipState, SlipStep
 from roughcontact.solver.status import Status
 
 __all__ = ["SlipNewton"]
@@ -38,7 +38,7 @@ class SlipNewton:
 
     max_steps: int = 5000
 
-    def run(self, step: Step) -> Slipped:
+    def run(self, step: SlipStep) -> Slipped:
         """Solve for the traction at the end of a step."""
         state, steps = step.state(step.admitted(step.traction)), 1
         least, lowest, idle = state.residual, math.inf, 0
@@ -66,7 +66,7 @@ class SlipNewton:
         return Slipped(state.traction, state.displacement, state.shift, state.residual, steps, status)
 
 
-def _guessed(step: Step, state: State, max_steps: int) -> tuple[State, int]:
+def _guessed(step: SlipStep, state: SlipState, max_steps: int) -> tuple[SlipState, int]:
     """Return where the guess leads that a state suggests, and the products it took."""
     xp, q, interface = namespace(state.traction), state.traction, step.interface
     forward = xp.sum(state.slipped * state.normal, axis=0)
@@ -84,6 +84,6 @@ def _guessed(step: Step, state: State, max_steps: int) -> tuple[State, int]:
     return step.state(admitted), change.steps + 1
 
 
-def _certified(step: Step, state: State, steps: int) -> tuple[State, int]:
+def _certified(step: SlipStep, state: SlipState, steps: int) -> tuple[SlipState, int]:
     """Return a state on a product of its own, and the products so far."""
     return (state, steps) if state.exact else (step.state(state.traction), steps + 1)

@@ -1,12 +1,11 @@
-"""The front door: pull at a pressed contact."""
+"""Tangential loading of a pressed contact: one load, or a sequence of loads."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers
 from roughcontact.contact.convergence import ConvergenceError
@@ -14,7 +13,6 @@ from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_problem import (
-    Bodies,
     Load,
     Pull,
     Shift,
@@ -24,15 +22,18 @@ from roughcontact.friction.slip_problem import (
     make_problem,
 )
 from roughcontact.friction.slip_solution import TangentialSolution
-from roughcontact.friction.slip_step import Slipped, Step
+from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array, number, numeric
 
-__all__ = ["advance", "slide"]
+__all__ = ["Loads", "advance", "load_cycle", "slide", "slide_path"]
 
-Array = npt.NDArray[np.float64]
+
+Loads = Sequence[Load] | Array
+"""Loads in the order of time: numbers along one direction, or pairs (x, y), one a row."""
 
 
 @numeric
@@ -50,7 +51,8 @@ def slide(
 ) -> TangentialSolution:
     """Pull at a pressed contact whose pressure is held, and return what sticks and what slips, with a certificate.
 
-    Done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of theirs.
+    The work is done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of
+    theirs.
 
     Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
     opposed to the traction at its end: exact where slip does not turn within the step, as from rest along a line, or
@@ -85,6 +87,7 @@ def slide(
     Returns
     -------
     TangentialSolution
+        Traction, displacement, stick and slip, with their certificate.
 
     Raises
     ------
@@ -92,6 +95,16 @@ def slide(
         If the input makes no sense; the message names the value and the remedy.
     ConvergenceError
         If the tolerance was missed. It carries the solution.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> state = rc.slide(pressed, rubber, friction=0.5, force=0.25e-3)  # half of what friction holds
+    >>> f"{state.slip_area / pressed.contact_area:.1f} of the contact slips"
+    '0.4 of the contact slips'
     """
     make = make_problem if initial is None else partial(continued, initial.problem)
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
@@ -101,6 +114,122 @@ def slide(
     if not answer.status.converged:
         raise ConvergenceError(answer)  # type: ignore[arg-type]  # it has all that the error tells
     return answer
+
+
+@numeric
+def slide_path(
+    solution: Solution,
+    bodies: Bodies,
+    *,
+    friction: float,
+    forces: Loads | None = None,
+    displacements: Loads | None = None,
+    along: Sequence[float] | None = None,
+    operator: ShearOperator | None = None,
+    tolerance: float = 1e-8,
+) -> Iterator[TangentialSolution]:
+    """Yield the state at every load, in order: the contact remembers where it has slipped.
+
+    Parameters
+    ----------
+    solution : Solution
+        The pressed contact, of a surface of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        Those it was pressed with; a single one against a rigid body.
+    friction : float
+        Coefficient of friction mu.
+    forces, displacements : array, shape (n,) or (n, 2)
+        Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+    along : pair of floats, optional
+        Direction (x, y) of the traction, see `slide`.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid, see `slide`.
+    tolerance : float
+        Largest residual.
+
+    Yields
+    ------
+    TangentialSolution
+        A load that missed its tolerance says so in its `status`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, at once and not at the first load.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> loads = rc.load_cycle(0.25e-3, steps=2)
+    >>> energies = [state.dissipated for state in rc.slide_path(pressed, rubber, friction=0.5, forces=loads)]
+    >>> len(energies), min(energies) >= 0
+    (10, True)
+    """
+    problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
+    if (forces is None) == (displacements is None):
+        raise ValueError("give exactly one of forces and displacements")
+    given = forces if forces is not None else displacements
+    assert given is not None
+    if not (hasattr(given, "__len__") and len(given)):
+        raise ValueError(f"a path needs at least one load, in a row, not {given}")
+    loads = [
+        load_of(problem.along, force=value)
+        if displacements is None
+        else load_of(problem.along, displacement=value)
+        for value in given
+    ]
+    for load in loads:
+        problem.check(load)
+    return _follow(problem, loads)
+
+
+def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:
+    state: TangentialSolution | None = None
+    for load in loads:
+        state = advance(problem, load, state)
+        yield state
+
+
+@numeric
+def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
+    """Return loads from zero to an amplitude, and from there back and forth between it and its opposite.
+
+    Parameters
+    ----------
+    amplitude : float or pair of floats
+        Largest force [N] or displacement [m]: a number, or (x, y).
+    cycles : int
+        Number of full cycles; 0 ends at the amplitude.
+    steps : int
+        Number of equal steps from zero to the amplitude. From one turn to the next there are twice as many.
+
+    Returns
+    -------
+    array, shape (n,) or (n, 2)
+        ``n = steps * (1 + 4 * cycles)`` loads; zero, where it begins, is not among them.
+
+    Raises
+    ------
+    ValueError
+        If `steps` is not a whole number from 1 up, or `cycles` not one from 0 up.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.load_cycle(1.0, steps=2).tolist()
+    [0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
+    """
+    if int(steps) != steps or steps < 1 or int(cycles) != cycles or cycles < 0:
+        raise ValueError(f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}")
+    largest = np.asarray(number(amplitude, "amplitude"))
+    if largest.shape not in ((), (2,)) or not np.isfinite(largest).all():
+        raise ValueError(f"an amplitude is one finite number, or two (x, y), not {amplitude}")
+    turned = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper turn
+    part = np.abs(turned - 2 * steps) / steps - 1
+    return np.multiply.outer(part, largest)
 
 
 @one_blas_thread()
@@ -115,7 +244,7 @@ def advance(
         start, slipped = interface.take(initial.traction), interface.take(initial.slip)
         moved = slipped + beside((interface.basis @ initial.displacement)[:, None], slipped)
     value = interface.basis @ np.array([load.x, load.y])
-    step = Step(
+    step = SlipStep(
         interface,
         problem.limit,
         start,
@@ -145,7 +274,7 @@ def advance(
     )
 
 
-def _slid(step: Step, force: Array) -> Slipped:
+def _slid(step: SlipStep, force: Array) -> Slipped:
     """Return the steady slide: all the traction that friction holds, along the force.
 
     No other traction adds up to the force. It stays as it is while the bodies move on along the force, and so do the

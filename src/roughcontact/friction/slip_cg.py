@@ -6,14 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace, numbers
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
+from roughcontact.validation import Array
 
 __all__ = ["Correction", "Freedom", "corrected"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,13 +49,13 @@ class Correction:
 
 
 def corrected(
-    interface: Interface, freedom: Freedom, error: Array, *, reduction: float, max_steps: int
+    interface: ContactCells, freedom: Freedom, error: Array, *, reduction: float, max_steps: int
 ) -> Correction:
     """Return the free change of traction that takes `error` [m] away, by preconditioned conjugate gradients.
 
     Parameters
     ----------
-    interface : Interface
+    interface : ContactCells
     freedom : Freedom
     error : array, shape (k, n)
         What the change should add to the displacement.
@@ -95,7 +93,7 @@ def corrected(
     return Correction(change, image, steps)
 
 
-def _preconditioner(interface: Interface, freedom: Freedom) -> Callable[[Array], Array]:
+def _preconditioner(interface: ContactCells, freedom: Freedom) -> Callable[[Array], Array]:
     """Return a map from errors [m] to free changes of traction [Pa], without resultant if the force is held."""
     xp = namespace(freedom.normal)
     sticks = ~xp.any(freedom.normal != 0, axis=0)

@@ -7,22 +7,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
-from roughcontact.friction.slide_path import Loads, slide_path
-from roughcontact.friction.slip_problem import Bodies
+from roughcontact.friction.slide import Loads, slide_path
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["SlipCurve", "slide_curve"]
 
-Array = npt.NDArray[np.float64]
+# Attributes of a state that become columns of the curve.
+_COLUMNS = ("force", "displacement", "stick_area", "slip_area", "dissipated", "elastic_energy", "residual")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,13 +73,25 @@ class SlipCurve:
         )
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an `xarray.Dataset` with units and long names."""
+        """Return the curve as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.friction.slip_dataset import slip_curve_dataset
 
         return slip_curve_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
-        """Return the curve as plain values, for JSON."""
+        """Return the curve as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.friction.slip_dataset import slip_curve_record
 
         return slip_curve_record(self)
@@ -97,7 +109,45 @@ def slide_curve(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> SlipCurve:
-    """Return displacement, slip area and dissipated energy along a path of loads; see `slide_path`."""
+    """Return displacement, slip area and dissipated energy along a path of loads; see `slide_path`.
+
+    Parameters
+    ----------
+    solution : Solution
+        The pressed contact, of a surface of two axes, free or periodic.
+    bodies : Solid or pair of Solids
+        Those it was pressed with; a single one against a rigid body.
+    friction : float
+        Coefficient of friction mu.
+    forces, displacements : array, shape (n,) or (n, 2)
+        Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+    along : pair of floats, optional
+        Direction (x, y) of the traction, see `slide`.
+    operator : ShearOperator, optional
+        Another body than the half-spaces on the grid, see `slide`.
+    tolerance : float
+        Largest residual.
+
+    Returns
+    -------
+    SlipCurve
+        One point for each load; fields are not kept.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3)
+    >>> pressed = rc.press(ball, rubber, force=1e-3)
+    >>> curve = rc.slide_curve(pressed, rubber, friction=0.5, forces=[0.1e-3, 0.2e-3, 0.3e-3])
+    >>> bool(curve.slip_area[0] < curve.slip_area[-1])
+    True
+    """
     path = slide_path(
         solution,
         bodies,
@@ -112,34 +162,11 @@ def slide_curve(
 
 
 def collect(path: Iterable[TangentialSolution]) -> SlipCurve:
-    """Drain a path, of at least one load, into a curve; fields are not kept."""
-    points: list[tuple[float, ...]] = []
-    status: list[Status] = []
+    """Collect a path, of at least one load, into a curve; fields are not kept."""
+    rows, status = [], []
     for state in path:
-        points.append(_point(state))
+        rows.append([getattr(state, name) for name in _COLUMNS])
         status.append(state.status)
         capacity = state.problem.capacity
-    columns = np.array(points).T
-    return SlipCurve(
-        force=columns[0:2].T,
-        displacement=columns[2:4].T,
-        stick_area=columns[4],
-        slip_area=columns[5],
-        dissipated=columns[6],
-        elastic_energy=columns[7],
-        residual=columns[8],
-        status=tuple(status),
-        capacity=capacity,
-    )
-
-
-def _point(state: TangentialSolution) -> tuple[float, ...]:
-    return (
-        *state.force,
-        *state.displacement,
-        state.stick_area,
-        state.slip_area,
-        state.dissipated,
-        state.elastic_energy,
-        state.residual,
-    )
+    columns = {name: np.array(values) for name, values in zip(_COLUMNS, zip(*rows, strict=True), strict=True)}
+    return SlipCurve(**columns, status=tuple(status), capacity=capacity)

@@ -7,20 +7,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.solution import Solution
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
-from roughcontact.material import Solid, reduced_modulus
+from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import Array, number, positive_scalar
 
 __all__ = [
-    "Bodies",
     "Load",
     "Pull",
     "Shift",
@@ -30,11 +28,6 @@ __all__ = [
     "make_problem",
     "shear_body",
 ]
-
-Array = npt.NDArray[np.float64]
-
-Bodies = Solid | tuple[Solid, Solid]
-"""Two solids; one has a rigid partner."""
 
 Load = float | Sequence[float] | Array
 """A force or a displacement: its components (x, y), or one number in the direction of the traction, by default x."""
@@ -75,7 +68,7 @@ class SlipProblem:
         The one direction (x, y), a unit vector, in which traction may act; without one it may turn.
     operator : ShearOperator
         Displacement [m] from traction [Pa] on the whole grid.
-    interface : Interface
+    interface : ContactCells
         The same on the cells in contact.
     tolerance : float
         Largest residual of a solution.
@@ -86,12 +79,11 @@ class SlipProblem:
     friction: float
     along: tuple[float, float] | None
     operator: ShearOperator
-    interface: Interface
+    interface: ContactCells
     tolerance: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.friction) and self.friction > 0):
-            raise ValueError(f"the friction coefficient must be positive and finite, not {self.friction}")
+        positive_scalar(self.friction, "the friction coefficient")
         checked_tolerance(self.tolerance)
 
     @property
@@ -148,7 +140,7 @@ def make_problem(
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
         raise ValueError("the bodies do not touch: nothing to pull at; press them first")
-    modulus, stated = reduced_modulus(*_pair(bodies)), pressed.problem.modulus
+    modulus, stated = reduced_modulus(*pair_of(bodies)), pressed.problem.modulus
     if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:
         raise ValueError(
             f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa: press "
@@ -156,7 +148,7 @@ def make_problem(
         )
     body = shear_body(pressed.problem.grid, bodies, operator)
     direction = None if along is None else _unit(along)
-    interface = Interface.of(body, pressed.contact, direction)
+    interface = ContactCells.of(body, pressed.contact, direction)
     return SlipProblem(pressed, bodies, float(friction), direction, body, interface, tolerance)
 
 
@@ -212,20 +204,10 @@ def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = N
         If the operator lies on another grid, or the grid has not two axes.
     """
     if operator is None:
-        return shear_half_space(grid, *_pair(bodies))
+        return shear_half_space(grid, bodies)
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the contact's {grid}")
     return operator
-
-
-def _pair(bodies: Bodies) -> tuple[Solid, Solid | None]:
-    if isinstance(bodies, Solid):
-        return bodies, None
-    if isinstance(bodies, tuple) and len(bodies) == 2:
-        return bodies
-    raise ValueError(
-        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
-    )
 
 
 def _unit(along: Sequence[float]) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.cached import cached_property
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import at_limit
 from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
 from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
@@ -18,13 +18,13 @@ from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
 from roughcontact.material import Solid
 from roughcontact.solver.status import Status
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["TangentialSolution"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
@@ -128,11 +128,17 @@ class TangentialSolution:
         return self.frozen.matrix
 
     def on_host(self) -> TangentialSolution:
-        """Return the same solution in NumPy's memory."""
+        """Return the same solution in NumPy's memory.
+
+        Returns
+        -------
+        TangentialSolution
+            The same object if it is there already.
+        """
         if is_numpy(self.traction):
             return self
         problem, pressed = self.problem, self.problem.pressed.on_host()
-        interface = Interface.of(problem.operator, pressed.contact, problem.along)
+        interface = ContactCells.of(problem.operator, pressed.contact, problem.along)
         there = replace(problem, pressed=pressed, interface=interface)
         return replace(self, problem=there, traction=on_host(self.traction), slip=on_host(self.slip))
 
@@ -170,13 +176,25 @@ class TangentialSolution:
         )
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        """Return fields and numbers as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.friction.slip_dataset import tangential_dataset
 
         return tangential_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON."""
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.friction.slip_dataset import tangential_record
 
         return tangential_record(self)

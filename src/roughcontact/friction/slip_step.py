@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, namespace, numbers
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import (
     at_limit,
     directions,
@@ -18,22 +17,20 @@ from roughcontact.friction.coulomb import (
     violations,
     within,
 )
-from roughcontact.friction.multiplier import common_displacement
 from roughcontact.solver.optimality import UNITS
 from roughcontact.solver.status import Status
+from roughcontact.validation import Array
 
-__all__ = ["Slipped", "State", "Step"]
-
-Array = npt.NDArray[np.float64]
+__all__ = ["SlipState", "SlipStep", "Slipped"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Step:
+class SlipStep:
     """One step of tangential loading, from a state of rest to another.
 
     Parameters
     ----------
-    interface : Interface
+    interface : ContactCells
     limit : array, shape (n,)
         Largest traction of each cell [Pa].
     traction, slip : array, shape (k, n)
@@ -46,7 +43,7 @@ class Step:
         Largest residual.
     """
 
-    interface: Interface
+    interface: ContactCells
     limit: Array
     traction: Array
     slip: Array
@@ -55,16 +52,16 @@ class Step:
     scale: float
     tolerance: float
 
-    def state(self, traction: Array, displacement: Array | None = None) -> State:
+    def state(self, traction: Array, displacement: Array | None = None) -> SlipState:
         """Return the state of a traction that friction can hold; its exact displacement is found if none is given."""
         moved = self.interface.apply(traction) if displacement is None else displacement
         normal = directions(traction, at_limit(traction, self.limit))
         shift = self.shift_of(moved, normal)
         slipped = self.slipped(moved, shift)
         residual = self.residual(traction, moved, slipped)
-        return State(traction, moved, displacement is None, normal, shift, slipped, residual)
+        return SlipState(traction, moved, displacement is None, normal, shift, slipped, residual)
 
-    def energy(self, state: State) -> float:
+    def energy(self, state: SlipState) -> float:
         """Return what is lowest at the end of the step [J per area of a cell]."""
         stored = inner(state.traction, state.displacement / 2 - self.slip)
         if self.shift is None:  # the work of a given force is the same for all tractions that add up to it
@@ -85,7 +82,7 @@ class Step:
         if self.shift is not None:
             return self.shift
         level = displacement - self.slip
-        return common_displacement(level, normal, self.limit, self.interface.self_influence)
+        return _common_displacement(level, normal, self.limit, self.interface.self_influence)
 
     def slipped(self, displacement: Array, shift: Array) -> Array:
         """Return the slip of the step [m]."""
@@ -109,7 +106,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class State:
+class SlipState:
     """A traction that friction can hold, and how far it is from the end of the step.
 
     Parameters
@@ -146,3 +143,45 @@ class Slipped:
     residual: float
     steps: int
     status: Status
+
+
+def _common_displacement(level: Array, normal: Array, limit: Array, self_influence: float) -> Array:
+    """Return the displacement [m] that the free parts of `level` have in common, shape (k,), as NumPy's array.
+
+    Parameters
+    ----------
+    level : array, shape (k, n)
+        Displacement of the cells less what they had slipped before [m]: less the answer it is their slip now.
+    normal : array, shape (k, n)
+        Unit vectors of the traction in cells at their limit, where only what lies across is free; zero elsewhere.
+    limit : array, shape (n,)
+        Largest traction [Pa].
+    self_influence : float
+        Displacement of a cell per traction on itself [m/Pa].
+
+    Notes
+    -----
+    The mean with the weights of the preconditioner: a cell that slips far under little traction follows any
+    displacement, and says nothing about it.
+    """
+    xp = namespace(level)
+
+    def forward_of(shift: Array) -> Array:
+        return xp.sum((level - beside(shift[:, None], level)) * normal, axis=0)  # type: ignore[no-any-return]
+
+    across = level - xp.sum(level * normal, axis=0) * normal
+    weight = xp.ones_like(limit)
+    for _ in range(2):  # the weights take a first answer to know who slips how far
+        free = float(xp.sum(weight)) * np.eye(level.shape[0]) - numbers((weight * normal) @ normal.T)
+        shift = np.asarray(np.linalg.lstsq(free, numbers(across @ weight), rcond=None)[0], np.float64)
+        forward = forward_of(shift)
+        weight = 1 / (1 + xp.clip(-forward, 0.0, None) / (limit * self_influence))
+    if bool(xp.all(xp.any(normal != 0, axis=0) & (forward > 0))):
+        # All slip, and all the wrong way: what is free says too little. None slips forward from here on:
+        pull = numbers(normal @ limit)
+        pull /= np.sqrt(pull @ pull)
+        leaning = beside(pull, normal) @ normal
+        if bool(xp.all(leaning > 0)):
+            mean = numbers(xp.mean(level, axis=1))
+            return np.asarray(mean + pull * float(xp.max(forward_of(mean) / leaning)))
+    return shift

@@ -9,18 +9,19 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace
-from roughcontact.friction.contact_cells import Interface
+from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.slip_cg import Freedom, corrected
-from roughcontact.friction.slip_problem import Bodies, shear_body
+from roughcontact.friction.slip_problem import shear_body
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
+from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.solver.region import checked_region
+from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
@@ -53,7 +54,7 @@ class TangentialStiffness:
 
 
 def tangential_stiffness(
-    region: Mask,
+    mask: Mask,
     grid: Grid,
     bodies: Bodies,
     *,
@@ -67,7 +68,7 @@ def tangential_stiffness(
 
     Parameters
     ----------
-    region : bool array, shape ``grid.shape``
+    mask : bool array, shape ``grid.shape``
         The cells in contact, for instance ``solution.contact``. On arrays of other libraries the work is done where
         they live.
     grid : Grid
@@ -79,16 +80,30 @@ def tangential_stiffness(
     tolerance : float
         Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
+    Returns
+    -------
+    TangentialStiffness
+
     Raises
     ------
     ValueError
-        If the region does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
+        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
         axes, or if the tolerance is none.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> strip = np.zeros((16, 16), bool)
+    >>> strip[6:10, 2:14] = True  # four by twelve cells, the longer side along x
+    >>> along, across = np.diag(rc.tangential_stiffness(strip, rc.Grid((16, 16), 1e-6), rc.Solid(1e9, 0.3)).matrix)
+    >>> bool(along < across)
+    True
     """
     body = shear_body(grid, bodies, operator)
-    cells, tolerance = checked_region(region, grid.shape), checked_tolerance(tolerance)
+    cells, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
     frozen = frozen_shear(body, cells, tolerance=tolerance)
     if not frozen.residual <= tolerance:
         raise RuntimeError(
@@ -104,7 +119,7 @@ def frozen_shear(
     """Return what `tangential_stiffness` does, with whatever residual was reached."""
     if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
-    interface = Interface.of(operator, region)
+    interface = ContactCells.of(operator, region)
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
@@ -120,7 +135,7 @@ def frozen_shear(
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: Interface, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
     """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)

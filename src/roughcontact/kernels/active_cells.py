@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, Self
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.kernels.buffers import empty, zeros
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
-from roughcontact.kernels.loader import address, code_for
+from roughcontact.kernels.loader import code_for
 from roughcontact.threads import spread
 
 __all__ = [
-    "Located",
-    "Region",
+    "ActiveCells",
     "add_blocks",
-    "lower",
-    "near",
+    "mask_above",
+    "subtract_shifted",
     "sum_blocks",
-    "take_in",
+    "sum_stencil",
     "with_margins",
     "zeros_with_margins",
 ]
@@ -33,19 +33,7 @@ SEVERAL = 4  # parts from which on threads are worth waking
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (tried by hand)
 
 
-class Located(NamedTuple):
-    """A field, and where it begins: machine code asks for that again and again."""
-
-    field: Field
-    at: int
-
-    @classmethod
-    def of(cls, field: Field) -> Self:
-        """Return a field with its place."""
-        return cls(field, address(field))
-
-
-class Region:
+class ActiveCells:
     """The cells of a field that count.
 
     Attributes
@@ -62,39 +50,32 @@ class Region:
 
     def __init__(self, inside: Field, pressed: tuple[Field, Field] | None = None) -> None:
         self.inside = inside
-        self._code = code_for("passes", inside)
+        self._code, self._blocks = (code_for(f, inside) for f in ("vector_kernels", "block_kernels"))
         lanes = WIDTH // inside.itemsize
         self._whole = inside.size // lanes * lanes
         groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
-        fields = [address(f) for f in (inside, *(pressed or (inside, inside)))]
-        self._code["list_groups"](inside.size, *fields, address(groups), address(found))
-        self._groups = groups[: int(found[0])].copy()
-        self._sums = Located.of(np.empty(SUMS))
-        self._ends = address(self._groups), len(self._groups), self._whole, inside.size
+        base, change = pressed or (inside, inside)
+        self._code["list_groups"](inside.size, inside, base, change, groups, found)
+        self._count = int(found[0])
+        self._groups = Operand(groups[: self._count].copy())
+        self._sums = Operand(np.empty(SUMS))
 
     def run(
-        self, name: str, count: int, *arguments: Located | Field | float, largest: bool = False
+        self, name: str, count: int, *arguments: Operand | Field | float, largest: bool = False
     ) -> list[float]:
-        """Run a function over these cells, and return so many sums, or the largest, of what it finds."""
-        run, (groups, size, whole, end) = self._code[name], self._ends
-        given = [
-            a.at if isinstance(a, Located) else address(a) if isinstance(a, np.ndarray) else a
-            for a in arguments
-        ]
+        """Run a kernel over these cells, and return so many sums, or the largest, of what it finds."""
+        run, size, whole, end = self._code[name], self._count, self._whole, self.inside.size
         if size <= PART:
-            sums, at = self._sums
-            run(groups, 0, size, whole, end, *given, *((at,) if count else ()))
-            few: list[float] = sums[:count].tolist()
+            run(self._groups, 0, size, whole, end, *arguments, *((self._sums,) if count else ()))
+            few: list[float] = self._sums.field[:count].tolist()
             return few
         parts = -(-size // PART)
         totals = np.zeros((parts, count))
-        first, step = address(totals) if count else 0, count * totals.itemsize
 
-        # With the fields themselves: they live as long as anyone works on them.
-        def part(k: int, _: object = (self, totals, arguments)) -> None:
+        def part(k: int) -> None:
             last = (k + 1) * PART, whole, whole
             ends = last if k < parts - 1 else (size, whole, end)
-            run(groups, k * PART, *ends, *given, *((first + k * step,) if count else ()))
+            run(self._groups, k * PART, *ends, *arguments, *((totals[k],) if count else ()))
 
         spread(part, range(parts), SEVERAL)
         found: list[float] = (totals.max(axis=0) if largest else totals.sum(axis=0)).tolist()
@@ -103,35 +84,33 @@ class Region:
     def finds_blocks(self, side: int) -> bool:
         """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
         columns, lanes = self.inside.shape[-1], WIDTH // self.inside.itemsize
-        return not (columns % lanes or lanes % side) and len(self._groups) * lanes <= FEW * self.inside.size
+        return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self.inside.size
 
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
-        """Run a function on the blocks that these cells are of."""
-        plan = 0, len(self._groups), self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
-        self._code[name](address(self._groups), *plan, address(field), address(blocks))
+        """Run a kernel on the blocks that these cells are of."""
+        plan = 0, self._count, self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
+        self._blocks[name](self._groups, *plan, field, blocks)
 
 
-def lower(r: Field, v: Field, alpha: float, mean: float) -> None:
+def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
-    run, lanes = code_for("passes", r)["lower"], WIDTH // r.itemsize
-    size = PART * lanes
+    run, size = code_for("vector_kernels", r)["subtract_shifted"], PART * WIDTH // r.itemsize
     if r.size <= size:
-        run(r.size, address(r), address(v), alpha, mean)
+        run(r.size, r, v, alpha, mean)
         return
+    r, v = r.reshape(-1), v.reshape(-1)
 
     def part(start: int) -> None:
-        offset = start * r.itemsize
-        run(min(size, r.size - start), address(r) + offset, address(v) + offset, alpha, mean)
+        run(min(size, r.size - start), r[start:], v[start:], alpha, mean)
 
     spread(part, range(0, r.size, size), SEVERAL)
 
 
-def take_in(inside: Field, lacking: Field, least: float) -> float:
-    """Count as inside what lacks more than `least`, and than nothing; return the largest lack of what was not, or 0."""
-    worst, given = np.zeros(1), np.ascontiguousarray(lacking, dtype=inside.dtype)
-    run = code_for("passes", inside)["take_in"]
-    run(inside.size, address(inside), address(given), least, address(worst))
-    return float(worst[0])
+def mask_above(mask: Field, r: Field, least: float) -> float:
+    """Set a mask to one where r is above `least`, and above zero; return the largest r where it was not, or 0."""
+    most, given = np.zeros(1), np.ascontiguousarray(r, dtype=mask.dtype)
+    code_for("vector_kernels", mask)["mask_above"](mask.size, mask, given, least, most)
+    return float(most[0])
 
 
 def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
@@ -148,36 +127,35 @@ def zeros_with_margins(shape: tuple[int, ...], precision: npt.DTypeLike) -> Fiel
     return zeros((size + 2 * margin,), dtype)[margin : margin + size].reshape(shape)
 
 
-def near(region: Region, field: Field, weights: Field) -> Field:
+def sum_stencil(region: ActiveCells, field: Field, weights: Field) -> Field:
     """Return the weighted sum over the cells near each of a region, of a field with margins.
 
     The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same.
     """
     answer = empty(field.shape, field.dtype)
-    region.run("near", 0, field.shape[-1], field, answer, weights)
+    region.run("sum_stencil", 0, field.shape[-1], field, answer, weights)
     return answer
 
 
-def sum_blocks(region: Region, field: Field, side: int) -> Field:
+def sum_blocks(region: ActiveCells, field: Field, side: int) -> Field:
     """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off."""
     ny, nx = field.shape
     blocks = np.zeros((-(-ny // side), -(-nx // side)), dtype=field.dtype)
     if region.finds_blocks(side):
-        region.run_on_blocks("sum_blocks_on", field, blocks, side)
+        region.run_on_blocks("sum_listed_blocks", field, blocks, side)
     else:
         _blocks("sum_blocks", field, blocks, side)
     return blocks
 
 
-def add_blocks(region: Region, field: Field, blocks: Field, side: int) -> None:
+def add_blocks(region: ActiveCells, field: Field, blocks: Field, side: int) -> None:
     """Add to each cell of a region what its block has; what others get means nothing."""
     if region.finds_blocks(side):
-        region.run_on_blocks("add_blocks_on", field, blocks, side)
+        region.run_on_blocks("add_listed_blocks", field, blocks, side)
     else:
         _blocks("add_blocks", field, blocks, side)
 
 
 def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:
     row = np.empty(blocks.shape[1] * side + WIDTH, dtype=field.dtype)
-    code = code_for("passes", field)[name]
-    code(*field.shape, side, address(field), address(blocks), address(row))
+    code_for("block_kernels", field)[name](*field.shape, side, field, blocks, row)

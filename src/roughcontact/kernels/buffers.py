@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.loader import address
+from roughcontact.kernels.calls import address
 from roughcontact.threads import no_fork
 
 __all__ = ["aligned", "empty", "zeros"]

@@ -1,7 +1,7 @@
-"""A small language for loops over numbers, many at a time, which LLVM translates to machine code.
+"""The kernel language: loops over numbers, many at a time, which LLVM translates to machine code.
 
 A function is written by running Python: its loops run once, and what their bodies say is written down. Numbers come in
-lanes, as many as a processor takes in one instruction.
+lanes, as many as a processor takes in one instruction. README.md beside this file shows how.
 """
 
 from __future__ import annotations
@@ -10,34 +10,31 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import reduce
-from typing import Any, Generic, TypeVar, overload
+from typing import Any, Generic, TypeVar
 
 from llvmlite import ir
 
 from roughcontact.kernels.constants import APART, WIDTH
+from roughcontact.kernels.signature import Indices, KernelDefinition, Vector
 from roughcontact.kernels.values import (
-    FLAG,
+    ELEMENTS,
     INDEX,
-    Flags,
+    Condition,
     Index,
-    Indices,
+    Memory,
     Number,
-    Reals,
+    broadcast,
     constant,
-    spread_out,
 )
 
-__all__ = ["PRECISIONS", "Code", "Take", "Variable"]
-
-PRECISIONS = {"float32": (ir.FloatType(), 4), "float64": (ir.DoubleType(), 8)}
-
+__all__ = ["Code", "Local"]
 
 T = TypeVar("T", Number, Index)
 
 
 @dataclass(frozen=True, slots=True)
-class Variable(Generic[T]):
-    """A number, or a whole number, that changes."""
+class Local(Generic[T]):
+    """A number, or an index, that changes."""
 
     place: Any
     first: T
@@ -51,133 +48,75 @@ class Variable(Generic[T]):
         value.builder.store(value.value, self.place)
 
 
-@dataclass(frozen=True, slots=True)
-class Take:
-    """What takes numbers from memory: one for each lane, or a single one."""
-
-    code: Code
-    lanes: bool
-
-    def __call__(self, field: Reals | Flags, at: Index) -> Any:
-        """Return the numbers, or conditions, from an index on."""
-        return field.take(at) if self.lanes else field.take_one(at)
-
-    def alike(self, number: Number) -> Number:
-        """Return a number beside what is taken: in each lane, or as it is."""
-        return self.code.for_all(number) if self.lanes else number
-
-
 class Code:
-    """A function that is being written; used as a context, which ends it.
+    """A function that is being written.
 
-    Parameters
+    Attributes
     ----------
-    module : llvmlite.ir.Module
-        Where it goes.
-    name : str
-        Without the precision, which is added.
     precision : {"float32", "float64"}
         Of its real numbers.
-    parameters : str
-        Their kinds, separated by spaces: "index", "indices", "real", "reals", "double" and "doubles" of double
-        precision whatever the others are, and "flags". The arguments are in `arguments`.
+    count : int
+        Lanes: numbers of that precision in a register.
     """
 
-    def __init__(self, module: Any, name: str, precision: str, parameters: str) -> None:
-        real, size = PRECISIONS[precision]
-        kinds = {
-            "index": INDEX,
-            "indices": INDEX.as_pointer(),
-            "real": real,
-            "reals": real.as_pointer(),
-            "double": ir.DoubleType(),
-            "doubles": ir.DoubleType().as_pointer(),
-            "flags": FLAG.as_pointer(),
-        }
-        names = parameters.split()
-        kind = ir.FunctionType(ir.VoidType(), [kinds[n] for n in names])
+    def __init__(self, module: Any, kernel: KernelDefinition, precision: str) -> None:
+        parameters = kernel.parameters(precision)
+        kind = ir.FunctionType(ir.VoidType(), [p.llvm for p in parameters])
+        self.precision, (self._real, size) = precision, ELEMENTS[precision]
         self.count = WIDTH // size
-        self.lanes = ir.VectorType(real, self.count)
-        self.function = ir.Function(module, kind, f"{name}_{precision}")
+        self.function = ir.Function(module, kind, f"{kernel.name}_{precision}")
         self._variables = ir.IRBuilder(self.function.append_basic_block("variables"))
-        self._start = self.function.append_basic_block("start")
-        self.builder = builder = ir.IRBuilder(self._start)
-
-        def argument(name: str, value: Any) -> Any:
-            if name == "index":
-                return Index(value, builder)
-            if name == "indices":
-                return Indices(value, builder)
-            if name in ("real", "double"):
-                return Number(value, builder)
-            if name == "flags":
-                return Flags(value, builder, self.count)
-            if name == "doubles":
-                return Reals(value, builder, ir.VectorType(ir.DoubleType(), self.count), 8)
-            return Reals(value, builder, self.lanes, size)
-
-        self.arguments = [argument(n, v) for n, v in zip(names, self.function.args, strict=True)]
-
-    def __enter__(self) -> Code:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._variables.branch(self._start)
-        self.builder.ret_void()
+        start = self.function.append_basic_block("start")
+        self.builder = builder = ir.IRBuilder(start)
+        values: list[Any] = []
+        for parameter, value in zip(parameters, self.function.args, strict=True):
+            if parameter.array:
+                values.append(Memory(value, builder, parameter.dtype, self.count))
+            else:
+                values.append((Index if parameter.dtype == "int64" else Number)(value, builder))
+        kernel.body(self, *kernel.arguments(iter(values)))
+        self._variables.branch(start)
+        builder.ret_void()
 
     def index(self, value: int) -> Index:
-        """Return a whole number."""
+        """Return an index."""
         return Index(ir.Constant(INDEX, value), self.builder)
 
-    def zero(self) -> Number:
-        """Return zero in each lane."""
-        return Number(constant(self.lanes, 0.0), self.builder)
-
-    def one(self, value: float) -> Number:
+    def number(self, value: float) -> Number:
         """Return a single number."""
-        return Number(constant(self.lanes.element, value), self.builder)
+        return Number(constant(self._real, value), self.builder)
 
-    def any_not_zero(self, number: Number) -> Any:
-        """Return the condition that one of the lanes is not zero."""
-        found = self.builder.fcmp_unordered("!=", number.value, constant(self.lanes, 0.0))
-        bits = ir.IntType(self.count)
-        return self.builder.icmp_unsigned("!=", self.builder.bitcast(found, bits), ir.Constant(bits, 0))
-
-    def either(self, one: Any, other: Any) -> Any:
-        """Return the condition that one of two holds."""
-        return self.builder.or_(one, other)
-
-    def both(self, one: Any, other: Any) -> Any:
-        """Return the condition that both of two hold."""
-        return self.builder.and_(one, other)
-
-    def opposite(self, one: Any) -> Any:
-        """Return the condition that another does not hold."""
-        return self.builder.not_(one)
-
-    def for_all(self, number: Number) -> Number:
+    def lanes(self, value: float | Number) -> Number:
         """Return a number in each lane."""
-        lanes = ir.VectorType(number.value.type, self.count)
-        return Number(spread_out(number.value, lanes, self.builder), self.builder)
+        number = value if isinstance(value, Number) else self.number(value)
+        return Number(broadcast(number.value, self.count, self.builder), self.builder)
 
-    def each(self, n: Index) -> Iterator[tuple[Index, Take]]:
+    def any(self, condition: Condition) -> Condition:
+        """Return the condition that one holds in some lane, or by itself."""
+        if not isinstance(condition.value.type, ir.VectorType):
+            return condition
+        bits = ir.IntType(self.count)
+        found = self.builder.icmp_unsigned(
+            "!=", self.builder.bitcast(condition.value, bits), ir.Constant(bits, 0)
+        )
+        return Condition(found, self.builder)
+
+    def each(self, n: Index) -> Iterator[Index]:
         """Loop over numbers, as many at once as there are lanes, the rest one by one; the body is written twice."""
         whole = n // self.count * self.count
         for at in self.range(0, whole, self.count):
-            yield at, Take(self, True)
-        for at in self.range(whole, n):
-            yield at, Take(self, False)
+            yield at.lanes
+        yield from self.range(whole, n)
 
-    def variable(self, first: T) -> Variable[T]:
+    def variable(self, first: T) -> Local[T]:
         """Return what changes, and what it is at first."""
-        found = Variable(self._variables.alloca(first.value.type), first)
+        found = Local(self._variables.alloca(first.value.type), first)
         found.set(first)
         return found
 
     def range(self, start: Index | int, stop: Index | int, step: Index | int = 1) -> Iterator[Index]:
-        """Loop over whole numbers; what the body says is written once."""
-        builder, first = self.builder, self._index(start)
-        last, by = self._index(stop), self._index(step)
+        """Loop over indices; what the body says is written once."""
+        builder, (first, last, by) = self.builder, (self._index(k) for k in (start, stop, step))
         before = builder.block
         head, body, after = (builder.append_basic_block(name) for name in ("head", "body", "after"))
         builder.branch(head)
@@ -216,49 +155,37 @@ class Code:
         builder.cbranch(all_done, after, wait)
         builder.position_at_end(after)
 
-    @overload
-    def choose(self, condition: Any, one: Reals, other: Reals) -> Reals: ...
-    @overload
-    def choose(self, condition: Any, one: Index | int, other: Index | int) -> Index: ...
-    def choose(self, condition: Any, one: Any, other: Any) -> Reals | Index:
-        """Return one whole number, or place in memory, where a condition holds, else the other."""
-        if isinstance(one, Reals):
-            return replace(one, pointer=self.builder.select(condition, one.pointer, other.pointer))
-        a, b = self._index(one).value, self._index(other).value
-        return Index(self.builder.select(condition, a, b), self.builder)
-
     @contextmanager
-    def when(self, condition: Any) -> Iterator[None]:
-        """Do what is in the context only where a condition holds."""
-        with self.builder.if_then(condition):
+    def when(self, condition: Condition) -> Iterator[None]:
+        """Do what is in the context only where a single condition holds."""
+        with self.builder.if_then(condition.value):
             yield
 
-    def call(self, other: Code, *arguments: Any) -> None:
-        """Call another function."""
-        self.builder.call(
-            other.function,
-            [a.pointer if isinstance(a, Reals | Indices | Flags) else a.value for a in arguments],
-        )
+    def call(self, other: KernelDefinition, *arguments: Any) -> None:
+        """Call another kernel of this module and precision, which is written if it is not yet."""
+        module, name = self.function.module, f"{other.name}_{self.precision}"
+        function = module.globals.get(name) or Code(module, other, self.precision).function
+        self.builder.call(function, [*_operands(arguments)])
 
-    def across(self, number: Number, both: Callable[[Number, Number], Number]) -> Number:
+    def across(self, number: Number, combine: Callable[[Number, Number], Number]) -> Number:
         """Return what all lanes make together."""
         values = [
             Number(self.builder.extract_element(number.value, ir.Constant(ir.IntType(32), k)), self.builder)
             for k in range(self.count)
         ]
-        return reduce(both, values)
+        return reduce(combine, values)
 
     def transpose(
-        self, source: Reals, at: Index, down: Index, target: Reals, to: Index, across: Index
+        self, source: Vector, at: Index, down: Index, target: Vector, to: Index, across: Index
     ) -> None:
-        """Copy a square of as many rows as there are lanes, turned: rows become columns.
+        """Copy a square of as many rows as there are lanes, transposed.
 
         Its rows begin at `at` and each `down` further, those of the copy at `to` and each `across` further.
         """
         n, builder = self.count, self.builder
         rows = []
         for _ in range(n):
-            rows.append(source.take(at).value)
+            rows.append(source[at.lanes].value)
             at = at + down
         # Shuffle the rows like cards, number by number: the bits of the places go round by one, log2(n) times.
         positions = ir.VectorType(ir.IntType(32), n)
@@ -270,8 +197,16 @@ class Code:
             pairs = zip(rows[: n // 2], rows[n // 2 :], strict=True)
             rows = [builder.shuffle_vector(a, b, mask) for a, b in pairs for mask in (low, high)]
         for row in rows:
-            target.put(to, Number(row, builder))
+            target[to.lanes] = Number(row, builder)
             to = to + across
 
     def _index(self, value: Index | int) -> Index:
         return value if isinstance(value, Index) else self.index(value)
+
+
+def _operands(arguments: tuple[Any, ...]) -> Iterator[Any]:
+    for argument in arguments:
+        if isinstance(argument, tuple):
+            yield from _operands(argument)
+        else:
+            yield argument.pointer if isinstance(argument, Memory) else argument.value

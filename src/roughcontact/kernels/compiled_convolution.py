@@ -12,10 +12,10 @@ import numpy.typing as npt
 
 from roughcontact.kernels.buffers import aligned, empty
 from roughcontact.kernels.constants import APART, HALF, WIDTH
-from roughcontact.kernels.loader import address, functions
+from roughcontact.kernels.loader import functions
 from roughcontact.threads import join_in, threads
 
-__all__ = ["Convolution", "fits"]
+__all__ = ["CompiledConvolution", "fits"]
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -30,7 +30,7 @@ def fits(lengths: tuple[int, int]) -> bool:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Convolution:
+class CompiledConvolution:
     """A kernel, ready for fields of one shape and precision.
 
     Attributes
@@ -38,29 +38,29 @@ class Convolution:
     shape, lengths : tuple of int
         Of the fields, and of the transforms.
     precision : str
-    rows, columns : Transform
+    rows, columns : FourierPlan
         Along a row, whose neighbours are taken for complex numbers, and along a column.
-    turns : array
-        Factors of the pairs of waves that the transform of a row is made of.
+    pairs : array
+        Twiddle factors that tell neighbours in a row apart.
     multiplier : array
         Transform of the kernel in blocks of as many columns as there are lanes.
     folded : int array
-        Row of the multiplier for each place in a column.
+        Row of the multiplier for each place in a column, whose waves are in digit-reversed order.
     """
 
     shape: tuple[int, int]
     lengths: tuple[int, int]
     precision: str
-    rows: Transform
-    columns: Transform
-    turns: Array
+    rows: FourierPlan
+    columns: FourierPlan
+    pairs: Array
     multiplier: Array
     folded: Indices
 
     @classmethod
     def of(
         cls, multiplier: Array, shape: tuple[int, int], lengths: tuple[int, int], precision: str
-    ) -> Convolution:
+    ) -> CompiledConvolution:
         """Make a kernel ready.
 
         Parameters
@@ -76,8 +76,8 @@ class Convolution:
         """
         (ny, nx), (my, mx), lanes = shape, lengths, WIDTH // np.dtype(precision).itemsize
         half = mx // 2
-        rows = _transform(half, -(-nx // 2), precision)
-        columns = _transform(my, ny, precision)
+        rows = _plan(half, -(-nx // 2), precision)
+        columns = _plan(my, ny, precision)
         blocks = half // lanes + 1
         # Planes are large: no more than the answer is made.
         ordered = np.zeros((blocks, my // 2 + 1, lanes), dtype=precision)
@@ -86,8 +86,8 @@ class Convolution:
         np.multiply(whole, scale, out=ordered[:-1], casting="same_kind")
         np.multiply(multiplier[:, full:], scale, out=ordered[-1, :, : half + 1 - full], casting="same_kind")
         folded = np.minimum(columns.waves, my - columns.waves)
-        turns = _turns(np.arange(half // 2 + 1), mx, precision)
-        return cls(shape, lengths, precision, rows, columns, turns, ordered, folded)
+        pairs = _twiddles(np.arange(half // 2 + 1), mx, precision)
+        return cls(shape, lengths, precision, rows, columns, pairs, ordered, folded)
 
     def kernel(self) -> Array:
         """Return the multiplier as it was given."""
@@ -110,64 +110,60 @@ class Convolution:
         raw = -(-half // lanes) * 2 * lanes * lanes
         size = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
         counters = np.zeros(6 * APART, np.int64)
-        room = aligned(workers * size + blocks * rows * 2 * lanes, self.precision)
-        own = address(room)
-        arguments = (
-            address(counters), address(given), address(answer), ny, nx,
-            own + workers * size * room.itemsize, rows, half, *self.rows.arguments, address(self.rows.places),
-            address(self.turns), my, *self.columns.arguments, address(self.multiplier), address(self.folded),
-            -(-rows // (parts * lanes)) * lanes, -(-blocks // parts),
-        )  # fmt: skip
+        memory = aligned(workers * size + blocks * rows * 2 * lanes, self.precision)
+        spectrum = memory[workers * size :], rows
+        along = half, *self.rows.arguments, self.rows.order, self.pairs
+        across = my, *self.columns.arguments, self.folded, self.multiplier
+        share = -(-rows // (parts * lanes)) * lanes, -(-blocks // parts)
 
-        step, held = size * room.itemsize, (self, counters, given, answer, room)
-
-        def join(k: int, _: object = held) -> None:  # they live as long as anyone works on them
-            convolve(*arguments, own + k * step, raw)
+        def join(k: int) -> None:
+            scratch = memory[k * size :], raw
+            convolve(counters, given, answer, ny, nx, *spectrum, *along, *across, *share, *scratch)
 
         join_in(join, workers)
         return answer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Transform:
-    """A Fourier transform whose waves come out of order.
+class FourierPlan:
+    """A Fourier transform whose waves come in digit-reversed order.
 
     Attributes
     ----------
     radices : int array
-    factors : array
-        Of all sweeps, one after the other.
-    waves, places : int array
+    twiddles : array
+        Factors of all sweeps, one after the other.
+    waves, order : int array
         The wave at each place, and the place of each wave, after the last that of the first again.
     """
 
     radices: Indices
-    factors: Array
+    twiddles: Array
     waves: Indices
-    places: Indices
+    order: Indices
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What the machine code wants to know."""
-        return address(self.radices), len(self.radices), address(self.factors)
+        """What the kernel is told."""
+        return self.radices, len(self.radices), self.twiddles
 
 
 @lru_cache(maxsize=64)
-def _transform(length: int, filled: int, precision: str) -> Transform:
+def _plan(length: int, filled: int, precision: str) -> FourierPlan:
     """Return a transform of numbers of which only the first are filled."""
     radices = _radices(length, 2 * filled <= length)
     waves, rest, stride, part = np.zeros(length, np.int64), np.arange(length), 1, length
-    factors = []
-    for radix in radices:
-        ways = radix or 4
-        m = part // ways
-        factors.append(_turns(np.outer(np.arange(m), np.arange(1, ways)).ravel(), part, precision))
+    twiddles = []
+    for digit in radices:
+        radix = digit or 4
+        m = part // radix
+        twiddles.append(_twiddles(np.outer(np.arange(m), np.arange(1, radix)).ravel(), part, precision))
         waves += rest // m * stride
-        rest, stride, part = rest % m, stride * ways, m
-    places = np.zeros(length + 1, np.int64)
-    places[waves] = np.arange(length)
+        rest, stride, part = rest % m, stride * radix, m
+    order = np.zeros(length + 1, np.int64)
+    order[waves] = np.arange(length)
     none = np.zeros(0, dtype=precision)
-    return Transform(np.array(radices, np.int64), np.concatenate([*factors, none]), waves, places)
+    return FourierPlan(np.array(radices, np.int64), np.concatenate([*twiddles, none]), waves, order)
 
 
 def _radices(length: int, half: bool) -> tuple[int, ...]:
@@ -181,7 +177,7 @@ def _radices(length: int, half: bool) -> tuple[int, ...]:
     return tuple(radices) if length == 1 else ()
 
 
-def _turns(steps: Indices, length: int, precision: str) -> Array:
-    """Return real and imaginary parts of turns by so many steps of a circle, backwards."""
+def _twiddles(steps: Indices, length: int, precision: str) -> Array:
+    """Return real and imaginary parts of ``exp(-2 pi i k / length)`` for steps k."""
     waves = np.exp(-2j * math.pi / length * steps)
     return np.stack([waves.real, waves.imag], axis=-1).ravel().astype(precision)

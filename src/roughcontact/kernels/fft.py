@@ -1,8 +1,8 @@
-"""Machine code for convolutions of real fields with even kernels, by fast Fourier transforms.
+"""Convolutions of real fields with even kernels, by fast Fourier transforms.
 
 A field is taken through in three steps: along the rows, along the columns and back, and back along the rows. A column's
-spectrum is multiplied where it lies, in whatever order its waves are, so that nothing is ever sorted along columns; and
-as many rows or columns as there are lanes go at once.
+spectrum is multiplied where it lies, in digit-reversed order, so that nothing is ever sorted along columns; and as many
+rows or columns as there are lanes go at once.
 
 In between, spectra lie in blocks of columns: number ``((b * rows + y) * 2 + part) * lanes + l`` is the real or the
 imaginary part of wave ``b * lanes + l`` of row y.
@@ -13,145 +13,183 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
+from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import HALF
-from roughcontact.kernels.values import Index, Number, Reals
-
-__all__ = ["KINDS", "write"]
+from roughcontact.kernels.signature import Indices, KernelDefinition, Vector, kernel
+from roughcontact.kernels.values import Index, Number, where
 
 RADICES = (4, 2, 3, 5, HALF)
-ROWS = "reals index index index index reals index index indices index reals indices reals reals reals"
-COLUMNS = "reals index index index index index indices index reals reals indices reals"
-KINDS = {
-    "convolve": "indices reals reals index index reals index index indices index reals indices reals "
-    "index indices index reals reals indices index index reals index"
-}
 
 
 @dataclass(frozen=True, slots=True)
-class Wave:
+class Complex:
     """A complex number in each lane."""
 
     re: Number
     im: Number
 
-    def __add__(self, other: Wave) -> Wave:
-        return Wave(self.re + other.re, self.im + other.im)
+    def __add__(self, other: Complex) -> Complex:
+        return Complex(self.re + other.re, self.im + other.im)
 
-    def __sub__(self, other: Wave) -> Wave:
-        return Wave(self.re - other.re, self.im - other.im)
+    def __sub__(self, other: Complex) -> Complex:
+        return Complex(self.re - other.re, self.im - other.im)
 
-    def __mul__(self, other: Wave | float) -> Wave:
-        if isinstance(other, Wave):
-            return Wave(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
-        return Wave(self.re * other, self.im * other)
-
-    @property
-    def turned(self) -> Wave:
-        """A quarter of a turn back: times -i."""
-        return Wave(self.im, -self.re)
+    def __mul__(self, other: Complex | float) -> Complex:
+        if isinstance(other, Complex):
+            return Complex(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+        return Complex(self.re * other, self.im * other)
 
     @property
-    def conjugate(self) -> Wave:
-        """Its conjugate."""
-        return Wave(self.re, -self.im)
+    def times_minus_i(self) -> Complex:
+        """The product with -i."""
+        return Complex(self.im, -self.re)
 
     @property
-    def swapped(self) -> Wave:
-        """Both parts in each other's place: what turns a transform into its inverse, before and after."""
-        return Wave(self.im, self.re)
+    def conjugate(self) -> Complex:
+        """The complex conjugate."""
+        return Complex(self.re, -self.im)
+
+    @property
+    def swapped(self) -> Complex:
+        """Both parts in each other's place: what makes a transform its inverse, before and after."""
+        return Complex(self.im, self.re)
 
 
-def write(module: Any, precision: str) -> None:
-    """Write ``convolve``: rows there, columns there and back with the multiplier in between, rows back.
+class Plan(NamedTuple):
+    """A Fourier transform: radices and how many they are, twiddle factors of all sweeps, one after the other.
+
+    Its waves come in digit-reversed order; at last, for each wave (of rows) or place (of columns), the index of the
+    other.
+    """
+
+    length: Index
+    radices: Indices
+    sweeps: Index
+    twiddles: Vector
+    order: Indices
+
+
+class RealField(NamedTuple):
+    """A field, its rows and columns."""
+
+    field: Vector
+    ny: Index
+    nx: Index
+
+
+class BlockedSpectrum(NamedTuple):
+    """The numbers, and the rows that there is memory for: the leading dimension."""
+
+    numbers: Vector
+    rows: Index
+
+
+class Scratch(NamedTuple):
+    """Memory for one thread: for transforms as they come, and in order from an offset on."""
+
+    reversed: Vector
+    offset: Index
+
+
+@kernel
+def convolve(
+    code: Code,
+    counters: Indices,
+    field: Vector,
+    answer: Vector,
+    ny: Index,
+    nx: Index,
+    spectrum: BlockedSpectrum,
+    along: Plan,
+    pairs: Vector,
+    across: Plan,
+    multiplier: Vector,
+    many: Index,
+    wide: Index,
+    scratch: Scratch,
+) -> None:
+    """Plan rows, transform columns there and back with the multiplier in between, and rows back.
 
     Parameters: counters for three phases, see `Code.shared`; the field, the answer, rows and columns of both; the
-    spectrum and the rows that it has room for; half of the columns as padded, radices and factors of their transform,
-    the place of each wave in it, factors of the pairs; the rows as padded, radices and factors of their transform, the
-    multiplier and the row of it that each place takes; how many rows, and blocks of columns, are a part; and room for
-    one thread, in which rows lie as they come, and from where they lie in order.
+    spectrum; the transform along rows, of half of the columns as padded, whose neighbours are taken for complex
+    numbers, and the twiddle factors that tell these apart; the transform along columns; the multiplier in blocks of
+    columns; how many rows, and blocks of columns, are a part of the work; and memory for one thread.
     """
-    there, back = (_transform(module, precision, inverse) for inverse in (False, True))
-    rows_there, columns = (
-        _rows(module, precision, there, inverse=False),
-        _columns(module, precision, there, back),
-    )
-    rows_back = _rows(module, precision, back, inverse=True)
-    with Code(module, "convolve", precision, KINDS["convolve"]) as code:
-        counters, field, answer, ny, nx, spectrum, room, half, *given = code.arguments
-        along, across, (many, wide, raw, offset) = given[:5], given[5:11], given[11:]
-        blocks, waves = half // code.count + 1, raw.at(offset)
+    blocks = along.length // code.count + 1
 
-        def some_rows(phase: int, transform: Code, lines: Reals) -> None:
-            for part in code.shared(counters, phase, (ny + many - 1) // many):
-                end = (part * many + many).smaller(ny)
-                code.call(
-                    transform, lines, ny, nx, part * many, end, spectrum, room, half, *along, raw, waves
-                )
+    def some_rows(phase: int, transform: KernelDefinition, plane: Vector) -> None:
+        for part in code.shared(counters, phase, (ny + many - 1) // many):
+            end = (part * many + many).min(ny)
+            code.call(transform, plane, ny, nx, part * many, end, spectrum, along, pairs, scratch)
 
-        some_rows(0, rows_there, field)
-        for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
-            end = (part * wide + wide).smaller(blocks)
-            code.call(columns, spectrum, room, ny, part * wide, end, *across, raw)
-        some_rows(2, rows_back, answer)
+    some_rows(0, _rows, field)
+    for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
+        end = (part * wide + wide).min(blocks)
+        code.call(_columns, spectrum, ny, part * wide, end, across, multiplier, scratch.reversed)
+    some_rows(2, _rows_back, answer)
 
 
-def _transform(module: Any, precision: str, inverse: bool) -> Code:
-    """Write the transform of columns of lanes, in place: there in order, out of order when done; or its inverse.
-
-    Parameters: the numbers, how many, the radices and how many they are, and the factors ("twiddles") of each sweep.
-    """
-    name = "inverse" if inverse else "forward"
-    with Code(module, name, precision, "reals index indices index reals") as code:
-        x, n, radices, sweeps, factors = code.arguments
-        length = code.variable(code.index(1) if inverse else n)
-        for k in code.range(0, sweeps):
-            radix = radices[sweeps - 1 - k] if inverse else radices[k]
-            ways = code.choose(radix.equals(HALF), 4, radix)
-            m = length.get() if inverse else length.get() // ways
-            whole = m * ways
-            for r in RADICES:
-                with code.when(radix.equals(r)):
-                    _sweep(code, x, n, m, r, factors, inverse)
-            length.set(whole if inverse else m)
-    return code
+@kernel
+def _forward(code: Code, x: Vector, plan: Plan) -> None:
+    """Plan columns of lanes, in place: there in order, in digit-reversed order when done."""
+    length = code.variable(plan.length)
+    for k in code.range(0, plan.sweeps):
+        radix = plan.radices[k]
+        part = length.get() // where(radix.equals(HALF), code.index(4), radix)
+        for r in RADICES:
+            with code.when(radix.equals(r)):
+                _sweep(code, x, plan, part, r, inverse=False)
+        length.set(part)
 
 
-def _sweep(code: Code, x: Reals, n: Index, m: Index, radix: int, factors: Reals, inverse: bool) -> None:
-    ways, step = radix or 4, m * (2 * code.count)
-    full, whole = 2 if radix == HALF else ways, m * ways
-    start = (n - whole) * 2  # before it lie the factors of the sweeps over longer parts
-    for block in code.range(0, n, whole):
+@kernel
+def _inverse(code: Code, x: Vector, plan: Plan) -> None:
+    """Plan them back."""
+    length = code.variable(code.index(1))
+    for k in code.range(0, plan.sweeps):
+        radix = plan.radices[plan.sweeps - 1 - k]
+        part = length.get()
+        whole = part * where(radix.equals(HALF), code.index(4), radix)
+        for r in RADICES:
+            with code.when(radix.equals(r)):
+                _sweep(code, x, plan, part, r, inverse=True)
+        length.set(whole)
+
+
+def _sweep(code: Code, x: Vector, plan: Plan, m: Index, digit: int, *, inverse: bool) -> None:
+    radix, step = digit or 4, m * (2 * code.count)
+    full, whole = 2 if digit == HALF else radix, m * radix
+    start = (plan.length - whole) * 2  # before it lie the factors of the sweeps over longer parts
+    for block in code.range(0, plan.length, whole):
         for j in code.range(0, m):
-            first, factor = (block + j) * (2 * code.count), start + j * (2 * (ways - 1))
-            turns = [_factor(factors, factor + 2 * q) for q in range(ways - 1)]
+            first, factor = (block + j) * (2 * code.count), start + j * (2 * (radix - 1))
+            twiddles = [_twiddle(code, plan.twiddles, factor + 2 * q) for q in range(radix - 1)]
             if inverse:
-                waves = [_take(code, x, first + step * q) for q in range(ways)]
-                waves = [waves[0], *(w * t.conjugate for w, t in zip(waves[1:], turns, strict=True))]
-                waves = [w.swapped for w in _butterfly([w.swapped for w in waves])]
-                waves = waves[:full]
+                a = [_load(code, x, first + step * q) for q in range(radix)]
+                a = [a[0], *(w * t.conjugate for w, t in zip(a[1:], twiddles, strict=True))]
+                a = [w.swapped for w in _butterfly([w.swapped for w in a])][:full]
             else:
-                waves = [_take(code, x, first + step * q) for q in range(full)]
-                waves = _half(waves) if radix == HALF else _butterfly(waves)
-                waves = [waves[0], *(w * t for w, t in zip(waves[1:], turns, strict=True))]
-            for q, wave in enumerate(waves):
-                _put(code, x, first + step * q, wave)
+                a = [_load(code, x, first + step * q) for q in range(full)]
+                a = _half_butterfly(a) if digit == HALF else _butterfly(a)
+                a = [a[0], *(w * t for w, t in zip(a[1:], twiddles, strict=True))]
+            for q, number in enumerate(a):
+                _store(code, x, first + step * q, number)
 
 
-def _butterfly(a: Sequence[Wave]) -> list[Wave]:
+def _butterfly(a: Sequence[Complex]) -> list[Complex]:
     """Return the Fourier transform of a few numbers."""
     if len(a) == 2:
         return [a[0] + a[1], a[0] - a[1]]
     if len(a) == 3:
-        both, apart = a[1] + a[2], ((a[1] - a[2]) * (sqrt(3) / 2)).turned
+        both, apart = a[1] + a[2], ((a[1] - a[2]) * (sqrt(3) / 2)).times_minus_i
         middle = a[0] - both * 0.5
         return [a[0] + both, middle + apart, middle - apart]
     if len(a) == 4:
         even, odd = a[0] + a[2], a[1] + a[3]
-        apart, turned = a[0] - a[2], (a[1] - a[3]).turned
-        return [even + odd, apart + turned, even - odd, apart - turned]
+        apart, other = a[0] - a[2], (a[1] - a[3]).times_minus_i
+        return [even + odd, apart + other, even - odd, apart - other]
     # Five (Winograd's cosines and sines of a fifth and two fifths of a turn).
     c1, c2, s1, s2 = (
         (sqrt(5) - 1) / 4,
@@ -160,121 +198,154 @@ def _butterfly(a: Sequence[Wave]) -> list[Wave]:
         sqrt(10 - 2 * sqrt(5)) / 4,
     )
     near, far = a[1] + a[4], a[2] + a[3]
-    near_apart, far_apart = (a[1] - a[4]).turned, (a[2] - a[3]).turned
+    near_apart, far_apart = (a[1] - a[4]).times_minus_i, (a[2] - a[3]).times_minus_i
     first, second = a[0] + near * c1 + far * c2, a[0] + near * c2 + far * c1
     one, two = near_apart * s1 + far_apart * s2, near_apart * s2 - far_apart * s1
     return [a[0] + near + far, first + one, second + two, second - two, first - one]
 
 
-def _half(a: Sequence[Wave]) -> list[Wave]:
+def _half_butterfly(a: Sequence[Complex]) -> list[Complex]:
     """Return the Fourier transform of four numbers of which the last two are zero."""
-    turned = a[1].turned
-    return [a[0] + a[1], a[0] + turned, a[0] - a[1], a[0] - turned]
+    other = a[1].times_minus_i
+    return [a[0] + a[1], a[0] + other, a[0] - a[1], a[0] - other]
 
 
-def _rows(module: Any, precision: str, transform: Code, inverse: bool) -> Code:
-    """Write the transform of some rows, and where it goes; or the way back.
+@kernel
+def _rows(
+    code: Code,
+    plane: RealField,
+    begin: Index,
+    end: Index,
+    spectrum: BlockedSpectrum,
+    plan: Plan,
+    pairs: Vector,
+    scratch: Scratch,
+) -> None:
+    """Plan some rows of a plane into the spectrum."""
+    raw = scratch.reversed
+    ordered = raw + scratch.offset
+    for y in code.range(begin, end, code.count):
+        _gather(code, plane, y, raw, plan.length)
+        code.call(_forward, raw, plan)
+        _split_pairs(code, raw, ordered, plan, pairs, inverse=False)
+        _transpose_blocks(code, spectrum, y, ordered, plan.length, back=False)
 
-    Parameters: the field, its rows and columns, the first row and the one after the last; the spectrum and the rows
-    that it has room for; half of the columns as padded, radices and factors of their transform, the place of each wave
-    in it, factors of the pairs; and room for one transform as it comes and one in order.
+
+@kernel
+def _rows_back(
+    code: Code,
+    plane: RealField,
+    begin: Index,
+    end: Index,
+    spectrum: BlockedSpectrum,
+    plan: Plan,
+    pairs: Vector,
+    scratch: Scratch,
+) -> None:
+    """Plan some rows of the spectrum back into a plane."""
+    raw = scratch.reversed
+    ordered = raw + scratch.offset
+    for y in code.range(begin, end, code.count):
+        _transpose_blocks(code, spectrum, y, ordered, plan.length, back=True)
+        _split_pairs(code, ordered, raw, plan, pairs, inverse=True)
+        code.call(_inverse, raw, plan)
+        _scatter(code, raw, plane, y)
+
+
+def _split_pairs(
+    code: Code, source: Vector, target: Vector, plan: Plan, pairs: Vector, *, inverse: bool
+) -> None:
+    """Tell apart the transforms of even and odd columns, which were taken for one of complex numbers; or the inverse.
+
+    Waves k and half - k do so; in order on one side, in digit-reversed order on the other.
     """
-    with Code(module, "rows_back" if inverse else "rows_there", precision, ROWS) as code:
-        field, ny, nx, begin, end, spectrum, room, half, *plan, places, turns, raw, waves = code.arguments
-        lanes = code.count
-        for y in code.range(begin, end, lanes):
-            if inverse:
-                _turn(code, spectrum, room, y, waves, half, inverse)
-            else:
-                _gather(code, field, ny, nx, y, raw, half)
-                code.call(transform, raw, half, *plan)
-            # Neighbours in a row were taken for one complex number: waves k and half - k tell the two apart.
-            for k in code.range(0, half // 2 + 1):
-                in_order = k * (2 * lanes), (half - k) * (2 * lanes)
-                as_it_comes = places[k] * (2 * lanes), places[half - k] * (2 * lanes)
-                source, target = (waves, raw) if inverse else (raw, waves)
-                at, to = (in_order, as_it_comes) if inverse else (as_it_comes, in_order)
-                a, b = _take(code, source, at[0]), _take(code, source, at[1]).conjugate
-                turn = _factor(turns, k * 2)
-                even, odd = a + b, (b - a).turned * turn.conjugate if inverse else (a - b).turned * turn
-                _put(code, target, to[0], even + odd)
-                _put(code, target, to[1], (even - odd).conjugate)
-            if inverse:
-                code.call(transform, raw, half, *plan)
-                _scatter(code, raw, field, ny, nx, y)
-            else:
-                _turn(code, spectrum, room, y, waves, half, inverse)
-    return code
+    half, size = plan.length, 2 * code.count
+    for k in code.range(0, half // 2 + 1):
+        in_order, reversed_ = (k, half - k), (plan.order[k], plan.order[half - k])
+        at, to = (in_order, reversed_) if inverse else (reversed_, in_order)
+        a, b = _load(code, source, at[0] * size), _load(code, source, at[1] * size).conjugate
+        twiddle = _twiddle(code, pairs, k * 2)
+        even = a + b
+        odd = (b - a).times_minus_i * twiddle.conjugate if inverse else (a - b).times_minus_i * twiddle
+        _store(code, target, to[0] * size, even + odd)
+        _store(code, target, to[1] * size, (even - odd).conjugate)
 
 
-def _turn(code: Code, spectrum: Reals, room: Index, y: Index, waves: Reals, half: Index, back: bool) -> None:
+def _transpose_blocks(
+    code: Code, spectrum: BlockedSpectrum, y: Index, waves: Vector, half: Index, *, back: bool
+) -> None:
     """Bring waves, of as many rows as there are lanes, into the blocks of columns of the spectrum; or back."""
     lanes, step = code.count, code.index(2 * code.count)
     for block in code.range(0, (half + lanes) // lanes):
         for part in (0, lanes):
-            here, there = block * (2 * lanes * lanes) + part, (block * room + y) * (2 * lanes) + part
+            here = block * (2 * lanes * lanes) + part
+            there = (block * spectrum.rows + y) * (2 * lanes) + part
             if back:
-                code.transpose(spectrum, there, step, waves, here, step)
+                code.transpose(spectrum.numbers, there, step, waves, here, step)
             else:
-                code.transpose(waves, here, step, spectrum, there, step)
+                code.transpose(waves, here, step, spectrum.numbers, there, step)
 
 
-def _columns(module: Any, precision: str, there: Code, back: Code) -> Code:
-    """Write the product with a multiplier along some blocks of columns, between transforms there and back.
+@kernel
+def _columns(
+    code: Code,
+    spectrum: BlockedSpectrum,
+    ny: Index,
+    begin: Index,
+    end: Index,
+    plan: Plan,
+    multiplier: Vector,
+    work: Vector,
+) -> None:
+    """Multiply some blocks of columns, of which ny rows count, by a multiplier between transforms there and back.
 
-    Parameters: the spectrum, its rows, how many of them count, the first block and the one after the last; the rows as
-    padded, radices and factors of their transform; the multiplier, block by block, and the row of it that each place
-    takes; and room for one block.
+    The multiplier lies block by block, and `work` has memory for one block.
     """
-    with Code(module, "columns", precision, COLUMNS) as code:
-        spectrum, room, ny, begin, end, my, radices, sweeps, factors, multiplier, places, work = (
-            code.arguments
-        )
-        lanes = code.count
-        for b in code.range(begin, end):
-            part, own = spectrum.at(b * room * (2 * lanes)), multiplier.at(b * (my // 2 + 1) * lanes)
-            # What is not padded is worked on where it lies.
-            whole = ny.equals(my)
-            copied, block = code.choose(whole, 0, ny), code.choose(whole, part, work)
-            for i in code.range(0, copied * 2):
-                block.put(i * lanes, part.take(i * lanes))
-            for i in code.range(ny * 2, my * 2):
-                block.put(i * lanes, code.zero())
-            code.call(there, block, my, radices, sweeps, factors)
-            for i in code.range(0, my):
-                factor = own.take(places[i] * lanes)
-                for at in (i * (2 * lanes), i * (2 * lanes) + lanes):
-                    block.put(at, block.take(at) * factor)
-            code.call(back, block, my, radices, sweeps, factors)
-            for i in code.range(0, copied * 2):
-                part.put(i * lanes, block.take(i * lanes))
-    return code
+    my, lanes = plan.length, code.count
+    for b in code.range(begin, end):
+        part = spectrum.numbers + b * spectrum.rows * (2 * lanes)
+        own = multiplier + b * (my // 2 + 1) * lanes
+        # What is not padded is worked on where it lies.
+        whole = ny.equals(my)
+        copied, block = where(whole, code.index(0), ny), where(whole, part, work)
+        for i in code.range(0, copied * 2):
+            block[(i * lanes).lanes] = part[(i * lanes).lanes]
+        for i in code.range(ny * 2, my * 2):
+            block[(i * lanes).lanes] = 0.0
+        code.call(_forward, block, plan)
+        for i in code.range(0, my):
+            factor = own[(plan.order[i] * lanes).lanes]
+            for k in (i * (2 * lanes), i * (2 * lanes) + lanes):
+                block[k.lanes] = block[k.lanes] * factor
+        code.call(_inverse, block, plan)
+        for i in code.range(0, copied * 2):
+            part[(i * lanes).lanes] = block[(i * lanes).lanes]
 
 
-def _gather(code: Code, field: Reals, ny: Index, nx: Index, y: Index, raw: Reals, half: Index) -> None:
+def _gather(code: Code, plane: RealField, y: Index, raw: Vector, half: Index) -> None:
     """Bring as many rows as there are lanes side by side; neighbours in a row are a real and an imaginary part."""
-    lanes = code.count
-    rows = (ny - y).smaller(code.index(lanes))
+    lanes, (field, ny, nx) = code.count, plane
+    rows = (ny - y).min(code.index(lanes))
     whole = _whole(code, rows, nx)
     for x in code.range(0, whole, lanes):
         code.transpose(field, y * nx + x, nx, raw, x * lanes, code.index(lanes))
     for x in code.range(whole, half * 2):
-        raw.put(x * lanes, code.zero())
+        raw[(x * lanes).lanes] = 0.0
     for row in code.range(0, rows):
         for x in code.range(whole, nx):
-            raw.put(x * lanes + row, field.take_one((y + row) * nx + x))
+            raw[x * lanes + row] = field[(y + row) * nx + x]
 
 
-def _scatter(code: Code, raw: Reals, field: Reals, ny: Index, nx: Index, y: Index) -> None:
+def _scatter(code: Code, raw: Vector, plane: RealField, y: Index) -> None:
     """Bring them back."""
-    lanes = code.count
-    rows = (ny - y).smaller(code.index(lanes))
+    lanes, (field, ny, nx) = code.count, plane
+    rows = (ny - y).min(code.index(lanes))
     whole = _whole(code, rows, nx)
     for x in code.range(0, whole, lanes):
         code.transpose(raw, x * lanes, code.index(lanes), field, y * nx + x, nx)
     for row in code.range(0, rows):
         for x in code.range(whole, nx):
-            field.put((y + row) * nx + x, raw.take_one(x * lanes + row))
+            field[(y + row) * nx + x] = raw[x * lanes + row]
 
 
 def _whole(code: Code, rows: Index, nx: Index) -> Index:
@@ -282,14 +353,14 @@ def _whole(code: Code, rows: Index, nx: Index) -> Index:
     return nx // code.count * code.count * (rows // code.count)
 
 
-def _factor(factors: Reals, at: Index) -> Wave:
-    return Wave(factors.take_for_all(at), factors.take_for_all(at + 1))
+def _twiddle(code: Code, factors: Vector, at: Index) -> Complex:
+    return Complex(code.lanes(factors[at]), code.lanes(factors[at + 1]))
 
 
-def _take(code: Code, x: Reals, at: Index) -> Wave:
-    return Wave(x.take(at), x.take(at + code.count))
+def _load(code: Code, x: Vector, at: Index) -> Complex:
+    return Complex(x[at.lanes], x[(at + code.count).lanes])
 
 
-def _put(code: Code, x: Reals, at: Index, wave: Wave) -> None:
-    x.put(at, wave.re)
-    x.put(at + code.count, wave.im)
+def _store(code: Code, x: Vector, at: Index, number: Complex) -> None:
+    x[at.lanes] = number.re
+    x[(at + code.count).lanes] = number.im

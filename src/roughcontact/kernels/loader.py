@@ -3,33 +3,28 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib import resources
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from roughcontact.kernels import disk
+from roughcontact.kernels.calls import Function
 from roughcontact.kernels.processor import is_off, processor
 from roughcontact.threads import once
 
-__all__ = ["address", "code_for", "functions", "is_available", "takes"]
+if TYPE_CHECKING:
+    from roughcontact.kernels.signature import KernelDefinition
 
-COMMON = (
-    "code",
-    "constants",
-    "loader",
-    "stencil",
-    "totals",
-    "values",
-)  # modules whose text all code depends on
-_POINTER = ctypes.c_void_p
+__all__ = ["code_for", "functions", "is_available", "takes"]
+
+# Modules whose text all code depends on.
+COMMON = ("calls", "code", "constants", "groups", "loader", "signature", "stencil", "totals", "values")
 _ENGINES: list[Any] = []  # they own the code that runs
 _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
-_REALS = {"float32": ctypes.c_float, "float64": ctypes.c_double}
 
 
 @once
@@ -44,26 +39,25 @@ def is_available() -> bool:
     if is_off():
         return False
     try:
-        functions("scaling", "float64")  # the smallest
+        functions("block_kernels", "float64")  # the smallest
     except (AttributeError, ImportError, OSError, RuntimeError, TypeError):
         return False
     return True
 
 
-def code_for(family: str, field: Any) -> Mapping[str, Callable[..., None]]:
+def code_for(family: str, field: Any) -> Mapping[str, Function]:
     """Return the functions of a module for the precision of a NumPy array."""
     return functions(family, _NAMES[field.dtype.char])
 
 
 @once
-def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
-    """Return the functions of a module of this package, which take arrays by their addresses.
+def functions(family: str, precision: str) -> Mapping[str, Function]:
+    """Return the kernels of a module of this package in machine code, by name.
 
     Parameters
     ----------
     family : str
-        Name of the module. Its ``KINDS`` says which functions there are, with the kinds of their parameters, and its
-        ``write(module, precision)`` writes them.
+        Name of the module.
     precision : {"float32", "float64"}
 
     Notes
@@ -71,16 +65,16 @@ def functions(family: str, precision: str) -> Mapping[str, Callable[..., None]]:
     Other threads run meanwhile. The first call on a machine takes about a second; later processes find the code in
     the user's folder for caches, if there is one and nobody else can write to it.
     """
-    writer, key = _families()[family], _key(family, precision)
+    kernels, key = _kernels(family), _key(family, precision)
     if key is None:
-        return _loaded(_translated(writer, precision), writer.KINDS, precision)
+        return _loaded(_translated(kernels, precision), kernels, precision)
     file = f"{family}-{precision}-{key.hex()[:32]}.o"
     found = disk.read(file, key)
     if found is not None:
         with contextlib.suppress(RuntimeError):
-            return _loaded(found, writer.KINDS, precision)
-    code = _translated(writer, precision)
-    loaded = _loaded(code, writer.KINDS, precision)
+            return _loaded(found, kernels, precision)
+    code = _translated(kernels, precision)
+    loaded = _loaded(code, kernels, precision)
     disk.keep(file, key, code)
     return loaded
 
@@ -92,21 +86,19 @@ def takes(field: Any) -> bool:
     return field.dtype.char in _NAMES and bool(field.dtype.isnative) and is_available()
 
 
-def address(array: Any) -> int:
-    """Return where a NumPy array begins."""
-    try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))
-    except (TypeError, ValueError):  # read only, empty, or not contiguous: a slower way
-        found: int = array.__array_interface__["data"][0]
-        return found
-
-
 def _families() -> Mapping[str, Any]:
-    """Return the modules that write code, imported late and by names that bundlers of programs see."""
-    from roughcontact.kernels import fft, judging, passes, scaling, tile_kernels
+    """Return the modules of kernels, imported late and by names that bundlers of programs see."""
+    from roughcontact.kernels import block_kernels, fft, plane_kernels, tile_kernels, vector_kernels
 
-    families = fft, judging, passes, scaling, tile_kernels
+    families = block_kernels, fft, plane_kernels, tile_kernels, vector_kernels
     return {family.__name__.rpartition(".")[2]: family for family in families}
+
+
+def _kernels(family: str) -> Mapping[str, KernelDefinition]:
+    """Return the kernels of a module, by name."""
+    from roughcontact.kernels.signature import KernelDefinition
+
+    return {k.name: k for k in vars(_families()[family]).values() if isinstance(k, KernelDefinition)}
 
 
 @cache
@@ -132,11 +124,15 @@ def _new_target() -> Any:
     )
 
 
-def _translated(writer: Any, precision: str) -> bytes:
+def _translated(kernels: Mapping[str, KernelDefinition], precision: str) -> bytes:
     from llvmlite import binding, ir
 
-    written = ir.Module(writer.__name__)
-    writer.write(written, precision)
+    from roughcontact.kernels.code import Code
+
+    written = ir.Module()
+    for name, kernel in kernels.items():
+        if f"{name}_{precision}" not in written.globals:  # it was called by another
+            Code(written, kernel, precision)
     module = binding.parse_assembly(str(written))
     module.triple, module.data_layout = _target().triple, str(_target().target_data)
     options = binding.create_pipeline_tuning_options(speed_level=0)
@@ -149,7 +145,7 @@ def _translated(writer: Any, precision: str) -> bytes:
     return bytes(_target().emit_object(module))
 
 
-def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, Callable[..., None]]:
+def _loaded(code: bytes, kernels: Mapping[str, KernelDefinition], precision: str) -> dict[str, Function]:
     """Return the functions in some object code.
 
     Raises
@@ -163,22 +159,12 @@ def _loaded(code: bytes, kinds: Mapping[str, str], precision: str) -> dict[str, 
     engine = binding.create_mcjit_compiler(empty, _new_target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    places = {name: engine.get_function_address(f"{name}_{precision}") for name in kinds}
+    places = {name: engine.get_function_address(f"{name}_{precision}") for name in kernels}
     if 0 in places.values():
         raise RuntimeError(f"not all of {', '.join(places)} are in the code")
     _ENGINES.append(engine)
-    types = {
-        "index": ctypes.c_int64,
-        "indices": _POINTER,
-        "reals": _POINTER,
-        "doubles": _POINTER,
-        "flags": _POINTER,
-        "double": ctypes.c_double,
-        "real": _REALS[precision],
-    }
     return {
-        name: ctypes.CFUNCTYPE(None, *(types[kind] for kind in parameters.split()))(places[name])
-        for name, parameters in kinds.items()
+        name: Function(name, kernel.parameters(precision), places[name]) for name, kernel in kernels.items()
     }
 
 

@@ -11,10 +11,18 @@ import numpy.typing as npt
 
 from roughcontact.kernels.buffers import empty
 from roughcontact.kernels.constants import WIDTH
-from roughcontact.kernels.loader import address, code_for
+from roughcontact.kernels.loader import code_for
 from roughcontact.threads import spread
 
-__all__ = ["Levels", "Look", "levels", "look", "mark", "narrow", "widen"]
+__all__ = [
+    "Extremes",
+    "LevelRange",
+    "add_scaled",
+    "extremes",
+    "level_range",
+    "predict_active",
+    "scale_down",
+]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
@@ -25,23 +33,23 @@ SEVERAL = 4  # parts from which on threads are worth waking
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
-    """What there is to see of a pressure, over all cells; levels are separation and displacement together.
+class Extremes:
+    """The extremes of a pressure over all cells; levels are separation and displacement together.
 
     Attributes
     ----------
     highest, lowest : float
-        Level [m] of those that carry something, and of all.
+        Level [m] of those under pressure, and of all.
     displacement : float
         The largest [m].
     strongest, weakest : float
         Pressure [Pa].
     least : float
-        Pressure of those that carry something [Pa]; infinite without any.
+        Smallest positive pressure [Pa]; infinite without any.
     nearest : float
-        Lowest level of those that carry nothing [m]; infinite without any.
+        Lowest level of those without pressure [m]; infinite without any.
     level : float
-        Sum over those that carry something [m].
+        Sum of the levels of those under pressure [m].
     count : int
         How many they are.
     """
@@ -57,7 +65,7 @@ class Look:
     count: int
 
 
-class Levels(NamedTuple):
+class LevelRange(NamedTuple):
     """The highest and the lowest level of some cells [m], and their mean."""
 
     highest: float
@@ -65,37 +73,37 @@ class Levels(NamedTuple):
     mean: float
 
 
-def look(pressure: Array, displacement: Array, separation: Array) -> Look | None:
-    """Return what there is to see; None where some pressure or displacement is no finite number."""
-    run = code_for("judging", pressure)["look"]
+def extremes(pressure: Array, displacement: Array, separation: Array) -> Extremes | None:
+    """Return the extremes; None where some pressure or displacement is no finite number."""
+    run = code_for("plane_kernels", pressure)["extremes"]
     found = _totals(run, 7, 10, pressure, displacement, separation)
     highest, raised, moved, strongest, weakened, least, nearest, level, count, nothing = found
     if nothing != 0:  # or is no number
         return None
-    return Look(highest, -raised, moved, strongest, -weakened, -least, -nearest, level, int(count))
+    return Extremes(highest, -raised, moved, strongest, -weakened, -least, -nearest, level, int(count))
 
 
-def mark(
+def predict_active(
     pressure: Array, displacement: Array, separation: Array, *, depth: float, least: float, own: float
 ) -> tuple[Mask, int, int]:
-    """Return the cells that carry something or whose gap is below the least, but for wrong ones; and how many both are.
+    """Return the cells under pressure or whose gap is below the least, but for wrong ones; and how many both are.
 
-    Those are wrong whose gap is more than what they carry would displace, if each moved itself by `own` alone [m/Pa].
+    Those are wrong whose gap is more than their pressure would displace, if each moved itself by `own` alone [m/Pa].
     """
     region = empty(pressure.shape, bool)
     given = pressure, displacement, separation, depth, least, own, region
-    stay, wrong = _totals(code_for("judging", pressure)["mark"], 0, 2, *given)
+    stay, wrong = _totals(code_for("plane_kernels", pressure)["predict_active"], 0, 2, *given)
     return region, int(stay), int(wrong)
 
 
-def levels(separation: Array, displacement: Array, region: Mask) -> Levels:
+def level_range(separation: Array, displacement: Array, region: Mask) -> LevelRange:
     """Return the levels of a region that has some cell."""
-    code = code_for("judging", separation)
-    highest, raised, total, count = _totals(code["levels"], 2, 4, separation, displacement, region)
-    return Levels(highest, -raised, total / count)
+    run = code_for("plane_kernels", separation)["level_range"]
+    highest, raised, total, count = _totals(run, 2, 4, separation, displacement, region)
+    return LevelRange(highest, -raised, total / count)
 
 
-def narrow(
+def scale_down(
     separation: Array,
     displacement: Array,
     pressure: Array,
@@ -107,16 +115,16 @@ def narrow(
     lacking: Field,
     base: Field,
 ) -> None:
-    """Write, in a unit: one inside a region and zero elsewhere, what is lacking of a depth, and the pressure."""
+    """Write, in a unit: one inside a region and zero elsewhere, the residual of a depth, and the pressure."""
     fields = separation, displacement, pressure, region
-    run = code_for("scaling", inside)["narrow"]
+    run = code_for("plane_kernels", inside)["scale_down"]
     _totals(run, 0, 0, *fields, depth, 1 / unit, inside, lacking, base)
 
 
-def widen(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
+def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
     """Return a pressure with its change, in a unit, zero where it would be negative and outside."""
     answer = empty(pressure.shape, np.float64)
-    _totals(code_for("scaling", inside)["widen"], 0, 0, pressure, change, inside, unit, answer)
+    _totals(code_for("plane_kernels", inside)["add_scaled"], 0, 0, pressure, change, inside, unit, answer)
     return answer
 
 
@@ -126,13 +134,11 @@ def _totals(run: Callable[..., None], most: int, count: int, *arguments: Field |
     assert CELLS % WIDTH == 0
     starts = range(0, max(size, 1), CELLS)
     totals = np.zeros((len(starts), count))
-    given = [(address(a), a.itemsize) if isinstance(a, np.ndarray) else (a, 0) for a in arguments]
+    fields = [a.reshape(-1) if isinstance(a, np.ndarray) else a for a in arguments]
 
-    # With the arrays themselves: they live as long as anyone works on them.
-    def part(start: int, _: object = arguments) -> None:
-        at = [first + start * step if step else first for first, step in given]
-        ends = (address(totals[start // CELLS]),) if count else ()
-        run(min(CELLS, size - start), *at, *ends)
+    def part(start: int) -> None:
+        given = [a[start:] if isinstance(a, np.ndarray) else a for a in fields]
+        run(min(CELLS, size - start), *given, *((totals[start // CELLS],) if count else ()))
 
     spread(part, starts, SEVERAL)
     return [*totals[:, :most].max(axis=0).tolist(), *totals[:, most:].sum(axis=0).tolist()]

@@ -1,52 +1,68 @@
-"""A loop over all numbers of some fields that leaves sums, and largest ones, of what its body finds."""
+"""Sums, and largest ones, of what a loop finds."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 
-from roughcontact.kernels.code import Code, Take
-from roughcontact.kernels.values import Index, Number, Reals
+from roughcontact.kernels.code import Code, Local
+from roughcontact.kernels.signature import Doubles
+from roughcontact.kernels.values import Number, maximum, where
 
-__all__ = ["leave_totals"]
+__all__ = ["Totals"]
 
 
-def leave_totals(
-    code: Code,
-    n: Index,
-    body: Callable[[Index, Take], Sequence[Number]],
-    totals: Reals,
-    most: int,
-    count: int,
-) -> None:
-    """Go through `n` numbers; of the `count` that the body finds leave the largest of the first `most`, sums of others.
+class Totals:
+    """The largest of the first numbers that a loop finds, and sums of the others; in double precision.
 
-    They are of double precision, and sums are compensated (Kahan 1965): the mean level of a million cells is known to
-    its last digits. What is no number may be lost among the largest, and never among the sums.
+    Parameters
+    ----------
+    code : Code
+    sums, largest : int
+        How many numbers.
+    least : float
+        The largest of none.
+    compensated : bool
+        Whether rounding is taken off sums (Kahan 1965): the mean level of a million cells is known to its last digits.
+
+    Notes
+    -----
+    NaN may be lost among the largest, and never among the sums.
     """
 
-    def both(place: int) -> Callable[[Number, Number], Number]:
-        return Number.larger if place < most else Number.__add__
+    def __init__(
+        self, code: Code, sums: int, largest: int = 0, *, least: float = -math.inf, compensated: bool = False
+    ) -> None:
+        self._code, self._largest, self._compensated = code, largest, compensated
+        starts = [least] * largest + [0.0] * sums
+        self._lanes, self._ones = (
+            [(code.variable(zero.filled(start)), code.variable(zero.filled(0.0))) for start in starts]
+            for zero in (code.lanes(0.0).double(), code.number(0.0).double())
+        )
 
-    def begin(number: Number) -> list[Number]:
-        nothing = number.in_double()
-        return [nothing.replaced(-math.inf if k < most else 0.0) for k in range(count)]
+    def add(self, *numbers: Number) -> None:
+        """Count some numbers, one in each lane or single ones."""
+        for place, number in enumerate(numbers):
+            found = number.double()
+            lanes, ones = self._lanes[place], self._ones[place]
+            total, lost = lanes if found.value.type == lanes[0].first.value.type else ones
+            if place < self._largest:
+                total.set(maximum(found, total.get()))
+            elif self._compensated:
+                _add_compensated(total, lost, found)
+            else:
+                total.set(total.get() + found)
 
-    lanes, ones = (
-        [(code.variable(first), code.variable(first.replaced(0.0))) for first in begin(none)]
-        for none in (code.zero(), code.one(0.0))
-    )
-    for at, take in code.each(n):
-        for place, number in enumerate(body(at, take)):
-            total, lost = (lanes if take.lanes else ones)[place]
-            if place < most:
-                total.set(number.in_double().larger(total.get()))
-                continue
-            before, added = total.get(), number.in_double() - lost.get()
-            after = before + added
-            rest = (after - before) - added
-            lost.set(rest.where(rest.larger(-rest).is_below(math.inf)))  # of infinity nothing is lost
-            total.set(after)
-    for place, ((many, _), (one, _)) in enumerate(zip(lanes, ones, strict=True)):
-        found = both(place)(code.across(many.get(), both(place)), one.get())
-        totals.put(code.index(place), found)
+    def store(self, memory: Doubles) -> None:
+        """Write them down one after the other."""
+        for place, ((lanes, _), (one, _)) in enumerate(zip(self._lanes, self._ones, strict=True)):
+            combine = maximum if place < self._largest else Number.__add__
+            found = combine(self._code.across(lanes.get(), combine), one.get())
+            memory[self._code.index(place)] = found
+
+
+def _add_compensated(total: Local[Number], lost: Local[Number], number: Number) -> None:
+    before, added = total.get(), number - lost.get()
+    after = before + added
+    rest = (after - before) - added
+    lost.set(where(abs(rest) < math.inf, rest, 0.0))  # of infinity nothing is lost
+    total.set(after)

@@ -1,21 +1,58 @@
-"""What the small language speaks of: numbers, whole numbers, and where they lie in memory.
+"""The values of the kernel language: numbers, conditions, indices, and memory that holds them.
 
-Operators on them do not compute: they write down what is to be computed.
+Operators on them do not compute: they write down what is to be computed. A number, or a condition, is a single one or
+one in each lane; where both kinds meet, the single one is broadcast.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar, cast
 
 from llvmlite import ir
 
-__all__ = ["FLAG", "INDEX", "Flags", "Index", "Indices", "Number", "Reals", "constant"]
+__all__ = [
+    "ELEMENTS",
+    "INDEX",
+    "Condition",
+    "Index",
+    "Memory",
+    "Number",
+    "broadcast",
+    "constant",
+    "maximum",
+    "where",
+]
 
 INDEX = ir.IntType(64)
-FLAG = ir.IntType(8)  # a truth value in memory, as NumPy has it
+# By NumPy's name: the type in memory, and the bytes of one.
+ELEMENTS = {
+    "float32": (ir.FloatType(), 4),
+    "float64": (ir.DoubleType(), 8),
+    "int64": (INDEX, 8),
+    "bool": (ir.IntType(8), 1),
+}
 _FUSE = ("contract",)  # a product and a sum may be one instruction; nothing else may change
+
+T = TypeVar("T", bound="Number | Index | Condition")
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A truth value, or one in each lane."""
+
+    value: Any
+    builder: Any
+
+    def __and__(self, other: Condition) -> Condition:
+        return Condition(self.builder.and_(self.value, other.value), self.builder)
+
+    def __or__(self, other: Condition) -> Condition:
+        return Condition(self.builder.or_(self.value, other.value), self.builder)
+
+    def __invert__(self) -> Condition:
+        return Condition(self.builder.not_(self.value), self.builder)
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,213 +62,213 @@ class Number:
     value: Any
     builder: Any
 
-    def _with(self, other: Number | float) -> Any:
-        return other.value if isinstance(other, Number) else constant(self.value.type, other)
-
     def __add__(self, other: Number | float) -> Number:
-        return Number(self.builder.fadd(self.value, self._with(other), flags=_FUSE), self.builder)
+        return Number(self.builder.fadd(*_aligned(self, other), flags=_FUSE), self.builder)
 
     def __sub__(self, other: Number | float) -> Number:
-        return Number(self.builder.fsub(self.value, self._with(other), flags=_FUSE), self.builder)
+        return Number(self.builder.fsub(*_aligned(self, other), flags=_FUSE), self.builder)
 
     def __mul__(self, other: Number | float) -> Number:
-        return Number(self.builder.fmul(self.value, self._with(other), flags=_FUSE), self.builder)
+        return Number(self.builder.fmul(*_aligned(self, other), flags=_FUSE), self.builder)
 
     def __neg__(self) -> Number:
         return Number(self.builder.fneg(self.value), self.builder)
 
-    def larger(self, other: Number) -> Number:
-        """Return the larger of two numbers."""
-        larger = self.builder.fcmp_ordered(">", self.value, other.value)
-        return Number(self.builder.select(larger, self.value, other.value), self.builder)
+    def __abs__(self) -> Number:
+        return maximum(self, -self)
 
-    def is_below(self, limit: Number | float) -> Any:
-        """Return the condition that a number is below another, lane by lane."""
-        return self.builder.fcmp_ordered("<", self.value, self._with(limit))
+    def __lt__(self, other: Number | float) -> Condition:
+        return self._compared("<", other)
 
-    def is_at_most(self, limit: Number) -> Any:
-        """Return the condition that a number is no more than another, lane by lane."""
-        return self.builder.fcmp_ordered("<=", self.value, limit.value)
+    def __le__(self, other: Number | float) -> Condition:
+        return self._compared("<=", other)
 
-    def is_not_zero(self) -> Any:
-        """Return the condition that a single number is not zero."""
-        return self.builder.fcmp_unordered("!=", self.value, constant(self.value.type, 0.0))
+    def __gt__(self, other: Number | float) -> Condition:
+        return self._compared(">", other)
 
-    def replaced(self, value: float) -> Number:
-        """Return another number, in as many lanes."""
-        return Number(self._with(value), self.builder)
+    def is_nonzero(self) -> Condition:
+        """Return the condition that a number is not zero; NaN is not."""
+        return Condition(self.builder.fcmp_unordered("!=", *_aligned(self, 0.0)), self.builder)
 
-    def where(self, condition: Any, other: float = 0.0) -> Number:
-        """Return the number where a condition holds, else another."""
-        return Number(self.builder.select(condition, self.value, self._with(other)), self.builder)
+    def heaviside(self) -> Number:
+        """Return 1 where the number is positive, else 0."""
+        return where(self > 0.0, self.filled(1.0), 0.0)
 
-    def where_not(self, condition: Any) -> Number:
-        """Return the number where a condition does not hold, else zero."""
-        return Number(self.builder.select(condition, self._with(0.0), self.value), self.builder)
+    def filled(self, value: float) -> Number:
+        """Return a constant of the same type."""
+        return Number(constant(self.value.type, value), self.builder)
 
-    def sign(self) -> Number:
-        """Return one for what is more than nothing, else zero."""
-        return self.replaced(1.0).where(self.is_more_than(0.0))
-
-    def is_more_than(self, limit: Number | float) -> Any:
-        """Return the condition that a number is more than another, lane by lane."""
-        return self.builder.fcmp_ordered(">", self.value, self._with(limit))
-
-    def in_double(self) -> Number:
-        """Return the number in double precision."""
-        return self._converted(ir.DoubleType(), self.builder.fpext)
-
-    def rounded_to(self, real: Any) -> Number:
-        """Return the number, of double precision, in that of a type."""
-        return self._converted(real, self.builder.fptrunc)
-
-    def _converted(self, real: Any, convert: Callable[[Any, Any], Any]) -> Number:
-        kind = self.value.type
+    def to(self, dtype: str) -> Number:
+        """Return the number in a precision, rounded if need be."""
+        kind, (wanted, size) = self.value.type, ELEMENTS[dtype]
         lanes = isinstance(kind, ir.VectorType)
-        if (kind.element if lanes else kind) == real:
+        given = kind.element if lanes else kind
+        if given == wanted:
             return self
-        return Number(convert(self.value, ir.VectorType(real, kind.count) if lanes else real), self.builder)
+        convert = self.builder.fpext if size == 8 else self.builder.fptrunc
+        return Number(
+            convert(self.value, ir.VectorType(wanted, kind.count) if lanes else wanted), self.builder
+        )
+
+    def double(self) -> Number:
+        """Return the number in double precision."""
+        return self.to("float64")
+
+    def _compared(self, sign: str, other: Number | float) -> Condition:
+        return Condition(self.builder.fcmp_ordered(sign, *_aligned(self, other)), self.builder)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Index:
-    """A whole number."""
+    """A whole number; as a place in memory that of one number, or of the first of as many as there are lanes."""
 
     value: Any
     builder: Any
+    wide: bool = False
 
-    def _with(self, other: Index | int) -> Any:
-        return other.value if isinstance(other, Index) else ir.Constant(INDEX, other)
+    @property
+    def lanes(self) -> Index:
+        """The same index, of a number for each lane."""
+        return replace(self, wide=True)
 
     def __add__(self, other: Index | int) -> Index:
-        return Index(self.builder.add(self.value, self._with(other)), self.builder)
+        return self._with(other, self.builder.add)
 
     def __sub__(self, other: Index | int) -> Index:
-        return Index(self.builder.sub(self.value, self._with(other)), self.builder)
+        return self._with(other, self.builder.sub)
 
     def __mul__(self, other: Index | int) -> Index:
-        return Index(self.builder.mul(self.value, self._with(other)), self.builder)
+        return self._with(other, self.builder.mul)
 
     def __floordiv__(self, other: Index | int) -> Index:
-        return Index(self.builder.sdiv(self.value, self._with(other)), self.builder)
+        return self._with(other, self.builder.sdiv)
 
-    def __le__(self, other: Index | int) -> Any:
-        return self.builder.icmp_signed("<=", self.value, self._with(other))
-
-    def equals(self, other: Index | int) -> Any:
-        """Return the condition that two whole numbers are the same."""
-        return self.builder.icmp_signed("==", self.value, self._with(other))
+    def __mod__(self, other: Index | int) -> Index:
+        return self._with(other, self.builder.srem)
 
     def __neg__(self) -> Index:
         return Index(self.builder.neg(self.value), self.builder)
 
-    def size(self) -> Index:
-        """Return the number without its sign."""
-        return Index(self.builder.select(self <= -1, (-self).value, self.value), self.builder)
+    def __abs__(self) -> Index:
+        return where(self < 0, -self, self)
 
-    def smaller(self, other: Index) -> Index:
-        """Return the smaller of two whole numbers."""
-        return Index(self.builder.select(self <= other, self.value, other.value), self.builder)
+    def __lt__(self, other: Index | int) -> Condition:
+        return self._compared("<", other)
 
+    def __le__(self, other: Index | int) -> Condition:
+        return self._compared("<=", other)
 
-@dataclass(frozen=True, slots=True)
-class Indices:
-    """Whole numbers in memory."""
+    def equals(self, other: Index | int) -> Condition:
+        """Return the condition that two indices are the same."""
+        return self._compared("==", other)
 
-    pointer: Any
-    builder: Any
+    def min(self, other: Index) -> Index:
+        """Return the smaller of two indices."""
+        return where(self <= other, self, other)
 
-    def __getitem__(self, at: Index) -> Index:
-        return Index(self.builder.load(self.place(at)), self.builder)
+    def _with(self, other: Index | int, operation: Callable[[Any, Any], Any]) -> Index:
+        wide = self.wide or (isinstance(other, Index) and other.wide)
+        return Index(operation(*_aligned(self, other)), self.builder, wide)
 
-    def put(self, at: Index, number: Index) -> None:
-        """Write a whole number."""
-        self.builder.store(number.value, self.place(at))
-
-    def place(self, at: Index) -> Any:
-        """Return where a number lies."""
-        return self.builder.gep(self.pointer, [at.value])
+    def _compared(self, sign: str, other: Index | int) -> Condition:
+        return Condition(self.builder.icmp_signed(sign, *_aligned(self, other)), self.builder)
 
 
 @dataclass(frozen=True, slots=True)
-class Reals:
-    """Real numbers in memory, that are taken one at a time, or as many as there are lanes."""
+class Memory(Generic[T]):
+    """Values of one type that lie one after the other; of lanes, they need not begin anywhere in particular."""
 
     pointer: Any
     builder: Any
-    lanes: Any
-    size: int  # bytes of one
-
-    def at(self, start: Index) -> Reals:
-        """Return those that begin at an index."""
-        return Reals(self.builder.gep(self.pointer, [start.value]), self.builder, self.lanes, self.size)
-
-    def take(self, at: Index) -> Number:
-        """Return the numbers from an index on, one in each lane."""
-        found = self.builder.load(self._place(at))
-        found.align = self.size
-        return Number(found, self.builder)
-
-    def put(self, at: Index, number: Number) -> None:
-        """Write a number, or those of all lanes, from an index on."""
-        if isinstance(number.value.type, ir.VectorType):
-            self.builder.store(number.value, self._place(at)).align = self.size
-        else:
-            self.builder.store(number.value, self.builder.gep(self.pointer, [at.value]))
-
-    def take_one(self, at: Index) -> Number:
-        """Return a single number."""
-        return Number(self.builder.load(self.builder.gep(self.pointer, [at.value])), self.builder)
-
-    def take_for_all(self, at: Index) -> Number:
-        """Return a single number, in each lane."""
-        return Number(spread_out(self.take_one(at).value, self.lanes, self.builder), self.builder)
-
-    def _place(self, at: Index) -> Any:
-        return self.builder.bitcast(self.builder.gep(self.pointer, [at.value]), self.lanes.as_pointer())
-
-
-@dataclass(frozen=True, slots=True)
-class Flags:
-    """Truth values in memory, a byte each."""
-
-    pointer: Any
-    builder: Any
+    dtype: str
     count: int  # of lanes
 
-    def take(self, at: Index) -> Any:
-        """Return the conditions from an index on, one in each lane."""
-        found = self.builder.load(self._place(at))
-        found.align = 1
-        return self.builder.icmp_unsigned("!=", found, ir.Constant(found.type, None))
+    def __add__(self, start: Index) -> Memory[T]:
+        return replace(self, pointer=self.place(start))
 
-    def take_one(self, at: Index) -> Any:
-        """Return a single condition."""
-        found = self.builder.load(self.builder.gep(self.pointer, [at.value]))
-        return self.builder.icmp_unsigned("!=", found, ir.Constant(FLAG, 0))
+    def __getitem__(self, at: Index) -> T:
+        found = self.builder.load(self._typed(at))
+        if at.wide:
+            found.align = ELEMENTS[self.dtype][1]
+        if self.dtype == "int64":
+            return cast("T", Index(found, self.builder))
+        if self.dtype == "bool":
+            set_ = self.builder.icmp_unsigned("!=", found, ir.Constant(found.type, None))
+            return cast("T", Condition(set_, self.builder))
+        return cast("T", Number(found, self.builder))
 
-    def put(self, at: Index, condition: Any) -> None:
-        """Write a condition, or those of all lanes, from an index on."""
-        if isinstance(condition.type, ir.VectorType):
-            bytes_ = self.builder.zext(condition, ir.VectorType(FLAG, self.count))
-            self.builder.store(bytes_, self._place(at)).align = 1
+    def __setitem__(self, at: Index, value: T | float) -> None:
+        element, size = ELEMENTS[self.dtype]
+        kind = ir.VectorType(element, self.count) if at.wide else element
+        stored: Any
+        if isinstance(value, Number):
+            stored = value.to(self.dtype).value
+            stored = broadcast(stored, self.count, self.builder) if at.wide else stored
+        elif isinstance(value, Condition):
+            stored = self.builder.zext(value.value, kind)
+        elif isinstance(value, Index):
+            stored = value.value
         else:
-            self.builder.store(self.builder.zext(condition, FLAG), self.builder.gep(self.pointer, [at.value]))
+            stored = constant(kind, value)
+        instruction = self.builder.store(stored, self._typed(at))
+        if at.wide:
+            instruction.align = size
 
-    def _place(self, at: Index) -> Any:
-        lanes = ir.VectorType(FLAG, self.count)
-        return self.builder.bitcast(self.builder.gep(self.pointer, [at.value]), lanes.as_pointer())
+    def place(self, at: Index) -> Any:
+        """Return the address of a value."""
+        return self.builder.gep(self.pointer, [at.value])
+
+    def _typed(self, at: Index) -> Any:
+        if not at.wide:
+            return self.place(at)
+        lanes = ir.VectorType(ELEMENTS[self.dtype][0], self.count)
+        return self.builder.bitcast(self.place(at), lanes.as_pointer())
+
+
+def maximum(a: Number, b: Number) -> Number:
+    """Return the larger of two numbers; the second where one is NaN."""
+    return where(a > b, a, b)
+
+
+V = TypeVar("V", Number, Index, Memory[Number])
+
+
+def where(condition: Condition, one: V, other: V | float) -> V:
+    """Return one value, or memory, where a condition holds, else the other."""
+    found: Any
+    if isinstance(one, Memory):
+        memory = one.builder.select(condition.value, one.pointer, cast("Any", other).pointer)
+        found = replace(one, pointer=memory)
+    else:
+        found = replace(one, value=one.builder.select(condition.value, *_aligned(one, other)))
+    return cast("V", found)
 
 
 def constant(kind: Any, value: float) -> Any:
     """Return a constant of a type, in each lane if it has some."""
-    return ir.Constant(kind, [float(value)] * kind.count if isinstance(kind, ir.VectorType) else float(value))
+    lanes = isinstance(kind, ir.VectorType)
+    number = value if (kind.element if lanes else kind) == INDEX else float(value)
+    return ir.Constant(kind, [number] * kind.count if lanes else number)
 
 
-def spread_out(value: Any, lanes: Any, builder: Any) -> Any:
-    """Return lanes that all have the same value."""
-    nothing = ir.Constant(lanes, ir.Undefined)
+def broadcast(value: Any, count: int, builder: Any) -> Any:
+    """Return a value in each of so many lanes; as it is if it has lanes."""
+    if isinstance(value.type, ir.VectorType):
+        return value
+    nothing = ir.Constant(ir.VectorType(value.type, count), ir.Undefined)
     first = builder.insert_element(nothing, value, ir.Constant(ir.IntType(32), 0))
-    return builder.shuffle_vector(
-        first, nothing, ir.Constant(ir.VectorType(ir.IntType(32), lanes.count), None)
-    )
+    return builder.shuffle_vector(first, nothing, ir.Constant(ir.VectorType(ir.IntType(32), count), None))
+
+
+def _aligned(one: Any, other: Any) -> tuple[Any, Any]:
+    """Return two values as ones of the same type."""
+    if not isinstance(other, Number | Index):
+        return one.value, constant(one.value.type, other)
+    values = [one.value, other.value]
+    counts = [v.type.count for v in values if isinstance(v.type, ir.VectorType)]
+    if counts:
+        values = [broadcast(v, counts[0], one.builder) for v in values]
+    a, b = values
+    if a.type != b.type:
+        raise TypeError(f"{a.type} meets {b.type} in a kernel: convert one of them")
+    return a, b

@@ -94,7 +94,9 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "stiffness_residual": Variable(
             "1", "residual of the linear problem of the stiffness", "stiffness residual"
         ),
-        "resolved": Variable("", "contact stands above twenty cells and below saturation", "resolved"),
+        "resolved": Variable(
+            "", "contact stands above twenty cells and below the full-contact stiffness", "resolved"
+        ),
         "status": Variable("", "how the solver ended", "status"),
         "steps": Variable("1", "steps of the solver", "steps"),
         "missing": Variable("1", "number of cells without a height; they never touch", "missing cells"),
@@ -103,7 +105,9 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "modulus": Variable("Pa", "reduced modulus E* of the pair of solids", "reduced modulus"),
         "hardness": Variable("Pa", "pressure that no cell exceeds", "hardness"),
         "rms": Variable("m", "root mean square height about the mean", "rms height"),
-        "saturation": Variable("N m-1", "stiffness with every measured cell in contact", "saturation"),
+        "full_contact_stiffness": Variable(
+            "N m-1", "stiffness with every measured cell in contact", "full-contact stiffness"
+        ),
         "cell_stiffness": Variable("N m-1", "stiffness with one cell in contact", "one cell"),
         "lengths": Variable("m", "side lengths of the map, cells times spacing", "length"),
         "spacing": Variable("m", "size of a cell", "spacing"),
@@ -138,7 +142,7 @@ _OF_A_LINE = {
     "stiffness": "N m-2",
     "interfacial_stiffness": "N m-2",
     "secant_stiffness": "N m-2",
-    "saturation": "N m-2",
+    "full_contact_stiffness": "N m-2",
     "cell_stiffness": "N m-2",
     "contact_area": "m",
     "nominal_area": "m",

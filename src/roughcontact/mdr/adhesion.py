@@ -14,22 +14,20 @@ together before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import sample_radii
 from roughcontact.mdr.indentation import Indentation
 from roughcontact.mdr.recovery import spring_energy
-from roughcontact.mdr.roots import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, numeric, scalar
 
 __all__ = ["Adhesion", "Control", "PullOff", "jkr"]
-
-Array = npt.NDArray[np.float64]
 
 SPAN = (1e-15, 1e6)  # contact radii of a body without end that are looked at [m]
 PER_DECADE = 200
@@ -37,7 +35,15 @@ PER_DECADE = 200
 
 @dataclass(frozen=True, slots=True)
 class PullOff:
-    """The equilibrium from which a contact snaps off: force [N], depth [m] and contact radius [m]."""
+    """The equilibrium from which a contact snaps off.
+
+    Attributes
+    ----------
+    force : float
+        [N], tension negative.
+    depth, contact_radius : float
+        [m].
+    """
 
     force: float
     depth: float
@@ -63,43 +69,121 @@ class Adhesion:
 
     @numeric
     def elongation(self, radius: float | Array) -> Array:
-        """Return l(a) = sqrt(2 pi a w/E*), that of the outermost springs [m], at contact radii [m]."""
+        """Return l(a) = sqrt(2 pi a w/E*), that of the outermost springs [m], at contact radii [m].
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            l [m].
+        """
         return np.asarray(np.sqrt(2 * np.pi * self.work / self.modulus * np.asarray(radius)))
 
     @numeric
     def depth(self, radius: float | Array) -> Array:
-        """Return the depth of the equilibria [m] at contact radii [m]."""
+        """Return the depth of the equilibria [m] at contact radii [m].
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            d [m].
+        """
         return self.profile.transform(radius) - self.elongation(radius)
 
     @numeric
     def force(self, radius: float | Array) -> Array:
-        """Return the force of the equilibria [N], tension negative, at contact radii [m]."""
+        """Return the force of the equilibria [N], tension negative, at contact radii [m].
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            F [N].
+        """
         integral = self.profile.transform_integral(radius)
         return np.asarray(2 * self.modulus * (np.asarray(radius) * self.depth(radius) - integral))
 
     @numeric
     def depth_slope(self, radius: float | Array) -> Array:
-        """Return dd/da along the equilibria [-]; positive where they are stable under a given depth."""
+        """Return dd/da along the equilibria [-]; positive where they are stable under a given depth.
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            dd/da [-].
+        """
         return np.asarray(
             self.profile.transform_slope(radius) - self.elongation(radius) / (2 * np.asarray(radius))
         )
 
     @numeric
     def force_slope(self, radius: float | Array) -> Array:
-        """Return dF/da along the equilibria [N/m]; positive where they are stable under a given force."""
+        """Return dF/da along the equilibria [N/m]; positive where they are stable under a given force.
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            dF/da [N/m].
+        """
         a = np.asarray(radius, dtype=np.float64)
         return 2 * self.modulus * (a * self.profile.transform_slope(a) - 1.5 * self.elongation(a))
 
     @numeric
     def energy(self, radius: float, depth: float) -> float:
-        """Return the elastic energy less that of adhesion [J] of a contact held at a radius and a depth [m]."""
+        """Return the elastic energy less that of adhesion [J] of a contact held at a radius and a depth [m].
+
+        Parameters
+        ----------
+        radius : float
+            Contact radius a [m].
+        depth : float
+            Depth d at which the contact is held [m].
+
+        Returns
+        -------
+        float
+            Energy [J].
+        """
         elastic = self.modulus * spring_energy(self.profile, radius, depth)
         return elastic - math.pi * self.work * radius**2
 
     @numeric
     def at(self, radius: float) -> Indentation:
-        """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap."""
-        if not 0 < number("contact radius", radius) <= self.profile.radius:
+        """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap.
+
+        Parameters
+        ----------
+        radius : float
+            Contact radius a, above 0 and at most that of the body [m].
+
+        Returns
+        -------
+        Indentation
+        """
+        if not 0 < scalar(radius, "contact radius") <= self.profile.radius:
             raise ValueError(
                 f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}"
             )
@@ -113,6 +197,10 @@ class Adhesion:
         ----------
         machine_stiffness : float
             Of what holds the body [N/m]: 0 under a given force, infinite under a given depth.
+
+        Returns
+        -------
+        PullOff
 
         Raises
         ------
@@ -146,7 +234,7 @@ class Control:
     machine_stiffness: float
 
     def __post_init__(self) -> None:
-        if not number("stiffness of the machine", self.machine_stiffness) >= 0:
+        if not scalar(self.machine_stiffness, "stiffness of the machine") >= 0:
             raise ValueError(
                 f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}"
             )
@@ -157,23 +245,52 @@ class Control:
         return 1 / self.machine_stiffness if self.machine_stiffness else math.inf
 
     def level(self, radius: float | Array) -> Array:
-        """Return c of the equilibria at contact radii [m]."""
-        if self.machine_stiffness == 0:
-            return self.adhesion.force(radius)
-        if self.machine_stiffness == math.inf:
-            return self.adhesion.depth(radius)
-        return self.adhesion.depth(radius) + self.compliance * self.adhesion.force(radius)
+        """Return c of the equilibria at contact radii [m].
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radius a [m].
+
+        Returns
+        -------
+        float or array
+            c [m], or [N] under a given force.
+        """
+        return self._combined(self.adhesion.force, self.adhesion.depth, radius)
 
     def slope(self, radius: Array) -> Array:
-        """Return dc/da; an equilibrium is stable where it is positive."""
+        """Return dc/da; an equilibrium is stable where it is positive.
+
+        Parameters
+        ----------
+        radius : float or array
+            Contact radii a [m].
+
+        Returns
+        -------
+        array
+            dc/da.
+        """
+        return self._combined(self.adhesion.force_slope, self.adhesion.depth_slope, radius)
+
+    def _combined(
+        self, force: Callable[[Array], Array], depth: Callable[[Array], Array], radius: float | Array
+    ) -> Array:
+        """Return what the force and the depth at contact radii make of c."""
+        radius = np.asarray(radius, dtype=np.float64)
         if self.machine_stiffness == 0:
-            return self.adhesion.force_slope(radius)
-        if self.machine_stiffness == math.inf:
-            return self.adhesion.depth_slope(radius)
-        return self.adhesion.depth_slope(radius) + self.compliance * self.adhesion.force_slope(radius)
+            return force(radius)
+        return depth(radius) + (self.compliance * force(radius) if self.compliance else 0.0)
 
     def turns(self) -> tuple[Array, Array]:
-        """Return the radii at which c turns [m], from 0 to the end of the body, and c there."""
+        """Return the radii at which c turns [m], from 0 to the end of the body, and c there.
+
+        Returns
+        -------
+        array, array
+            Radii [m] and c there, each of shape (n,).
+        """
         profile = self.adhesion.profile
         end = min(profile.radius, SPAN[1])
         count = math.ceil(PER_DECADE * math.log10(end / SPAN[0]))
@@ -202,6 +319,10 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     work : float
         Work of adhesion w [J/m^2].
 
+    Returns
+    -------
+    Adhesion
+
     Raises
     ------
     ValueError
@@ -211,8 +332,16 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     -----
     Of small strains: a soft body whose contact radius comes near its radius of curvature is beyond the theory, which
     nothing here checks.
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.mdr import adhesion, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> round(ball.pull_off().force / (math.pi * 0.05 * 1e-2), 6)  # -(3/2) pi w R of Johnson, Kendall and Roberts
+    -1.5
     """
-    w = number("work of adhesion", work)
+    w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
         raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
     return Adhesion(checked_profile(profile), as_modulus(modulus), w)

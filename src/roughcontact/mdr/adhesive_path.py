@@ -11,12 +11,9 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
-from roughcontact.theory.tools.domain import number, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,10 +66,13 @@ def adhesive_path(
     Parameters
     ----------
     adhesion : Adhesion
-    depths : array, shape (n,)
+        The equilibria of the body, from `jkr`.
+    depths : array, shape (n,), optional
         History of the depth [m], or of the far end of a spring with `machine_stiffness` [N/m] that holds the body.
-    forces : array, shape (n,)
+    forces : array, shape (n,), optional
         Instead: history of the force [N]. From where it pulls by more than the body can hold, the force is 0.
+    machine_stiffness : float
+        Of the spring that holds the body [N/m]; infinite: the depth itself is given.
 
     Returns
     -------
@@ -82,6 +82,14 @@ def adhesive_path(
     ------
     ValueError
         If not exactly one history is given, or the contact comes to where the body is not known.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import adhesion, adhesive_path, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> path = adhesive_path.adhesive_path(ball, depths=[0.0, 1e-7, -1e-6])
+    >>> path.contact_radius.round(8).tolist(), path.released.tolist()
+    ([3.155e-05, 4.708e-05, 0.0], [False, False, True])
     """
     if not isinstance(adhesion, Adhesion):
         raise ValueError(f"an Adhesion is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}")
@@ -90,7 +98,7 @@ def adhesive_path(
     if depths is not None and not machine_stiffness > 0:
         raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
-    history = np.asarray(number(forces if depths is None else depths, "the history"))  # type: ignore[arg-type]
+    history = np.asarray(number(forces if depths is None else depths, "the history"))
     if history.ndim != 1:
         raise ValueError(f"a history is a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():

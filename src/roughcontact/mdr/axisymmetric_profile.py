@@ -7,13 +7,10 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number, shown
+from roughcontact.validation import Array, number, require, scalar, shown
 
-__all__ = ["Profile", "Term", "checked_profile"]
-
-Array = npt.NDArray[np.float64]
+__all__ = ["Profile", "Term", "checked_profile", "checked_radii"]
 
 
 class Term(Protocol):
@@ -81,7 +78,7 @@ class Profile:
 
     def height(self, r: float | Array) -> Array:
         """Return the height f(r) above the apex [m]; beyond the body infinite, or NaN where it is not known."""
-        r = _radii(r)
+        r = checked_radii(r)
         inside = np.minimum(r, self.radius)
         beyond = math.inf if self.edge else math.nan
         return np.where(
@@ -92,17 +89,17 @@ class Profile:
 
     def transform(self, x: float | Array) -> Array:
         """Return g(x) [m]: the depth at which the contact has the radius x."""
-        x = _radii(x)
+        x = checked_radii(x)
         return sum((c * term.transform(x) for c, term in self.terms), np.zeros_like(x))
 
     def transform_slope(self, x: float | Array) -> Array:
         """Return g'(x) [-]; infinite beside the edge of a flat face and at a cusp."""
-        x = _radii(x)
+        x = checked_radii(x)
         return sum((c * term.slope(x) for c, term in self.terms), np.zeros_like(x))
 
     def transform_integral(self, x: float | Array) -> Array:
         """Return the integral of g from 0 to x [m^2]."""
-        x = _radii(x)
+        x = checked_radii(x)
         return sum((c * term.primitive(x) for c, term in self.terms), np.zeros_like(x))
 
     def cut(self, radius: float) -> Profile:
@@ -113,10 +110,10 @@ class Profile:
         ValueError
             If the radius is not positive, or the body is not known so far out.
         """
-        number(radius, "the radius of a cut [m]")
-        if not (math.isfinite(radius) and 0 < radius <= self.radius):
+        end = scalar(radius, "the radius of a cut [m]")
+        if not (math.isfinite(end) and 0 < end <= self.radius):
             raise ValueError(f"the radius of a cut must lie between 0 and {self.radius:g} m, not {radius}")
-        return replace(self, radius=float(radius), edge=True)
+        return replace(self, radius=end, edge=True)
 
     def __add__(self, other: Profile) -> Profile:
         """Return the body whose height is the sum of both."""
@@ -159,8 +156,8 @@ def checked_profile(profile: Profile) -> Profile:
     return profile
 
 
-def _radii(x: float | Array) -> Array:
-    x = np.asarray(number(x, "radii [m]"))
-    if (x < 0).any():
-        raise ValueError(f"radii must not be negative [m], but the least is {x.min():g}")
-    return x
+def checked_radii(radii: float | Array) -> Array:
+    """Return radii [m] as an array, or say which of them is negative or missing."""
+    r = np.asarray(number(radii, "radii [m]"))
+    require(r >= 0, "radii must not be negative or missing [m]", r)
+    return r

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.theory.tools.domain import moderate
+from roughcontact.validation import Array, moderate, positive_scalar, scalar
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
-Array = npt.NDArray[np.float64]
 ROUNDING = 1e-9  # a point on the edge of the window belongs to it, whatever its last digit
 
 
@@ -35,6 +32,11 @@ def calibrated_lambda(
     modes : int, optional
         See `lambda_rms`.
 
+    Returns
+    -------
+    float
+        lambda [-].
+
     Raises
     ------
     ValueError
@@ -46,17 +48,21 @@ def calibrated_lambda(
     choose alpha, or that looks at another window, has another prefactor: take `matched_lambda` of measured curves.
     For a single wave (H to infinity) the prefactors are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and
     lambda is 4: the line's crest has half the radius of the surface's, as in the contact of a sphere.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import calibration
+    >>> equal = calibration.calibrated_lambda(1.0, line_prefactor=0.85, surface_prefactor=0.85)
+    >>> round(equal, 4)  # of equal prefactors lambda_rms
+    2.5069
     """
-    number("Hurst exponent", hurst)
+    scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= 0):
         raise ValueError(
             f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
-        number(name, value)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
-        moderate(value, name)
+        moderate(positive_scalar(value, name), name)
     steepness = 2 * min(hurst + 1, 3)
     return lambda_rms(hurst, modes) * math.pow(line_prefactor / surface_prefactor, steepness)
 
@@ -78,15 +84,32 @@ def matched_lambda(
     ----------
     hurst : float
         Hurst exponent H, at least -1.
-    line, surface, window
+    line, surface : tuple of array
+        See `force_ratio`.
+    window : tuple of float
         See `force_ratio`.
     modes : int, optional
         See `lambda_rms`: of the grid on which line and surface have this spectrum.
+
+    Returns
+    -------
+    float
+        lambda [-].
 
     Raises
     ------
     ValueError
         As `force_ratio` and `lambda_rms` do.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import calibration, lattice_sums
+    >>> force = np.geomspace(1e-3, 1e-1, 9)
+    >>> curve = (force, 0.85 * force**0.5)
+    >>> matched = calibration.matched_lambda(1.0, curve, curve, window=(0.03, 0.2))
+    >>> round(matched / lattice_sums.lambda_rms(1.0), 6)  # curves that agree ask for no correction
+    1.0
     """
     return lambda_rms(hurst, modes) * force_ratio(line, surface, window) ** 2
 
@@ -113,6 +136,15 @@ def force_ratio(
     ------
     ValueError
         If forces do not rise, or a curve does not reach all over the window.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import calibration
+    >>> force = np.geomspace(1e-3, 1e-1, 9)
+    >>> ratio = calibration.force_ratio((force, force**0.5), (2 * force, force**0.5), (0.05, 0.2))
+    >>> round(ratio, 6)
+    2.0
     """
     low, high = window
     if not (0 < low < high < math.inf):

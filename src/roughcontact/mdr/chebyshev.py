@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
+from roughcontact.validation import Array
+
 __all__ = ["Panels", "fit", "interpolate"]
 
-Array = npt.NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 NODES = 20  # of a panel: a power of r is met to 1e-15 on a panel as long as its distance from zero

@@ -11,15 +11,13 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.recovery import pressure, surface_displacement
-from roughcontact.mdr.roots import bisect
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array
 
 __all__ = ["disc_radius", "sample_radii"]
-
-Array = npt.NDArray[np.float64]
 
 SAMPLES = 2000  # radii at which a body that may turn is looked at
 PROBES = 128  # radii at which a disc is checked, inside and outside

@@ -8,16 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import Array, positive_scalar, shown
 
 __all__ = ["LineSpectrum", "TabulatedSpectrum", "line_spectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +49,7 @@ class LineSpectrum:
                 "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
                 "roughcontact.surface_spectrum"
             )
-        number("factor", self.factor)
-        if not (math.isfinite(self.factor) and self.factor > 0):
-            raise ValueError(f"factor must be positive and finite, not {self.factor}")
+        positive_scalar(self.factor, "factor")
 
     @property
     def dimension(self) -> int:
@@ -82,6 +76,10 @@ class LineSpectrum:
 
         With factor pi m0 is that of the surface, and m2 twice that of its profiles: the rms slope of the line
         is the rms gradient of the surface.
+
+        Returns
+        -------
+        Moments
 
         Raises
         ------
@@ -153,10 +151,23 @@ def line_spectrum(
         `lambda_rms`: they have it as sums over the waves of a grid (A.76 as corrected).
         `calibrated_lambda`: their stiffness is the same at low loads (4.75), and their rms heights are not.
 
+    Returns
+    -------
+    LineSpectrum
+
     Raises
     ------
     ValueError
         If the spectrum is not that of a surface, or the factor not positive.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import equivalent_line
+    >>> surface = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> line = equivalent_line.line_spectrum(surface)
+    >>> round(line.moments().m0 / surface.moments().m0, 6), round(line.moments().m2 / surface.moments().m2, 6)
+    (1.0, 2.0)
     """
     surface = TabulatedSpectrum(spectrum) if isinstance(spectrum, PowerSpectrum) else spectrum
     return LineSpectrum(surface, factor)

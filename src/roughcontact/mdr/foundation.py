@@ -9,11 +9,12 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.material import Solid, as_modulus
+from roughcontact.validation import Array
 
 __all__ = ["Foundation", "foundation"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 
@@ -22,25 +23,28 @@ class Foundation:
     """Springs of stiffness E* times their width, which know nothing of each other (thesis, eq. A.60).
 
     Its pressure is a force per length [N/m]: E* times the depth to which a spring is pressed.
+
+    Parameters
+    ----------
+    grid : Grid
+        Of one axis: a spring for each cell.
+    modulus : float
+        Reduced modulus E* [Pa].
     """
 
     grid: Grid
     modulus: float
 
     @property
-    def geometry(self) -> Geometry:
-        """Springs."""
-        return Geometry.FOUNDATION
-
-    @property
-    def positive(self) -> bool:
-        """No load lifts any spring."""
-        return True
-
-    @property
-    def semidefinite(self) -> bool:
-        """Springs sink under a constant pressure, whether or not the line repeats itself."""
-        return False
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            geometry=Geometry.FOUNDATION,
+            modulus=self.modulus,
+            positive=True,
+            semidefinite=False,  # it sinks under a constant pressure, whether or not the line repeats itself
+            submatrix=self.submatrix,
+        )
 
     @property
     def weights(self) -> float:
@@ -48,21 +52,63 @@ class Foundation:
         return self.grid.cell_area
 
     def apply(self, pressure: Array) -> Array:
-        """Return the displacement [m] under a force per length [N/m]."""
+        """Return the displacement [m] under a force per length [N/m].
+
+        Parameters
+        ----------
+        pressure : array, shape ``grid.shape``
+            Force per length of each spring [N/m].
+
+        Returns
+        -------
+        array
+            Displacement [m], of the same shape.
+        """
         return pressure / self.modulus
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
-        """Return the diagonal matrix [m^2/N] between `cells` (all without)."""
+        """Return the diagonal matrix [m^2/N] between `cells` (all without).
+
+        Parameters
+        ----------
+        cells : int array, shape (n,), optional
+            Flat indices of springs; by default all.
+
+        Returns
+        -------
+        array
+            Diagonal matrix [m^2/N], shape (n, n).
+        """
         return np.eye(self.grid.size if cells is None else len(cells)) / self.modulus
 
     def restrict(self, window: tuple[slice, ...]) -> Foundation:
-        """Return the springs of `window`."""
+        """Return the springs of `window`.
+
+        Parameters
+        ----------
+        window : tuple of slice
+            A slice of the line.
+
+        Returns
+        -------
+        Foundation
+        """
         if self.grid.window(window).shape == self.grid.shape:
             return self
         return Foundation(self.grid.window(window), self.modulus)
 
-    def between(self, cells: Cells) -> Foundation:
-        """Return the springs of a list."""
+    def submatrix(self, cells: Cells) -> Foundation:
+        """Return the springs of a list.
+
+        Parameters
+        ----------
+        cells : int array, shape (n,)
+            Flat indices of springs.
+
+        Returns
+        -------
+        Foundation
+        """
         return Foundation(Grid(max(1, len(cells)), self.grid.spacing), self.modulus)
 
 
@@ -76,10 +122,22 @@ def foundation(grid: Grid, modulus: float | Solid | tuple[Solid, Solid]) -> Foun
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
 
+    Returns
+    -------
+    Foundation
+
     Raises
     ------
     ValueError
         If the grid has two axes, or is one of rings.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> springs = rc.foundation(rc.Grid(4, 1e-6), 1e9)
+    >>> springs.apply(np.array([0.0, 1.0, 2.0, 0.0])).tolist()  # each by its own load over E*
+    [0.0, 1e-09, 2e-09, 0.0]
     """
     if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a foundation of springs carries a line: give a grid of one axis, Grid(n, spacing)")

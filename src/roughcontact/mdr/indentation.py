@@ -8,18 +8,15 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
-from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
+from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile, checked_radii
 from roughcontact.mdr.disc import disc_radius
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
-from roughcontact.mdr.roots import last_below
-from roughcontact.theory.tools.domain import number
+from roughcontact.theory.tools.roots import last_below
+from roughcontact.validation import Array, number
 
 __all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve", "indented"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -63,16 +60,49 @@ class Indentation:
         return self.modulus * spring_energy(self.profile, self.contact_radius, self.depth)
 
     def pressure(self, r: float | Array) -> Array:
-        """Return the pressure [Pa] at the radii `r` [m]; infinite at a sharp tip and at a loaded edge."""
-        return pressure(self.profile, self.modulus, self.contact_radius, self.depth, _radii(r))
+        """Return the pressure [Pa] at the radii `r` [m]; infinite at a sharp tip and at a loaded edge.
+
+        Parameters
+        ----------
+        r : float or array
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
+        return pressure(self.profile, self.modulus, self.contact_radius, self.depth, checked_radii(r))
 
     def displacement(self, r: float | Array) -> Array:
-        """Return the displacement of the half-space's surface [m], into the body, at the radii `r` [m]."""
-        return surface_displacement(self.profile, self.contact_radius, self.depth, _radii(r))
+        """Return the displacement of the half-space's surface [m], into the body, at the radii `r` [m].
+
+        Parameters
+        ----------
+        r : float or array
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
+        return surface_displacement(self.profile, self.contact_radius, self.depth, checked_radii(r))
 
     def gap(self, r: float | Array) -> Array:
-        """Return the gap [m] at the radii `r` [m]: 0 in the contact, infinite beyond the body's edge."""
-        r = _radii(r)
+        """Return the gap [m] at the radii `r` [m]: 0 in the contact, infinite beyond the body's edge.
+
+        Parameters
+        ----------
+        r : float or array
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or array
+            Gap [m].
+        """
+        r = checked_radii(r)
         outside = self.displacement(r) + self.profile.height(r) - self.depth
         return np.where(r <= self.contact_radius, 0.0, outside)
 
@@ -168,6 +198,15 @@ def indent(
     -----
     Exact for small strains, which nothing here checks: the contact radius is to be well below the radius of
     curvature, and a soft body under a high force gets a number without a meaning.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> ball = indentation.indent(indenter.paraboloid(1e-2), 1e11, depth=1e-6)
+    >>> round(ball.contact_radius**2 / (1e-2 * 1e-6), 6)  # Hertz: a^2 = R d
+    1.0
+    >>> round(ball.force / (4 / 3 * 1e11 * 1e-4 * 1e-6), 6)
+    1.0
     """
     load = _one_load(force=force, depth=depth, contact_radius=contact_radius)
     d, a = _solve(profile, as_modulus(modulus), load[0], np.atleast_1d(number(load[1], load[0])))
@@ -187,6 +226,30 @@ def indentation_curve(
     """Press a body of revolution at many loads.
 
     The arguments are those of `indent`, as strictly increasing arrays of shape (n,).
+
+    Parameters
+    ----------
+    profile : Profile
+        The body, see `roughcontact.mdr.indenter`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    forces : array, shape (n,), optional
+        Normal forces [N], strictly increasing; exactly one of the three is given.
+    depths : array, shape (n,), optional
+        Approaches since first touch [m].
+    contact_radii : array, shape (n,), optional
+        Radii of the contact [m].
+
+    Returns
+    -------
+    IndentationCurve
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> curve = indentation.indentation_curve(indenter.cone(0.1), 1e11, forces=[1.0, 4.0])
+    >>> round(float(curve.stiffness[1] / curve.stiffness[0]), 6)  # of a cone as F^(1/2)
+    2.0
     """
     name, values = _one_load(force=forces, depth=depths, contact_radius=contact_radii)
     loads = number(values, name)
@@ -203,7 +266,31 @@ def indentation_curve(
 def indented(
     profile: Profile, modulus: float, name: Literal["force", "depth", "contact_radius"], loads: Array
 ) -> IndentationCurve:
-    """Return the states at loads in any order, as histories have them."""
+    """Return the states at loads in any order, as histories have them.
+
+    Parameters
+    ----------
+    profile : Profile
+        The body, see `roughcontact.mdr.indenter`.
+    modulus : float
+        Reduced modulus E* [Pa].
+    name : {"force", "depth", "contact_radius"}
+        What the loads are.
+    loads : array, shape (n,)
+        Forces [N], depths [m] or contact radii [m].
+
+    Returns
+    -------
+    IndentationCurve
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> curve = indentation.indented(indenter.sphere(1e-2), 1e11, "force", np.array([1.0, 2.0, 1.0]))
+    >>> round(float(curve.depth[2] / curve.depth[0]), 9)  # elastic: back on the same way
+    1.0
+    """
     return IndentationCurve(profile, modulus, *_solve(profile, modulus, name, loads))
 
 
@@ -221,7 +308,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     if not (np.isfinite(loads).all() and (loads >= 0).all()):
         raise ValueError(f"loads must be finite and not negative; {name} is {loads}")
     if name == "contact_radius":
-        return _at_radii(profile, loads)
+        return _atchecked_radii(profile, loads)
     if name == "force":
         value, target = _reduced_force(profile), loads / (2 * modulus)
     else:
@@ -247,7 +334,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     return depth, radius
 
 
-def _at_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
+def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
     wrong = radii[(radii < profile.flat) | (radii > profile.radius)]
     if len(wrong):
         raise ValueError(
@@ -276,10 +363,3 @@ def _reduced_force(profile: Profile) -> Callable[[Array], Array]:
 
 def _force(profile: Profile, modulus: float, depth: float | Array, radius: float | Array) -> Array:
     return np.asarray(2 * modulus * (depth * np.asarray(radius) - profile.transform_integral(radius)))
-
-
-def _radii(r: float | Array) -> Array:
-    radii = np.asarray(number(r, "radii [m]"))
-    if not (radii >= 0).all():
-        raise ValueError(f"radii must not be negative [m], but one is {radii[~(radii >= 0)].flat[0]:g}")
-    return radii

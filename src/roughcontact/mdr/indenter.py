@@ -11,14 +11,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.mdr.transform_tables import from_function, from_samples, from_two_functions
 from roughcontact.theory import rough_sphere
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive_scalar, scalar
 
 __all__ = [
     "cone",
@@ -35,8 +33,6 @@ __all__ = [
     "sphere",
 ]
 
-Array = npt.NDArray[np.float64]
-
 MOST_WAVES = 2000  # of ripples: each takes two panels of a table or fewer
 
 
@@ -52,13 +48,24 @@ def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Prof
     flat : float
         Radius b of the flat face [m].
 
+    Returns
+    -------
+    Profile
+
     Raises
     ------
     ValueError
         If exponent or coefficient are not positive, or `flat` is negative.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> body = indenter.power_law(2.0, 50.0)  # r^2/(2R), R = 1 cm
+    >>> round(float(body.transform(1e-3) / body.height(1e-3)), 6)  # kappa(2) = 2
+    2.0
     """
     _positive(exponent=exponent, coefficient=coefficient)
-    number("radius of a flat face", flat)
+    scalar(flat, "radius of a flat face")
     if not (math.isfinite(flat) and flat >= 0):
         raise ValueError(f"the radius of a flat face must be 0 or above [m], not {flat}")
     return Profile(((1.0, PowerTerm(float(exponent), float(coefficient), float(flat))),))
@@ -68,31 +75,120 @@ def cone(slope: float, *, flat: float = 0.0) -> Profile:
     """Return ``f = slope * r``, or with a flat face of radius b ``f = slope * (r - b)`` beyond it.
 
     `slope` is the tangent of the angle between the flank and the ground [-], as in `shapes.cone`.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and ground [-].
+    flat : float
+        Radius b of a flat face [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.mdr import indenter
+    >>> body = indenter.cone(0.1)
+    >>> round(float(body.transform(1e-3) / body.height(1e-3)) / (math.pi / 2), 6)
+    1.0
     """
     _positive(slope=slope)
     return power_law(1.0, slope, flat=flat)
 
 
 def paraboloid(radius: float, *, flat: float = 0.0) -> Profile:
-    """Return ``f = r^2/(2R)``, or with a flat face of radius b ``f = (r^2 - b^2)/(2R)`` beyond it; R in m."""
+    """Return ``f = r^2/(2R)``, or with a flat face of radius b ``f = (r^2 - b^2)/(2R)`` beyond it; R in m.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature R at the apex [m].
+    flat : float
+        Radius b of a flat face [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> round(float(indenter.paraboloid(1e-2).height(1e-4)) * 1e6, 6)  # r^2/(2R) [um]
+    0.5
+    """
     _positive(radius=radius)
     return power_law(2.0, 1 / (2 * radius), flat=flat)
 
 
 def sphere(radius: float) -> Profile:
-    """Return ``f = R - sqrt(R^2 - r^2)``, up to the equator; R in m. Hertz' sphere is the `paraboloid`."""
+    """Return ``f = R - sqrt(R^2 - r^2)``, up to the equator; R in m. Hertz' sphere is the `paraboloid`.
+
+    Parameters
+    ----------
+    radius : float
+        Radius R [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> round(float(indenter.sphere(1e-2).height(1e-2)), 6)  # at the equator R
+    0.01
+    """
     _positive(radius=radius)
     return Profile(((1.0, SphereTerm(float(radius))),), float(radius))
 
 
 def flat_punch(radius: float) -> Profile:
-    """Return a cylinder with a flat face and a sharp edge; radius in m. Added to a body, it cuts it."""
+    """Return a cylinder with a flat face and a sharp edge; radius in m. Added to a body, it cuts it.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the face [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> punch = indentation.indent(indenter.flat_punch(1e-3), 1e11, depth=1e-6)
+    >>> round(punch.force / (2 * 1e11 * 1e-3 * 1e-6), 6)  # F = 2 E* a d
+    1.0
+    """
     _positive(radius=radius)
     return Profile((), float(radius), edge=True)
 
 
 def rounded_cone(slope: float, radius: float) -> Profile:
-    """Return a cone with a round tip: a paraboloid of `radius` R [m] up to r = slope R, and `slope` from there on."""
+    """Return a cone with a round tip: a paraboloid of `radius` R [m] up to r = slope R, and `slope` from there on.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and ground [-].
+    radius : float
+        Radius R of the round tip [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> body = indenter.rounded_cone(0.1, 1e-3)  # the paraboloid ends at r = slope R
+    >>> round(float(body.height(1e-4)) * 1e6, 6), round(float(body.height(2e-4)) * 1e6, 6)  # [um]
+    (5.0, 15.0)
+    """
     _positive(slope=slope, radius=radius)
     joint = slope * radius
     body = paraboloid(radius) - paraboloid(radius, flat=joint) + cone(slope, flat=joint)
@@ -112,14 +208,25 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     radius : float
         How far the body is known [m]: at most 2000 wavelengths.
 
-    Notes
-    -----
-    Tables of height and transform, to 1e-14 of their values near the axis and to the rounding of k r far out.
+    Returns
+    -------
+    Profile
 
     Raises
     ------
     ValueError
         If a number is out of range, or the waves are too many.
+
+    Notes
+    -----
+    Tables of height and transform, to 1e-14 of their values near the axis and to the rounding of k r far out.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> rings = indenter.ripples(1e-6, 1e-3, 2e-3)
+    >>> round(float(rings.height(0.5e-3)) * 1e6, 6)  # 2A between two crests [um]
+    2.0
     """
     _positive(wavelength=wavelength, radius=radius)
     if radius > MOST_WAVES * wavelength:
@@ -127,7 +234,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
             f"{radius / wavelength:.4g} waves within the radius of {radius:g} m are more than the {MOST_WAVES} of a "
             "table: take less of the body, or a longer wavelength"
         )
-    if not math.isfinite(number("amplitude", amplitude)):
+    if not math.isfinite(scalar(amplitude, "amplitude")):
         raise ValueError(f"the amplitude of ripples must be finite [m], not {amplitude}")
     k = 2 * math.pi / wavelength
     # The transform turns between any two quarters of a wavelength.
@@ -160,6 +267,19 @@ def equivalent_roughness(
         Side L of the square that has this rms height [m]; only h/L^H matters.
     prefactor : float, optional
         zeta of ``k/(E* L) = zeta (F/(E* h L))^(1/(H+1))``; by default 1.7/(H + 1) (thesis, eq. 4.74).
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> from roughcontact.theory import pohrt_popov
+    >>> rough = indenter.equivalent_roughness(0.8, rms=1e-6, length=1e-3)
+    >>> k = indentation.indent(rough, 1e11, force=1.0).stiffness
+    >>> round(k / float(pohrt_popov.stiffness(1.0, 0.8, 1e-6, 1e-3, 1e11)), 6)
+    1.0
     """
     Q = rough_sphere.coefficient(hurst, rms, length, prefactor=prefactor)
     return power_law(hurst, float(Q))
@@ -185,12 +305,39 @@ def of(height: Callable[[Array], Array], radius: float) -> Profile:
     ------
     ValueError
         If the function is not finite or not piecewise smooth, or vanishes everywhere.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter
+    >>> cap = indenter.of(lambda r: 1e-2 - np.sqrt(1e-4 - r**2), 5e-3)
+    >>> round(float(cap.transform(1e-3) / indenter.sphere(1e-2).transform(1e-3)), 9)
+    1.0
     """
     return from_function(height, radius, transformed=False)
 
 
 def from_transform(transform: Callable[[Array], Array], radius: float) -> Profile:
-    """Return the body whose transform g(x) [m] is a function; the arguments are those of `of`."""
+    """Return the body whose transform g(x) [m] is a function; the arguments are those of `of`.
+
+    Parameters
+    ----------
+    transform : callable
+        g(x) [m] of an array of places [m].
+    radius : float
+        How far the body is known [m].
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter
+    >>> body = indenter.from_transform(lambda x: x**2 / 1e-2, 1e-3)  # that of a paraboloid
+    >>> round(float(body.height(1e-4)) / (1e-8 / 2e-2), 9)
+    1.0
+    """
     return from_function(transform, radius, transformed=True)
 
 
@@ -206,22 +353,56 @@ def sampled(r: Array, height: Array, *, sharp: bool = False) -> Profile:
     sharp : bool
         Whether the body may have a tip. Otherwise its slope is zero on the axis.
 
+    Returns
+    -------
+    Profile
+
     Notes
     -----
     The transform of the spline is exact at its nodes. For samples of a smooth body at steps D the error of the height
     falls as D^4, that of the transform as D^3.5, that of its slope as D^2.5. A spline rounds kinks: a body with a
     flat face or a sharp joint is better described by a function (`of`).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter
+    >>> r = np.linspace(0, 1e-3, 101)
+    >>> body = indenter.sampled(r, r**2 / 2e-2)
+    >>> round(float(body.transform(5e-4)) / (2.5e-7 / 1e-2), 6)
+    1.0
     """
     return from_samples(r, height, sharp=sharp, transformed=False)
 
 
 def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Profile:
-    """Return the body whose transform g(x) [m] is a cubic spline through samples; see `sampled`."""
+    """Return the body whose transform g(x) [m] is a cubic spline through samples; see `sampled`.
+
+    Parameters
+    ----------
+    x : array, shape (n,)
+        Places, increasing from 0 [m]; the body is known up to the last.
+    transform : array, shape (n,)
+        g(x) [m]. The first is taken off.
+    sharp : bool
+        Whether the body may have a tip. Otherwise its slope is zero on the axis.
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter
+    >>> x = np.linspace(0, 1e-3, 101)
+    >>> body = indenter.sampled_transform(x, x**2 / 1e-2)
+    >>> round(float(body.height(5e-4)) / (2.5e-7 / 2e-2), 6)
+    1.0
+    """
     return from_samples(x, transform, sharp=sharp, transformed=True)
 
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
-        number(name, value)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
+        positive_scalar(value, name)

@@ -5,16 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import hyp2f1, zeta
 
-from roughcontact.material import number
-from roughcontact.theory.tools.domain import count
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, scalar, whole
 
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
-
-Array = npt.NDArray[np.float64]
 
 # B_2j / 2j, the coefficients of Euler and Maclaurin's correction in terms of Taylor coefficients.
 _BERNOULLI = (1 / 12, -1 / 120, 1 / 252, -1 / 240, 1 / 132)
@@ -49,7 +44,14 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     Notes
     -----
     The thesis prints half of this and a limit of pi at H = 1. The sums belong to all waves of a square grid.
-    On a disc of waves the ratio is ``grid_moments(surface, ...).m0 / grid_moments(line, ...).m0``.
+    On a disc of waves the ratio is ``grid_moments(..., surface).m0 / grid_moments(..., line).m0``.
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.mdr import lattice_sums
+    >>> round(lattice_sums.lambda_rms(0.0) / math.pi, 6), round(lattice_sums.lambda_rms(1.0), 3)
+    (1.0, 2.507)
     """
     _check(hurst, modes)
     if modes is not None:
@@ -63,7 +65,26 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
 
 @numeric
 def line_sum(exponent: float, modes: int) -> float:
-    """Return the sum of ``|n|^-exponent`` over n from -`modes` to `modes` without 0."""
+    """Return the sum of ``|n|^-exponent`` over n from -`modes` to `modes` without 0.
+
+    Parameters
+    ----------
+    exponent : float
+        Any real number [-].
+    modes : int
+        Largest number N of waves to a side.
+
+    Returns
+    -------
+    float
+        Sum [-].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import lattice_sums
+    >>> lattice_sums.line_sum(2.0, 2)  # 2 (1 + 1/4)
+    2.5
+    """
     return 2 * float(np.sum(_rings(1, modes) ** -exponent))
 
 
@@ -74,6 +95,24 @@ def square_sum(exponent: float, modes: int) -> float:
     Square ring by square ring, so that the cost grows with `modes` and not with its square. The ring of half
     side k is eight times the trapezoidal rule for ``(k^2 + m^2)^-exponent`` over m from 0 to k: summed directly
     in the middle, from its integral and Euler and Maclaurin's correction at the corner further out.
+
+    Parameters
+    ----------
+    exponent : float
+        Any real number [-].
+    modes : int
+        Largest number N of waves to a side.
+
+    Returns
+    -------
+    float
+        Sum [-].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import lattice_sums
+    >>> lattice_sums.square_sum(1.0, 1)  # four sides and four corners
+    6.0
     """
     inner = _rings(1, min(modes, _DIRECT))
     total = 4 * float(np.sum(inner ** (-2 * exponent) * (1 + 2.0**-exponent)))
@@ -128,8 +167,8 @@ def _rings(first: int, last: int) -> Array:
 
 
 def _check(hurst: float, modes: int | None) -> None:
-    number("Hurst exponent", hurst)
+    scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= -1):
         raise ValueError(f"hurst must be finite and at least -1 (white heights), not {hurst}")
     if modes is not None:
-        count("modes, the waves to a side,", modes)
+        whole(modes, "modes, the waves to a side,")

@@ -15,15 +15,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.theory.tools.domain import number, shown
+from roughcontact.validation import Array, number, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
-
-Array = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12  # of the largest value: what a fall must exceed to count
 
@@ -87,9 +84,10 @@ def transfer(
     curve : Curve, IndentationCurve or alike
         Elastic curve with increasing forces and depths.
     material : Viscoelastic
+        Made by `standard_solid`, `maxwell`, `kelvin_voigt`, `viscous` or `prony`.
     times : array, shape (n,)
         Not decreasing [s]; a time that stands twice is a jump. Before the first there is no load.
-    forces, depths : float or array, shape (n,)
+    forces, depths : float or array, shape (n,), optional
         Exactly one: force [N], straight lines in between, or depth [m]. One number is a sudden load that stays.
 
     Returns
@@ -103,6 +101,16 @@ def transfer(
     ValueError
         If an argument is of the wrong kind, the contact shrinks at some time, a load leaves the curve, or a depth
         jumps into a dashpot.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indentation, indenter, lee_radok, viscoelastic
+    >>> elastic = indentation.indentation_curve(indenter.paraboloid(1e-2), 1e8, forces=np.geomspace(1e-3, 10, 60))
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> creep = lee_radok.transfer(elastic, soft, [0.0, 100.0], forces=1.0)
+    >>> round(float(creep.elastic_force[1] / creep.elastic_force[0]), 4)  # ten times softer in the end
+    9.9996
     """
     if (forces is None) == (depths is None):
         raise ValueError("give exactly one of forces and depths")
@@ -114,7 +122,7 @@ def transfer(
             f"{shown(curve)} without {', '.join(missing)}"
         )
     t = np.asarray(number(times, "times [s]"))
-    given = np.asarray(number(depths if forces is None else forces, "loads"))  # type: ignore[arg-type]
+    given = np.asarray(number(depths if forces is None else forces, "loads"))
     load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
     if t.ndim != 1 or not len(t) or t.shape != load.shape:
         raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")

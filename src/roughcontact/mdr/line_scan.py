@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.material import Solid
@@ -16,15 +15,12 @@ from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.surface.analysis.cut import surface_spectrum
+from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
-from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.domain import shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, shown
 
 __all__ = ["scan_curves", "scan_spectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @numeric
@@ -34,7 +30,7 @@ def scan_spectrum(
     factor: float = math.pi,
     method: Literal["law", "abel"] = "law",
     hurst: float | None = None,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
     q_min: float | None = None,
     q_max: float | None = None,
     per_decade: float = 10,
@@ -51,15 +47,21 @@ def scan_spectrum(
         On a grid of one axis, without missing points; level it first if its tilt is no roughness.
     factor : float
         lambda, see `line_spectrum`.
-    method, hurst
+    method : {"law", "abel"}
         How the cut is inverted, see `roughcontact.surface_spectrum`.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    hurst : float, optional
+        Hurst exponent of the law, see `roughcontact.surface_spectrum`; by default that of the scan.
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `roughcontact.power_spectrum`.
     q_min, q_max : float, optional
         The band that counts [rad/m]. By default every wave of the scan: those of the scan's length too, whose powers
         are little known, but which make most of the height of a rough line.
     per_decade : float
         Bins to a factor of ten in wavenumber. A single scan knows each of its waves to 100 % only.
+
+    Returns
+    -------
+    LineSpectrum
 
     Raises
     ------
@@ -71,6 +73,17 @@ def scan_spectrum(
     Assumed is that the surface is isotropic and statistically the same everywhere, so that one scan speaks for all
     directions and places; that its phases are random, so that the spectrum says all; and that the instrument
     follows the surface up to `q_max`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import line_scan
+    >>> scan = rc.self_affine(rc.Grid(256, 1e-6, True), 0.8, 1e-7, np.random.default_rng(0))
+    >>> line = line_scan.scan_spectrum(scan)
+    >>> slope = np.diff(np.log(line([1e5, 1e6])))[0] / np.log(10)
+    >>> round(float(slope), 1)  # C1D of the line, lambda q C2D ~ q^(-2 H - 1)
+    -2.6
     """
     if not isinstance(scan, Surface):
         raise ValueError(f"a line scan is a Surface on a grid of one axis, not {shown(scan)}")
@@ -111,10 +124,24 @@ def scan_curves(
     spectrum : LineSpectrum, optional
         By default `scan_spectrum` of the scan, with what it assumes.
 
+    Returns
+    -------
+    LineCurves
+
     Raises
     ------
     ValueError
         As `scan_spectrum` and `loading_curves` do.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import line_scan
+    >>> scan = rc.self_affine(rc.Grid(256, 1e-6, True), 0.8, 1e-7, np.random.default_rng(0))
+    >>> curves = line_scan.scan_curves(scan, 1e9, np.random.default_rng(1), forces=[1e-4, 1e-3], count=20)
+    >>> bool(np.diff(curves.mean_stiffness()) > 0)  # stiffer under more force
+    True
     """
     line = scan_spectrum(scan) if spectrum is None else spectrum
     grid = Grid(scan.grid.shape, scan.grid.spacing, periodic=True)

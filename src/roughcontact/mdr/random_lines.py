@@ -12,13 +12,10 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.wave_grid import Spectrum, multiplicity, wave_powers
-from roughcontact.theory.tools.domain import count as whole
-from roughcontact.theory.tools.domain import shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive_scalar, shown, whole
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
-Array = npt.NDArray[np.float64]
 Waves = npt.NDArray[np.complex128]
 
 # Heights of a batch: 8 MB, enough that NumPy asks for large pages.
@@ -47,7 +44,9 @@ def rough_lines(
         Source of the phases. The same state gives the same phases for every spectrum.
     count : int
         Number of lines.
-    rms, amplitudes
+    rms : float, optional
+        As for `roughcontact.synthesise`, which draws the same lines one by one.
+    amplitudes : {"exact", "gaussian"}
         As for `roughcontact.synthesise`, which draws the same lines one by one.
 
     Yields
@@ -59,8 +58,20 @@ def rough_lines(
     ------
     ValueError
         If an argument is out of range, or no wave of the grid lies inside the limits of the spectrum.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import equivalent_line, random_lines
+    >>> surface = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> grid = rc.Grid(512, 1e-3 / 512, periodic=True)
+    >>> line = equivalent_line.line_spectrum(surface)
+    >>> (heights,) = random_lines.rough_lines(grid, line, np.random.default_rng(0), 3, rms=1e-6)
+    >>> heights.std(axis=1).round(12).tolist()
+    [1e-06, 1e-06, 1e-06]
     """
-    whole("count, the number of lines,", count)
+    whole(count, "count, the number of lines,")
     _check(rng, amplitudes)
     amplitude = _amplitude(grid, spectrum, rms)
     rows = max(1, BATCH // grid.size)
@@ -80,6 +91,31 @@ def random_waves(
 
     Their modulus is one ("exact": only the phases are random) or one in the mean square ("gaussian").
     Kept, they give `line_heights` of many spectra that differ in nothing else.
+
+    Parameters
+    ----------
+    grid : Grid
+        Of one axis.
+    rng : numpy.random.Generator
+        Source of the phases.
+    count : int
+        Number of lines.
+    amplitudes : {"exact", "gaussian"}
+        "exact": only the phases are random; "gaussian": moduli of the waves, too.
+
+    Returns
+    -------
+    complex array
+        Shape (count, n//2 + 1).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import random_lines
+    >>> waves = random_lines.random_waves(rc.Grid(64, 1e-6, periodic=True), np.random.default_rng(0), 2)
+    >>> waves.shape, round(float(abs(waves[0, 5])), 9)
+    ((2, 33), 1.0)
     """
     _check(rng, amplitudes)
     waves = scipy.fft.rfft(rng.standard_normal((count, grid.size)))
@@ -94,6 +130,33 @@ def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | N
     """Return the heights [m] of lines with a `spectrum` from their unit `waves`, a line a row.
 
     See `rough_lines`; with `rms` [m] the spectrum is a shape only.
+
+    Parameters
+    ----------
+    grid : Grid
+        Of one axis.
+    spectrum : Waves, measured or continuous spectrum
+        Two-sided C1D [m^3] of the wavenumber [rad/m], see `line_spectrum`.
+    waves : complex array, shape (lines, n//2 + 1)
+        Unit waves, from `random_waves`.
+    rms : float, optional
+        Root mean square height of each line [m]: the spectrum is then a shape only. By default that of the spectrum.
+
+    Returns
+    -------
+    array
+        Heights [m], shape (lines, n).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import random_lines
+    >>> grid = rc.Grid(64, 1e-6, periodic=True)
+    >>> waves = random_lines.random_waves(grid, np.random.default_rng(0), 2)
+    >>> heights = random_lines.line_heights(grid, lambda q: q**-3.0, waves, rms=1e-6)
+    >>> heights.std(axis=1).round(12).tolist()  # of all lines alike
+    [1e-06, 1e-06]
     """
     amplitude = _amplitude(grid, spectrum, rms)
     if waves.shape[1:] != amplitude.shape:
@@ -107,8 +170,8 @@ def _amplitude(grid: Grid, spectrum: Spectrum, rms: float | None) -> Array:
     """Return B [m] at every wavenumber (thesis, eq. 2.11)."""
     if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a line has a grid of one axis: Grid(n, spacing)")
-    if rms is not None and not (math.isfinite(rms) and rms > 0):
-        raise ValueError(f"rms must be positive and finite [m], not {rms}")
+    if rms is not None:
+        positive_scalar(rms, "rms")
     if not callable(spectrum):
         raise ValueError(f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}")
     powers = wave_powers(spectrum, grid.shape, grid.spacing)

@@ -14,14 +14,12 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.axisymmetric_profile import Profile
-from roughcontact.mdr.quadrature import double_exponential, gauss
+from roughcontact.theory.tools.quadrature import double_exponential, gauss
+from roughcontact.validation import Array
 
 __all__ = ["pressure", "spring_energy", "surface_displacement"]
-
-Array = npt.NDArray[np.float64]
 
 ORIGIN = 2.0**-30  # part of the contact within which the slope of the transform is taken for a power of x
 SHARP = 1e-3  # exponent of that power up to which the tip is sharp and the pressure there infinite

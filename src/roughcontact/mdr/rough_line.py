@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive_scalar
 
 __all__ = ["checked_lines", "loading_curves"]
 
-Array = npt.NDArray[np.float64]
 Counts = npt.NDArray[np.int32]
 
 # Heights that are worked on in one go: few enough to stay in a core's cache with all that comes of them.
@@ -43,7 +40,7 @@ def loading_curves(
         Distance of the points [m], and the width of a spring.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa]; a spring has the stiffness ``E* spacing``.
-    forces, depths : array, shape (loads,)
+    forces, depths : array, shape (loads,), optional
         Exactly one, the same for every line: strictly increasing forces [N], or depths below first touch [m].
     energy : bool
         Whether to compute the elastic energy, which takes a fifth of the time.
@@ -63,11 +60,18 @@ def loading_curves(
     j + 1 is touched at the depth ``D_j = h_1 - h_(j+1)``, where the force is ``Phi_j = E* spacing sum_(i<=j) i
     (h_i - h_(i+1))``; between two such points the curve is straight. Every sum is one of positive terms: nothing
     cancels, and forces stay in order where heights are equal. A spring counts as in contact if it carries load.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import rough_line
+    >>> line = np.array([0.0, -1e-6, -2e-6, -3e-6])
+    >>> curves = rough_line.loading_curves(line, 1e-6, 1e9, depths=[0.5e-6, 1.5e-6])
+    >>> curves.springs.tolist(), (curves.force * 1e3).round(6).tolist()  # [mN]
+    ([[1, 2]], [[0.5, 2.0]])
     """
     lines = checked_lines(heights)
-    number("spacing", spacing)
-    if not (math.isfinite(spacing) and spacing > 0):
-        raise ValueError(f"spacing must be positive and finite [m], not {spacing}")
+    positive_scalar(spacing, "spacing")
     loads, by_force = _loads(forces, depths)
     reduced = as_modulus(modulus)
     spring = reduced * spacing
@@ -167,7 +171,24 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
 
 
 def checked_lines(heights: Array) -> Array:
-    """Return heights as rows of lines, or say why they are none."""
+    """Return heights as rows of lines, or say why they are none.
+
+    Parameters
+    ----------
+    heights : array, shape (points,) or (lines, points)
+        One line, or a row a line [m].
+
+    Returns
+    -------
+    array
+        Shape (lines, points).
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import rough_line
+    >>> rough_line.checked_lines([0.0, 1e-6]).shape
+    (1, 2)
+    """
     if not hasattr(heights, "__len__"):
         raise ValueError(
             f"heights must be an array, not a {type(heights).__name__}: join the curves of batches by LineCurves.joined"
@@ -191,7 +212,7 @@ def _loads(
         raise ValueError("give exactly one of forces and depths")
     by_force = forces is not None
     name, unit, least = ("forces", "N", "above 0") if by_force else ("depths", "m", "at least 0")
-    loads = np.atleast_1d(real(forces if by_force else depths, name))  # type: ignore[arg-type]
+    loads = np.atleast_1d(number(forces if by_force else depths, name))
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"{name} must hold at least one number in one row, not shape {loads.shape}")
     if not (np.isfinite(loads).all() and (loads > 0 if by_force else loads >= 0).all()):

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.sliding_state import SlidingState, sliding_state
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive_scalar
 
 __all__ = ["SlidingCurves", "sliding_friction"]
-
-Array = npt.NDArray[np.float64]
 
 STEPS = 100  # of Newton's method; it needs about ten
 TOLERANCE = 1e-12  # of the force
@@ -106,17 +101,27 @@ def sliding_friction(
 
     No time is stepped: see `sliding_state`. The depth that belongs to the force is found by Newton's method, which
     converges from one side, since the force is convex in the depth.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import sliding_friction
+    >>> wave = 1e-6 * np.cos(np.linspace(0, 2 * np.pi, 256, endpoint=False))
+    >>> curves = sliding_friction.sliding_friction(
+    ...     wave, 1e-6, 1e7, relaxation_time=1e-3, force=1e-3, speeds=[1e-6, 2e-6]
+    ... )
+    >>> first, second = curves.friction_coefficient[0]
+    >>> round(float(second / first), 3)  # at low speed the dampers' force grows with it
+    2.0
     """
     lines = checked_lines(heights)
     stiffness = as_modulus(modulus)
-    rates = np.atleast_1d(real(speeds, "speeds [m/s]"))
+    rates = np.atleast_1d(number(speeds, "speeds [m/s]"))
     if rates.ndim != 1 or not len(rates) or not (np.isfinite(rates).all() and (rates > 0).all()):
         raise ValueError(f"speeds must be positive and finite [m/s], at least one in one row, not {rates}")
     if not (np.diff(rates) > 0).all():
         raise ValueError("speeds must increase strictly")
-    number("relaxation time", relaxation_time)
-    if not (math.isfinite(relaxation_time) and relaxation_time > 0):
-        raise ValueError(f"relaxation_time must be positive and finite [s], not {relaxation_time}")
+    positive_scalar(relaxation_time, "relaxation_time")
     if lines.shape[1] < 2 or not (np.ptp(lines, axis=1) > 0).all():
         raise ValueError("a line without asperities slides without friction: its heights must differ")
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.validation import Array
+
 __all__ = ["SlidingState", "sliding_state"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 STEPS = 100  # of Newton's method for a place of touch; each gains at least one relaxation length

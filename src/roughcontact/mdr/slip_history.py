@@ -14,17 +14,14 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
-from roughcontact.mdr.roots import bisect
-from roughcontact.theory.tools.domain import count
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, number, numeric, positive_scalar, whole
 
 __all__ = ["SlipHistory", "slip_history"]
 
-Array = npt.NDArray[np.float64]
 History = float | Sequence[float] | Array
 
 
@@ -70,16 +67,17 @@ def slip_history(
     Parameters
     ----------
     profile : Profile
+        The body, see `roughcontact.mdr.indenter`.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     shear_modulus : float
         Reduced shear modulus G* [Pa].
     friction : float
         Coefficient of friction.
-    normal_force, depth : float or array, shape (n,)
+    normal_force, depth : float or array, shape (n,), optional
         Exactly one: normal force [N] or depth [m]; one number stays. The body is first pressed to the first of them,
         without tangential force.
-    force, displacement : float or array, shape (n,)
+    force, displacement : float or array, shape (n,), optional
         Exactly one: tangential force [N] or displacement [m], from the first press at 0 on.
     springs : int
         Number of springs from the axis to the largest contact radius. The errors fall as its square.
@@ -96,12 +94,19 @@ def slip_history(
     Notes
     -----
     Between two states all loads change in proportion, and each step is exact for each spring.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, slip_history
+    >>> ball = indenter.paraboloid(1e-2)
+    >>> path = slip_history.slip_history(ball, 1e11, 8e10, 0.3, normal_force=1.0, force=[0.2, 0.0, -0.2])
+    >>> bool(path.displacement[1] > 0)  # slip that does not go back with the force
+    True
     """
     normal, tangential, loads = _histories(normal_force, depth, force, displacement)
-    E, G, mu = as_modulus(modulus), number("shear_modulus", shear_modulus), number("friction", friction)
-    if not (G > 0 and mu > 0):
-        raise ValueError(f"shear_modulus and friction must be positive, not {G} and {mu}")
-    count("springs", springs)
+    E = as_modulus(modulus)
+    G, mu = positive_scalar(shear_modulus, "shear_modulus"), positive_scalar(friction, "friction")
+    whole(springs, "springs")
     curve = indented(profile, E, normal, loads[0] if normal == "force" else np.maximum(loads[0], 0))
     depths = curve.depth if normal == "force" else loads[0]
     width = float(curve.contact_radius.max()) / springs
@@ -139,7 +144,7 @@ def _histories(
         raise ValueError("give exactly one of force and displacement")
     first = normal_force if depth is None else depth
     second = force if displacement is None else displacement
-    pair = [np.atleast_1d(real(values, "a history")) for values in (first, second)]  # type: ignore[arg-type]
+    pair = [np.atleast_1d(number(values, "a history")) for values in (first, second)]
     if (
         any(one.ndim != 1 for one in pair)
         or len({one.size for one in pair} - {1}) > 1

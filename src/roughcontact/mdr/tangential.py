@@ -11,16 +11,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
-from roughcontact.material import number
 from roughcontact.mdr.indentation import Indentation, indent
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import Array, positive_scalar, scalar, shown
 
 __all__ = ["PartialSlip", "partial_slip"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -77,7 +71,18 @@ class PartialSlip:
         return 4 * Q * self.displacement - 8 * area
 
     def traction(self, r: float | Array) -> Array:
-        """Return the tangential traction [Pa] at the radii `r` [m], everywhere along the force."""
+        """Return the tangential traction [Pa] at the radii `r` [m], everywhere along the force.
+
+        Parameters
+        ----------
+        r : float or array
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or array
+            q [Pa].
+        """
         return self.friction * (self.indentation.pressure(r) - self.sticking.pressure(r))
 
     @property
@@ -110,7 +115,7 @@ def partial_slip(
         Reduced shear modulus G* [Pa], from `reduced_shear_modulus`.
     friction : float
         Coefficient of friction.
-    force, displacement : float
+    force, displacement : float, optional
         Exactly one: tangential force [N], at most mu times the normal one, or displacement of the bodies [m].
 
     Returns
@@ -126,18 +131,24 @@ def partial_slip(
     -----
     Exact where all slip has the direction of the force, for nu = 0. Otherwise the small slip across it is left out, and
     so is the coupling of normal and tangential displacements (Johnson, Contact Mechanics, 1985, section 7.2).
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter, tangential
+    >>> pressed = indentation.indent(indenter.paraboloid(1e-2), 1e11, force=1.0)
+    >>> slip = tangential.partial_slip(pressed, 8e10, 0.3, force=0.15)
+    >>> round(slip.stick_radius / pressed.contact_radius, 4)  # Cattaneo and Mindlin: (1 - Q/(mu F))^(1/3)
+    0.7937
     """
     if not isinstance(indentation, Indentation):
         raise ValueError(
             f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}"
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
-        value = number(name, value)
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
+        positive_scalar(value, name)
     if (force is None) == (displacement is None):
         raise ValueError("give exactly one of force and displacement")
-    given = number("tangential load", force if displacement is None else displacement)
+    given = scalar(force if displacement is None else displacement, "tangential load")
     if not (math.isfinite(given) and given >= 0):
         raise ValueError(
             f"a tangential load must be finite and not negative, not {given}: only its size matters"

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy import special
 
 from roughcontact.mdr.chebyshev import Panels
 from roughcontact.theory.power_law_indenter import kappa
+from roughcontact.validation import Array
 
 __all__ = ["PowerTerm", "SphereTerm", "TableTerm", "ripple_transform"]
-
-Array = npt.NDArray[np.float64]
 
 
 def ripple_transform(amplitude: float, wavenumber: float, x: Array) -> Array:
@@ -117,32 +115,16 @@ class SphereTerm:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class TableTerm:
-    """A height and its transform as tables, with the table's derivative and integral."""
+    """A height f(r) [m] and its transform g(x) [m] as tables, with the slope and the integral of the transform."""
 
-    height_table: Panels
-    table: Panels
-    table_slope: Panels
-    table_primitive: Panels
+    height: Panels
+    transform: Panels
+    slope: Panels
+    primitive: Panels
     flat: float
     breaks: tuple[float, ...]
     rises: bool
 
-    def height(self, r: Array) -> Array:
-        """Return f(r) [m]."""
-        return self.height_table(r)
-
-    def transform(self, x: Array) -> Array:
-        """Return g(x) [m]."""
-        return self.table(x)
-
-    def slope(self, x: Array) -> Array:
-        """Return g'(x) [-]."""
-        return self.table_slope(x)
-
-    def primitive(self, x: Array) -> Array:
-        """Return the integral of g from 0 to x [m^2]."""
-        return self.table_primitive(x)
-
     def __repr__(self) -> str:
         """Say how fine the table is."""
-        return f"TableTerm({len(self.table.coefficients)} panels)"
+        return f"TableTerm({len(self.transform.coefficients)} panels)"

@@ -9,14 +9,12 @@ singular end with the substitution r = x sin t, elsewhere with nodes that serve 
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.chebyshev import Function, Panels, fit, interpolate
-from roughcontact.mdr.quadrature import gauss
+from roughcontact.theory.tools.quadrature import gauss
+from roughcontact.validation import Array
 
 __all__ = ["abel", "height_of", "transform_of"]
-
-Array = npt.NDArray[np.float64]
 
 FUNCTION = 1e-14  # tolerance of the fit to a function, relative on each panel
 TRANSFORMED = 1e-13  # of the fit to its transform, which carries the rounding of the integral

@@ -16,12 +16,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
-from roughcontact.material import number
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import Array, number, scalar, shown
 
 __all__ = [
     "Creep",
@@ -34,8 +31,6 @@ __all__ = [
     "standard_solid",
     "viscous",
 ]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +92,8 @@ class Viscoelastic:
             )
         for name, values in (("modulus", (self.equilibrium, *self.moduli)), ("time", self.times)):
             for value in values:
-                number(f"{name} of a viscoelastic material", value)
-        number("viscosity", self.dashpot)
+                scalar(value, f"{name} of a viscoelastic material")
+        scalar(self.dashpot, "viscosity")
         if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
             raise ValueError(
                 f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}"
@@ -116,7 +111,18 @@ class Viscoelastic:
         return self.equilibrium + math.fsum(self.moduli)
 
     def relaxation(self, time: float | Array) -> Array:
-        """Return E(t) [Pa] at times >= 0 [s], at 0 what follows at once; a dashpot adds its pulse c delta(t)."""
+        """Return E(t) [Pa] at times >= 0 [s], at 0 what follows at once; a dashpot adds its pulse c delta(t).
+
+        Parameters
+        ----------
+        time : float or array
+            Times, not negative [s].
+
+        Returns
+        -------
+        float or array
+            E(t) [Pa].
+        """
         t = _times(time)
         return self.equilibrium + sum(
             (E * np.exp(-t / tau) for E, tau in zip(self.moduli, self.times, strict=True)), np.zeros_like(t)
@@ -128,6 +134,10 @@ class Viscoelastic:
         Its retardation times theta_j are where c s + E_inf + sum E_k s/(s + 1/tau_k) vanishes, at s = -1/theta: one
         between any two relaxation times, one beyond the longest if the material is a solid, and one below the shortest
         if it has a dashpot.
+
+        Returns
+        -------
+        Creep
         """
         pairs = sorted(zip(self.times, self.moduli, strict=True))
         taus = [tau for tau, _ in pairs]
@@ -152,19 +162,72 @@ class Viscoelastic:
 
 
 def viscous(viscosity: float) -> Viscoelastic:
-    """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt."""
-    return Viscoelastic(dashpot=4 * number("viscosity", viscosity))
+    """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt.
+
+    Parameters
+    ----------
+    viscosity : float
+        eta [Pa s].
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> viscoelastic.viscous(10.0).dashpot
+    40.0
+    """
+    return Viscoelastic(dashpot=4 * scalar(viscosity, "viscosity"))
 
 
 def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
-    """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s]."""
+    """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s].
+
+    Parameters
+    ----------
+    modulus : float
+        E* of the spring [Pa].
+    retardation_time : float
+        tau [s].
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> creep = viscoelastic.kelvin_voigt(1e8, 2.0).creep()
+    >>> round(float(creep(2.0)) * 1e8, 6)  # 1 - 1/e after the retardation time
+    0.632121
+    """
     return Viscoelastic(
-        equilibrium=modulus, dashpot=number("modulus", modulus) * number("retardation time", retardation_time)
+        equilibrium=modulus, dashpot=scalar(modulus, "modulus") * scalar(retardation_time, "retardation time")
     )
 
 
 def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
-    """Return spring and dashpot in a row: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s]."""
+    """Return spring and dashpot in a row: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s].
+
+    Parameters
+    ----------
+    modulus : float
+        E* of the spring [Pa].
+    relaxation_time : float
+        tau [s].
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> round(float(viscoelastic.maxwell(1e8, 2.0).relaxation(2.0)) / 1e8, 6)  # 1/e after the relaxation time
+    0.367879
+    """
     return Viscoelastic(moduli=(modulus,), times=(relaxation_time,))
 
 
@@ -177,8 +240,19 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
         Reduced moduli after a long time and at once, E_inf < E_0 [Pa].
     relaxation_time : float
         tau [s].
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> [round(float(soft.relaxation(t)) / 1e8, 4) for t in (0.0, 1.0, 100.0)]
+    [10.0, 4.3109, 1.0]
     """
-    if not 0 < number("equilibrium modulus", equilibrium) < number("instantaneous modulus", instantaneous):
+    if not 0 < scalar(equilibrium, "equilibrium modulus") < scalar(instantaneous, "instantaneous modulus"):
         raise ValueError(
             f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
             f"not to {equilibrium} Pa"
@@ -187,19 +261,56 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
 
 
 def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
-    """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s]."""
-    lists = [np.asarray(real(values, name)) for name, values in (("moduli", moduli), ("times", times))]
+    """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s].
+
+    Parameters
+    ----------
+    equilibrium : float
+        E_inf, the reduced modulus after a long time [Pa]; 0 for a fluid.
+    moduli : sequence of float
+        E_k of the elements [Pa].
+    times : sequence of float
+        Relaxation times tau_k of the elements [s].
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> rubber = viscoelastic.prony(1e6, [4e6, 5e6], [0.1, 1.0])
+    >>> rubber.instantaneous
+    10000000.0
+    """
+    lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
     if any(values.ndim != 1 for values in lists):
         raise ValueError(
             "moduli and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
             f"not {shown(moduli)} and {shown(times)}"
         )
     E, tau = (tuple(values.tolist()) for values in lists)
-    return Viscoelastic(number("equilibrium modulus", equilibrium), E, tau)
+    return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
 
 
 def checked_material(material: Viscoelastic) -> Viscoelastic:
-    """Return a viscoelastic material, or say that this is none."""
+    """Return a viscoelastic material, or say that this is none.
+
+    Parameters
+    ----------
+    material : Viscoelastic
+        Made by `standard_solid`, `maxwell`, `kelvin_voigt`, `viscous` or `prony`.
+
+    Returns
+    -------
+    Viscoelastic
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> viscoelastic.checked_material(viscoelastic.maxwell(1e8, 1.0)).moduli
+    (100000000.0,)
+    """
     if not isinstance(material, Viscoelastic):
         raise ValueError(
             "a viscoelastic material is wanted, such as standard_solid(equilibrium, instantaneous, relaxation_time), "
@@ -209,7 +320,15 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
 
 
 def ordered(times: Array, loads: Array) -> None:
-    """Refuse a history whose numbers are not finite, or whose times run backwards."""
+    """Refuse a history whose numbers are not finite, or whose times run backwards.
+
+    Parameters
+    ----------
+    times : array, shape (n,)
+        Times [s].
+    loads : array, shape (n,)
+        Loads at these times.
+    """
     for name, values in (("times", times), ("loads", loads)):
         wrong = values[~np.isfinite(values)]
         if wrong.size:
@@ -222,7 +341,7 @@ def ordered(times: Array, loads: Array) -> None:
 
 
 def _times(time: float | Array) -> Array:
-    t = np.asarray(real(time, "time [s]"))
+    t = np.asarray(number(time, "time [s]"))
     if not (t >= 0).all():
         raise ValueError(
             f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: nothing responds before the load"

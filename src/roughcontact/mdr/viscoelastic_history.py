@@ -11,20 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
-from roughcontact.theory.tools.domain import count, number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, number, numeric, whole
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,6 +79,16 @@ def depth_history(
     ------
     ValueError
         If the history makes no sense, or jumps into a dashpot.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = viscoelastic_history.depth_history(
+    ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
+    ... )
+    >>> round(float(held.force[1] / held.force[2]), 4)  # the force relaxes by E_0/E_inf
+    10.0
     """
     checked_material(material)
     t, d = _history(times, depths)
@@ -136,6 +142,18 @@ def force_history(
     ------
     ValueError
         If the history makes no sense.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft, t = viscoelastic.standard_solid(1e8, 1e9, 1.0), np.linspace(0, 20, 41)
+    >>> held = viscoelastic_history.force_history(
+    ...     indenter.paraboloid(1e-2), soft, t, np.ones(41), springs=100
+    ... )
+    >>> creep = soft.creep()
+    >>> round(float((held.depth[-1] / held.depth[0]) ** 1.5), 1), round(float(creep(20.0) / creep(0.0)), 1)
+    (8.8, 8.8)
     """
     checked_material(material)
     t, F = _history(times, forces)
@@ -226,7 +244,7 @@ def _foundation(
         raise ValueError(
             "on a body whose transform falls somewhere the contact is not one disc at every load"
         )
-    width = top / count("springs", springs)
+    width = top / whole(springs, "springs")
     # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
     places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
     return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius])), width

@@ -12,12 +12,12 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array
 
 __all__ = ["Springs", "ViscoelasticFoundation"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 

@@ -60,7 +60,7 @@ def stiffness_curve(
         )
     if axes.get_legend_handles_labels()[0]:
         # The corner between the curve and its upper limit is the one that stays free.
-        top = math.log(curve.saturation / low) / math.log(high / low) if limits[1:] else 1.0
+        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if limits[1:] else 1.0
         axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
     _outer(axes, curve, (x, y))
 
@@ -83,7 +83,7 @@ def _limits(curve: Curve) -> list[tuple[float, float, Literal["left", "right"], 
     """Return the stiffnesses between which a curve is resolved: level [N/m], place along the axis, side, text."""
     limits: list[tuple[float, float, Literal["left", "right"], str]] = [
         (CELLS * curve.cell_stiffness, 0.985, "right", f"{CELLS} x one cell"),
-        (curve.saturation, 0.015, "left", "saturation"),
+        (curve.full_contact_stiffness, 0.015, "left", "full contact"),
     ]
     if curve.geometry is Geometry.LINE:  # there it is the width that counts
         limits = limits[1:]

@@ -26,7 +26,7 @@ def height_distribution(axes: Axes, surface: Surface, bins: int = 60) -> None:
 
     A flat surface has no normal distribution; it is drawn without one.
     """
-    found = height_histogram(surface, bins)
+    found = height_histogram(surface, bins=bins)
     reach = float(np.abs(found.edges).max())
     z = scale(reach, VARIABLES["heights"].unit)
     edges = found.edges * z.factor

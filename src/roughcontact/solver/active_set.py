@@ -1,4 +1,7 @@
-"""The active set: guess the contact region, solve inside it, flip what violates (thesis, A.6 to A.8)."""
+"""The primal-dual active set method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, A.6 to A.8).
+
+Labels A1 to A10 are the lines of the algorithm in docs/method.md.
+"""
 
 from __future__ import annotations
 
@@ -12,21 +15,25 @@ from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
+from roughcontact.solver import tuning
+from roughcontact.solver.bound_constrained_cg import inner_solve
 from roughcontact.solver.control import Terms
-from roughcontact.solver.direct import DENSE_LIMIT, press_cells
-from roughcontact.solver.inner_operator import Driver, Plane, driver_on, factorised, first_product
+from roughcontact.solver.direct import press_cells
+from roughcontact.solver.inner_operator import (
+    FullGrid,
+    InnerOperator,
+    direct_limit,
+    first_product,
+    inner_operator_on,
+)
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.iterative import press_region
-from roughcontact.solver.optimality import Judge
-from roughcontact.solver.plastic import press_hard
+from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, predict_free_set
+from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.projection import elastic_control, within
-from roughcontact.solver.start import start_pressure
+from roughcontact.solver.projection import elastic_control, feasible_start, project
 from roughcontact.solver.state import State, Tangent
 from roughcontact.solver.status import Status
-from roughcontact.solver.trial import Trial
-from roughcontact.solver.verdict import Guess, guess_region, judge_pressure
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
 
@@ -34,174 +41,162 @@ Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 Mask = npt.NDArray[np.bool_]
 
-LOOSE = 0.2  # of the violation of a guess: how far it is solved to be sifted
-SIFTED = 300  # cells: of fewer, a factorisation costs no more than a few products
-FLOWING = 0.5  # of the force: where more exceeds the hardness, hardly a cell is left between the bounds
-STUCK = 3  # rounds without progress after which only exact products are trusted
-
 
 @dataclass(frozen=True, slots=True)
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    Regions of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the tolerance is
-    loose) are solved by a factorisation, larger ones by conjugate gradients in single precision, on the tiles that
-    they touch where that costs less, just as far as the present guess of the region deserves; products in double
-    precision certify. For the half-space the influence matrix is an inverse M-matrix and the flipping ends; for
-    others nothing proves it, so that a run without progress is handed to Polonsky and Keer's method.
+    Free sets of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the tolerance is
+    loose) are solved by a factorisation, larger ones by bound-constrained conjugate gradients in single precision, on
+    the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. For
+    the half-space the influence matrix is an inverse M-matrix and the method is finite; for other operators nothing
+    proves that, so that a run without progress is continued by Polonsky and Keer's method.
     """
 
     max_steps: int = 5000
-    dense_limit: int = DENSE_LIMIT
+    dense_limit: int = tuning.DIRECT_CELLS
 
     def __post_init__(self) -> None:
         require_numbers(self)
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-        """Solve for the pressure from an `initial` one, on the given terms.
-
-        With a hardness that the elastic answer would exceed, that answer is where to start; where there is none at the
-        depth that is prescribed, the one at the largest depth.
-        """
-        measure = Measure(operator.weights)
+        """Solve for the pressure from an `initial` one, on the given terms."""
         if terms.hardness < math.inf:
-            control = elastic_control(operator, separation, terms.control)
-            body = replace(terms, control=control, hardness=math.inf)
-            elastic = self.run(operator, separation, body, initial)
-            xp = namespace(separation)
-            if control == terms.control and float(xp.max(elastic.pressure)) <= terms.hardness:
-                return elastic
-            excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
-            start, steps = within(measure, elastic.pressure, separation, terms), elastic.steps
-            if measure.total(excess) < FLOWING * measure.total(elastic.pressure):
-                state = self._flip(operator, separation, terms, start)
-                if state.status.converged:
-                    return replace(state, steps=steps + state.steps)
-                start, steps = state.pressure, steps + state.steps
-            state = press_hard(operator, separation, terms, start, self.max_steps)
-            return replace(state, steps=steps + state.steps)
-        own = Judge.of(operator, terms).self_influence
-        p = start_pressure(measure, separation, terms.control, initial, own)
-        state = self._flip(operator, separation, terms, p)
+            return self._run_plastic(operator, separation, terms, initial)
+        conditions = Optimality.of(operator, terms)
+        p = feasible_start(  # A1
+            conditions.measure, separation, terms.control, initial, conditions.self_influence
+        )
+        state = self._iterate(operator, separation, conditions, p)
         if state.status.converged:
             return state
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, state.pressure)
         return replace(rest, steps=rest.steps + state.steps)
 
-    def _flip(self, operator: Operator, separation: Array, terms: Terms, p: Array) -> State:
-        """Return what guessing the region again and again leads to: converged, or stagnated."""
-        measure, judge = Measure(operator.weights), Judge.of(operator, terms)
-        control, tolerance, given, hardness = terms.control, terms.tolerance, terms.depth, terms.hardness
+    def _run_plastic(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+        """Solve under a hardness, from the elastic answer.
+
+        Where there is none at the depth that is prescribed, from the one at the largest depth.
+        """
+        measure, xp = Measure(operator.weights), namespace(separation)
+        control = elastic_control(operator, separation, terms.control)
+        unlimited = replace(terms, control=control, hardness=math.inf)
+        elastic = self.run(operator, separation, unlimited, initial)
+        if control == terms.control and float(xp.max(elastic.pressure)) <= terms.hardness:
+            return elastic
+        excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
+        start, steps = project(measure, elastic.pressure, separation, terms), elastic.steps
+        if measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
+            state = self._iterate(operator, separation, Optimality.of(operator, terms), start)
+            if state.status.converged:
+                return replace(state, steps=steps + state.steps)
+            start, steps = state.pressure, steps + state.steps
+        state = press_plastic(operator, separation, terms, start, self.max_steps)
+        return replace(state, steps=steps + state.steps)
+
+    def _iterate(self, operator: Operator, separation: Array, conditions: Optimality, p: Array) -> State:
+        """Iterate A2 to A10 from a feasible pressure: converged, or stagnated."""
+        terms, a_ii = conditions.terms, conditions.self_influence
+        tolerance, hardness, xp = terms.tolerance, terms.hardness, namespace(separation)
         singular = is_semidefinite(operator)  # with every cell in contact, that is
-        xp = namespace(separation)
         # Factorisations are made on the host, and know no hardness.
         direct = is_numpy(separation) and hardness == math.inf
-        dense_limit = factorised(operator, self.dense_limit, tolerance) if direct else 0
-        (u, exact), steps = first_product(operator, p), 1
+        dense_limit = direct_limit(operator, self.dense_limit, tolerance) if direct else 0
+        (u, exact), steps = first_product(operator, p), 1  # A2
         tangent: Tangent | None = None
-        best, idle = np.inf, 0
-        driver: Driver | None = None
-        guessed = True
+        inner: InnerOperator | None = None
+        best, idle, first = np.inf, 0, True
         while True:
-            trial = Trial(p, u, separation)
-            d, r, scale = judge_pressure(judge, measure, terms, trial)
-            if r <= tolerance and exact:
-                return State(p, d, r, steps, Status.CONVERGED, tangent, u)
-            if r <= tolerance:  # the certificate stands on an exact product
+            iterate = Iterate(p, u, separation)
+            d, residual, scale = conditions.evaluate(iterate)  # A3, A4
+            if residual <= tolerance and exact:
+                return State(p, d, residual, steps, Status.CONVERGED, tangent, u)
+            if residual <= tolerance:  # A5: the certificate needs an exact product
                 u, exact, steps = operator.apply(p), True, steps + 1
                 continue
-            idle = 0 if r < 0.9 * best else idle + 1
-            best = min(best, r)
-            if steps >= self.max_steps or idle > 12:
-                return State(p, d, r, steps, Status.STAGNATED)
+            idle = 0 if residual < tuning.PROGRESS * best else idle + 1
+            best = min(best, residual)
+            if steps >= self.max_steps or idle > tuning.ROUNDS_AT_ALL:
+                return State(p, d, residual, steps, Status.STAGNATED)
             allowed = 0.5 * tolerance * scale
-            # From other cells or another load: keep what a projected step of one cell leaves of it.
-            own = judge.self_influence if guessed else math.inf
-            guess = guess_region(terms, trial, depth=d, allowed=allowed, own=own)
-            region, count = guess.region, guess.count
-            if guessed and _worth_sifting(guess, measure, dense_limit):
-                cells = np.flatnonzero(region)
-                settings = {"own": judge.self_influence, "limit": LOOSE * r * scale}
-                region = _sifted(operator, separation, terms, cells, p, **settings)
-                count = int(np.count_nonzero(region))
-            guessed, size = False, math.prod(region.shape)
-            # Where all give way no region tells the depth.
+            # A6: from another grid or load, only cells on which a projected step leaves a pressure.
+            set_ = predict_free_set(
+                terms, iterate, depth=d, allowed=allowed, self_influence=a_ii if first else math.inf
+            )
+            free, count = set_.free, set_.count
+            if first and _worth_screening(set_, conditions.measure, dense_limit):
+                free = _screened(
+                    operator, iterate, conditions, free, tuning.SCREENING_RESIDUAL * residual * scale
+                )
+                count = int(np.count_nonzero(free))
+            first, size = False, math.prod(free.shape)
+            # With all cells at the hardness no free one determines the depth.
             if not count and hardness < math.inf and bool(xp.any(p >= hardness)):
-                return State(p, d, r, steps, Status.STAGNATED)
+                return State(p, d, residual, steps, Status.STAGNATED)
             if not count:  # too shallow a depth for this grid
                 p, u = xp.zeros_like(p), xp.zeros_like(p)
                 continue
-            if singular and count == size and given is not None:
+            if singular and count == size and terms.depth is not None:
                 # Up to the mean separation one cell may always go without pressure; with all of them the
-                # mean pressure would be free.
-                cells = xp.reshape(xp.arange(size, device=region.device), region.shape)
-                region, count = cells != xp.argmin(p), size - 1
-            if count <= dense_limit and count < size + (not singular):
+                # mean pressure would be undetermined.
+                cells = xp.reshape(xp.arange(size, device=free.device), free.shape)
+                free, count = cells != xp.argmin(p), size - 1
+            if count <= dense_limit and count < size + (not singular):  # A8
                 try:
-                    pressed = press_cells(operator, separation, control, np.flatnonzero(region))
+                    solved = press_cells(operator, separation, terms.control, np.flatnonzero(free))
                 except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
                     dense_limit = 0
                     continue
-                p = _scatter(pressed.cells, pressed.pressure, region.shape)
-                tangent = Tangent(_scatter(pressed.cells, pressed.tangent, region.shape), pressed.error)
+                p = _scattered(solved.cells, solved.pressure, free.shape)
+                tangent = Tangent(_scattered(solved.cells, solved.tangent, free.shape), solved.error)
                 steps += 1
-            else:
-                driver = driver_on(operator, guess.taken, driver) if idle < STUCK else Plane(operator)
-                found = press_region(
-                    driver,
-                    separation,
+            else:  # A9
+                stuck = idle >= tuning.ROUNDS_IN_SINGLE
+                inner = FullGrid(operator) if stuck else inner_operator_on(operator, set_.support, inner)
+                p, done = inner_solve(
+                    inner,
+                    iterate,
                     terms,
-                    region,
-                    p,
-                    u,
-                    own=judge.self_influence,
-                    limit=scale * max(0.3 * tolerance, driver.gain * r),
+                    free,
+                    self_influence=a_ii,
+                    limit=scale * max(tuning.INNER_TOLERANCE * tolerance, inner.contraction * residual),
                     max_steps=self.max_steps - steps,
                 )
-                p, tangent, steps = found.pressure, None, steps + found.steps + 1
+                tangent, steps = None, steps + done + 1
                 if hardness < math.inf:
-                    p = within(measure, p, u + separation, terms)
-            del u
-            u, exact = operator.apply(p), True
+                    p = project(conditions.measure, p, u + separation, terms)
+            del u, iterate
+            u, exact = operator.apply(p), True  # A10
 
 
-def _worth_sifting(guess: Guess, measure: Measure, limit: int) -> bool:
-    """Whether a guess is bad, and its matrix large, not too large: one load to the next is a good guess."""
-    return guess.wrong > guess.count / 100 and SIFTED < guess.count <= limit and not measure.varies
+def _worth_screening(predicted: PredictedSet, measure: Measure, limit: int) -> bool:
+    """Whether a prediction is bad and its matrix large, but not too large: from one load to the next it is good."""
+    bad = predicted.dropped > predicted.count / 100
+    return bad and tuning.SCREENING_CELLS < predicted.count <= limit and not measure.varies
 
 
-def _sifted(
-    operator: Operator,
-    separation: Array,
-    terms: Terms,
-    cells: Cells,
-    pressure: Array,
-    *,
-    own: float,
-    limit: float,
-) -> Mask:
-    """Return the region of those guessed cells that press when their problem is solved loosely.
+def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free: Mask, limit: float) -> Mask:
+    """Return the cells of a predicted free set that have pressure when their problem is solved roughly (A7).
 
     A product with their matrix grows with the square of their number, its factorisation with the third power.
     """
-    area = float(operator.weights)  # the same for all: who comes here has asked
-    part = Plane(DenseOperator(Grid(len(cells), area), operator.as_matrix(cells)))
-    start = pressure.ravel()[cells]
-    found = press_region(
+    cells = np.flatnonzero(free)
+    area = float(operator.weights)  # the same for all, see `_worth_screening`
+    part = FullGrid(DenseOperator(Grid(len(cells), area), operator.as_matrix(cells)))
+    p, separation = iterate.pressure.ravel()[cells], iterate.separation.ravel()[cells]
+    found = inner_solve(
         part,
-        separation.ravel()[cells],
-        terms,
+        Iterate(p, part.apply(p), separation),
+        conditions.terms,
         np.ones(len(cells), dtype=bool),
-        start,
-        part.apply(start),
-        own=own,
+        self_influence=conditions.self_influence,
         limit=limit,
         max_steps=50,
     )
-    return _scatter(cells, found.pressure, separation.shape) > 0
+    return _scattered(cells, found.pressure, free.shape) > 0
 
 
-def _scatter(cells: npt.NDArray[np.intp], values: Array, shape: tuple[int, ...]) -> Array:
+def _scattered(cells: Cells, values: Array, shape: tuple[int, ...]) -> Array:
     field = np.zeros(shape)
     field.ravel()[cells] = values
     return field

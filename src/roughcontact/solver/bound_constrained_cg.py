@@ -1,147 +1,226 @@
-"""Projected conjugate gradients: directions that keep a pressure within its bounds, one product each."""
+"""Bound-constrained preconditioned conjugate gradients: the inner solve of the active set method.
+
+Labels B1 to B17 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
+changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that the step is
+estimated before the product, so that one product serves projection and line search, is this package's own.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from roughcontact.solver.inner_operator import Driver
-from roughcontact.solver.vectors import Fields
+import numpy as np
+import numpy.typing as npt
 
-__all__ = ["Descent", "Stride", "descend"]
+from roughcontact.arrays import namespace
+from roughcontact.solver import tuning
+from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.inner_operator import InnerOperator
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.optimality import Iterate
+from roughcontact.solver.vectors import Vectors, scaled_vectors
 
-ALIKE = 0.01  # of what may be lacking: what a region may lack on the mean, where that is none
-LEFT = 0.1  # of what may be lacking: what the pressure that is farthest out of bounds may displace
-SLIGHT = 0.1  # of what is lacking: what cells that go to their bounds may displace, all told, to be as good as none
-# The rest was found by counting products (`benchmarks/steps.py`).
-CAREFUL = 0.9  # of the step that is expected: a longer one lets go of cells for nothing
-LEAST, MOST = 0.5, 1.1  # times a step that takes cells to their bounds: they are to go there, and no further
-BOUND = 0.7, 1.1  # times what was expected: what such a step tells of the next, at least and at most
-FREE = 0.5, 1.5  # what any other does
+__all__ = ["InnerSolution", "Minimised", "StepEstimate", "bound_constrained_cg", "inner_solve"]
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
-class Stride:
-    """How far the next direction is expected to go, in units of what the preconditioner finds; at first a guess."""
+class StepEstimate:
+    """The length of the next step along z + beta s - mu w that is expected to be best; at first 1, a guess."""
 
     expected: float = 1.0
     known: bool = False
 
     @property
-    def next(self) -> float:
-        """How far to go."""
-        return CAREFUL * self.expected
+    def trial(self) -> float:
+        """Length of the trial step (B7): somewhat shorter, since a longer one deactivates cells for nothing."""
+        return tuning.TRIAL_STEP * self.expected
 
-    def after(self, best: float, *, lifts: bool) -> Stride:
-        """Return what is expected after the best step was so long; one that took cells to their bounds tells less."""
-        least, most = BOUND if lifts else FREE
+    def after(self, best: float, *, bounds_matter: bool) -> StepEstimate:
+        """Return the estimate after the best step had a length (B13); newly active bounds make it less certain."""
+        least, most = tuning.ESTIMATE_AT_BOUNDS if bounds_matter else tuning.ESTIMATE_FREE
         if self.known:
             best = min(max(best, least * self.expected), most * self.expected)
-        return Stride(best, known=True)
+        return StepEstimate(best, known=True)
 
 
-class Descent(NamedTuple):
-    """What became of a descent.
+class Minimised(NamedTuple):
+    """The end of one run of bound-constrained conjugate gradients."""
 
-    Attributes
-    ----------
-    lack : float
-        Largest displacement that is lacking on the region [m].
-    steps : int
-        Products.
-    stride : Stride
-        For the next.
-    """
-
-    lack: float
+    residual: float
+    """Largest size of r on F."""
     steps: int
-    stride: Stride
+    """Products."""
+    estimate: StepEstimate
+    """For the next run."""
 
 
-def descend(
-    driver: Driver,
-    fields: Fields,
-    stride: Stride,
+class InnerSolution(NamedTuple):
+    """A pressure [Pa] between its bounds, and the products that it took."""
+
+    pressure: Array
+    steps: int
+
+
+def inner_solve(
+    inner: InnerOperator,
+    iterate: Iterate,
+    terms: Terms,
+    free: Mask,
     *,
-    conserve: bool,
-    own: float,
+    self_influence: float,
     limit: float,
     max_steps: int,
-) -> Descent:
-    """Change the pressure to what gives a region the displacement it lacks, and let go of cells that would pull.
+) -> InnerSolution:
+    """Solve the bound-constrained problem from an iterate and a predicted free set.
+
+    Cells are deactivated until none has a pressure out of bounds, and only then violated ones are freed: to do both at
+    once, as is right where each free set is solved exactly, cycles where it is not.
 
     Parameters
     ----------
-    driver : Driver
-    fields : Fields
-        Of the solve. Cells that are let go of, or reach the hardness, are free no longer.
-    stride : Stride
-        What the last descent learned.
-    conserve : bool
-        Whether the force is kept; then a displacement that is lacking everywhere alike is none.
-    own : float
-        Displacement of a cell per unit pressure on itself [m/Pa].
+    inner : InnerOperator
+        It covers F and all cells under pressure. Only the correction of the pressure passes through it, so that its
+        error is one of the correction alone.
+    iterate : Iterate
+        Pressure [Pa] to start from, its displacement [m], and the separation [m].
+    terms : Terms
+    free : bool array
+        The predicted free set, one cell at least, none of them missing. Of the others those at the hardness keep it,
+        the rest goes to zero.
+    self_influence : float
+        A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     limit : float
-        Stop when the largest lack on the region [m] is no more than this.
+        Largest residual on F [m].
+    max_steps : int
+        Largest number of products.
+    """
+    pressure, displacement, separation = iterate
+    measure, hardness = Measure(inner.weights), terms.hardness
+    start = inner.gather(pressure)
+    # Cells that were not measured never touch, nor does what lies beyond the edge.
+    part = Iterate(start, inner.gather(displacement), inner.gather(separation, math.inf))
+    vectors, unit = scaled_vectors(inner, measure, terms, inner.gather(free), part, otherwise=limit)  # B1
+    goal = limit / unit
+    target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
+    while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
+        residual, done, estimate = bound_constrained_cg(
+            inner,
+            vectors,
+            estimate,
+            conserve=terms.depth is None,
+            self_influence=self_influence,
+            limit=target,
+            max_steps=max_steps - steps,
+        )
+        steps += done
+        worst = vectors.free_violated(0.5 * goal)  # B16
+        if worst:
+            target = max(goal, tuning.INNER_FORCING * max(residual, worst))  # B17
+            rounds += 1
+        elif target > goal and residual <= target:
+            target = goal
+        else:
+            break
+    p = vectors.pressure(start, unit)
+    if vectors.upper is not None:
+        p = namespace(p).where(vectors.upper, hardness, p)
+    elif isinstance(terms.control, Force):
+        total = measure.total(p)
+        if not total > 0:
+            return InnerSolution(pressure, steps)
+        p *= terms.control.value / total
+    return InnerSolution(inner.scatter(p), steps)
+
+
+def bound_constrained_cg(
+    inner: InnerOperator,
+    vectors: Vectors,
+    estimate: StepEstimate,
+    *,
+    conserve: bool,
+    self_influence: float,
+    limit: float,
+    max_steps: int,
+) -> Minimised:
+    """Correct the pressure until the residual on F is small; deactivate cells whose pressure leaves its bounds.
+
+    Parameters
+    ----------
+    inner : InnerOperator
+    vectors : Vectors
+        Of the solve. F only shrinks here.
+    estimate : StepEstimate
+        From the last run.
+    conserve : bool
+        Whether the force is prescribed: then corrections have no resultant, and a constant residual is none.
+    self_influence : float
+        A_ii: displacement of a cell per unit pressure on itself [m/Pa].
+    limit : float
+        Stop when the largest residual on F is no more than this.
     max_steps : int
         Largest number of products.
 
     Notes
     -----
-    Which cells a direction takes to their bounds hangs on how far it goes, and how far it should go is known after its
-    product. So the step is guessed: cells that it would take out of bounds go to them, the rest goes on, and of all
-    that one product is taken; it tells the best multiple. Where no cell is at a bound these are conjugate gradients,
-    as of `roughcontact.solver.conjugate_gradients`, whatever was guessed. Cells that go to their bounds go most of the
-    way, even uphill: what they still miss or overshoot goes with the next step.
+    Where no bound becomes active these are plain conjugate gradients, whatever the estimate: the line search makes up
+    for it.
     """
-    area, steps = fields.begin(), 0
+    area, steps = vectors.restart(), 0
     if conserve:
-        fields.level(ALIKE * limit)
-    size = fields.size()
-    if conserve and not area > 0:  # none is there to take the force
-        return Descent(size, steps, stride)
-    last, resultant = None, 1.0
-    while steps < max_steps and (size > limit or own * fields.excess() > LEFT * limit):
+        vectors.remove_mean(tuning.MEAN_RESIDUAL * limit)  # B2
+    r_max = vectors.residual_max()
+    if conserve and not area > 0:  # no cell to carry the force
+        return Minimised(r_max, steps, estimate)
+    last, w_sum = None, 1.0
+    while steps < max_steps and (  # B3
+        r_max > limit or self_influence * vectors.bound_violation() > tuning.BOUND_VIOLATION * limit
+    ):
         if last is None:
-            resultant, last = fields.share() if conserve else 1.0, fields.measure(fields.v)
-        found = fields.precondition()
-        if not found.descent >= 0:
+            w_sum, last = (
+                vectors.constraint_direction() if conserve else 1.0,
+                vectors.inner_products(vectors.q),
+            )
+        rz, zq, z_sum, wq = vectors.precondition()  # B4, B5
+        if not rz >= 0:
             break
-        alike = found.alike / resultant if conserve else 0.0
-        curvature = last.curvature - alike * last.force
-        beta = (
-            -(found.overlap - alike * found.force) / curvature
-            if curvature > 0 and last.curvature > 0
-            else 0.0
-        )
-        shift = (found.force + beta * last.force) / resultant
-        lifted, area, force = fields.bound(beta, shift, stride.next)
-        lifts = own * lifted > SLIGHT * size
+        sigma = wq / w_sum if conserve else 0.0  # Schur complement of the force: w.q / 1.w
+        curvature = last.sq - sigma * last.s_sum
+        beta = -(zq - sigma * z_sum) / curvature if curvature > 0 and last.sq > 0 else 0.0  # B6
+        mu = (z_sum + beta * last.s_sum) / w_sum
+        lifted, area, force = vectors.project(beta, mu, estimate.trial)  # B7, B8
+        bounds_matter = self_influence * lifted > tuning.LIFTED_RESIDUAL * r_max
         if conserve:
             if not area > 0:
                 break
             if force:
-                fields.share_out(force)
-            resultant = fields.share()
-        last = fields.measure(driver.apply(fields.t))
+                vectors.redistribute(force)  # B9
+            w_sum = vectors.constraint_direction()
+        last = vectors.inner_products(inner.apply(vectors.s))  # B10, B11: the product of the step
         steps += 1
-        if not last.curvature > 0:  # rounding has eaten the direction
-            size = fields.size()
+        if not last.sq > 0:  # the direction is but rounding
+            r_max = vectors.residual_max()
             break
-        # Few cells that go to their bounds where much is lacking say nothing of how far the rest should go, unless they
-        # do more than the rest, and the product is theirs: a shorter step would only make it more so.
-        theirs = abs(last.descent - last.free) > abs(last.free)
-        lifts = lifts or (lifted > 0 and theirs and last.free < LEAST * last.curvature)
-        alpha = (last.descent if lifts else last.free) / last.curvature
+        # Few newly active cells say nothing of how far the others should go, unless most of r.s is theirs: a shorter
+        # step would only increase that part.
+        dominate = abs(last.rs - last.rs_free) > abs(last.rs_free)
+        bounds_matter = bounds_matter or (
+            lifted > 0 and dominate and last.rs_free < tuning.SHORTEST_STEP * last.sq
+        )
+        alpha = (last.rs if bounds_matter else last.rs_free) / last.sq  # B12
         if alpha > 0:
-            stride = stride.after(alpha * stride.next, lifts=lifts)
-        elif lifted:  # no direction to go on from
-            last, lifts = last._replace(curvature=0.0), True
+            estimate = estimate.after(alpha * estimate.trial, bounds_matter=bounds_matter)  # B13
+        elif lifted:  # no direction to continue with
+            last, bounds_matter = last._replace(sq=0.0), True
         else:
-            size = fields.size()
+            r_max = vectors.residual_max()
             break
-        if lifts:
-            alpha = min(max(alpha, LEAST), MOST)
-        # Cells that are left may lack something alike, which is none.
-        size = fields.advance(alpha, (last.answer - last.lack / alpha) / area if conserve else 0.0)
-    return Descent(size, steps, stride)
+        if bounds_matter:
+            alpha = min(max(alpha, tuning.SHORTEST_STEP), tuning.LONGEST_STEP)
+        mean = (last.q_sum - last.r_sum / alpha) / area if conserve else 0.0
+        r_max = vectors.advance(alpha, mean)  # B14: with it the residual on F has no mean
+    return Minimised(r_max, steps, estimate)

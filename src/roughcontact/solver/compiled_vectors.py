@@ -1,4 +1,7 @@
-"""The fields of a solve on a region in machine code: work follows the region, not the plane."""
+"""The vectors of an inner solve in machine code: work follows the free set, not the grid.
+
+For NumPy's arrays, cells of one size and no upper bound. Every member does what that of `vectors.ArrayVectors` says.
+"""
 
 from __future__ import annotations
 
@@ -11,210 +14,212 @@ from roughcontact.cached import cached_property
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.kernels import buffers as room
 from roughcontact.kernels import planes
-from roughcontact.kernels.active_cells import Located, Region, lower, take_in, zeros_with_margins
+from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
-from roughcontact.solver.bounded import Bounded, Measured, Preconditioned
-from roughcontact.solver.inner_operator import Driver
-from roughcontact.solver.trial import Trial
+from roughcontact.solver import tuning
+from roughcontact.solver.inner_operator import InnerOperator
+from roughcontact.solver.inner_product import Preconditioned, Products, Projected
+from roughcontact.solver.optimality import Iterate
 
-__all__ = ["CompiledFields"]
+__all__ = ["CompiledVectors"]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-FEW = 0.03  # of a region: cells it may lose before it answers otherwise to a constant
 
+class CompiledVectors:
+    """The vectors of one inner solve; fields with `Operand` addresses, and F as a list of groups of cells."""
 
-class CompiledFields:
-    """What `Fields` says, for NumPy's arrays, cells of one size and no hardness."""
+    upper = None
 
-    held = None
-
-    def __init__(self, driver: Driver, weight: float, inside: Field, lacking: Field, base: Field) -> None:
-        self._inside = Located.of(inside)  # with margins
-        self._r, self._base = (self._located(field) for field in (lacking, base))
-        self._change, self._t, self._v = self._zeros(), self._zeros(), self._r
-        self._error, self._z = Located.of(zeros_with_margins(inside.shape, inside.dtype)), self._r
-        self._driver, self._weight = driver, weight
-        self._relief = driver.relief
-        self._shares, self._lost = False, 0.0
-        self._carried, self._count, self._lack = 0.0, 0.0, 0.0  # as it began, but for the count
-        self._resultant: float | None = None
+    def __init__(
+        self, inner: InnerOperator, weight: float, free: Field, residual: Field, base: Field
+    ) -> None:
+        self._free = Operand(free)  # with margins
+        self._r, self._base = (self._located(field) for field in (residual, base))
+        self._correction, self._s, self._q = self._zeros(), self._zeros(), self._r
+        self._r_free, self._z = Operand(zeros_with_margins(free.shape, free.dtype)), self._r
+        self._inner, self._weight, self._theta = inner, weight, inner.diagonal_correction
+        self._uses_w, self._lost = False, 0.0
+        # Sums over F as the solve began: of the pressure, of its cells (this one is kept up to date), of r.
+        self._p_sum, self._count, self._r_sum = 0.0, 0.0, 0.0
+        self._w_sum: float | None = None
 
     @classmethod
     def scaled(
         cls,
-        driver: Driver,
+        inner: InnerOperator,
         weight: float,
-        region: Mask,
-        trial: Trial,
+        free: Mask,
+        iterate: Iterate,
         *,
         depth: float | None,
         otherwise: float,
     ) -> tuple[Self, float]:
-        """Return the fields of a solve that begins with a trial, and their unit; see `scaled_fields`."""
-        start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in trial)
-        region, precision = np.ascontiguousarray(region, dtype=bool), driver.narrow(np.empty(0)).dtype
-        levels = planes.levels(separation, displacement, region)
+        """Return the vectors of a solve from an iterate, and their unit; see `scaled_vectors`."""
+        start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in iterate)
+        free, precision = np.ascontiguousarray(free, dtype=bool), inner.scaled(np.empty(0)).dtype
+        levels = planes.level_range(separation, displacement, free)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
-        inside = zeros_with_margins(region.shape, precision)
-        lacking, base = (room.empty(region.shape, precision) for _ in range(2))
-        given = separation, displacement, start, region
-        planes.narrow(*given, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
-        return cls(driver, weight, inside, lacking, base), unit
+        inside = zeros_with_margins(free.shape, precision)
+        residual, base = (room.empty(free.shape, precision) for _ in range(2))
+        given = separation, displacement, start, free
+        planes.scale_down(*given, depth=depth, unit=unit, inside=inside, lacking=residual, base=base)
+        return cls(inner, weight, inside, residual, base), unit
 
     @property
-    def inside(self) -> Field:
-        """One on the cells that are free, zero elsewhere."""
-        return self._inside.field
+    def free(self) -> Field:
+        """One on F, zero elsewhere."""
+        return self._free.field
 
     @property
-    def change(self) -> Field:
+    def correction(self) -> Field:
         """Of the pressure, so far."""
-        return self._change.field
+        return self._correction.field
 
     @property
     def r(self) -> Field:
-        """What is lacking."""
+        """Residual."""
         return self._r.field
 
     @property
-    def t(self) -> Field:
-        """The direction."""
-        return self._t.field
+    def s(self) -> Field:
+        """Search direction."""
+        return self._s.field
 
     @property
-    def v(self) -> Field:
-        """What it causes."""
-        return self._v.field
+    def q(self) -> Field:
+        """Its image A s."""
+        return self._q.field
 
-    def begin(self) -> float:
-        """Return the area of the region."""
-        self._shares = False
-        fields = self._base, self._change, self._inside, self._r
-        self._carried, self._count, self._lack = self._region.run("carried", 3, *fields)
+    def restart(self) -> float:
+        """Forget the constraint direction; return the area of F."""
+        self._uses_w = False
+        fields = self._base, self._correction, self._free, self._r
+        self._p_sum, self._count, self._r_sum = self._region.run("masked_sums", 3, *fields)
         return self._weight * self._count
 
-    def level(self, most: float) -> None:
-        """Take off what the region lacks on the mean, as it began, if that is more than so much."""
-        if abs(self._lack) > most * self._count:
-            self.r[...] -= self._lack / self._count
+    def remove_mean(self, threshold: float) -> None:
+        """Subtract the mean of r over F, as it was at `restart`."""
+        if abs(self._r_sum) > threshold * self._count:
+            self.r[...] -= self._r_sum / self._count
 
-    def size(self) -> float:
-        """Return the largest lack inside."""
+    def residual_max(self) -> float:
+        """Return the largest size of r on F."""
         return self._advanced(0.0)
 
-    def excess(self) -> float:
-        """Return how far pressures are out of bounds."""
-        fields = self._base, self._change, self._inside
-        return self._region.run("excess", 1, *fields, largest=True)[0]
+    def bound_violation(self) -> float:
+        """Return how far pressures are out of bounds at most."""
+        fields = self._base, self._correction, self._free
+        return self._region.run("max_violation", 1, *fields, largest=True)[0]
 
-    def share(self) -> float:
-        """Have changes shared; return the sum of the shares."""
-        self._shares = True
-        if self._resultant is None:
-            # The inverse with its relief answers to a constant with a part of this: only ratios count.
-            constant = self._of_constant, self._inside, self._inside, self._v, self._inside, 0.0
-            self._resultant = self._sums("weigh", 4, *constant)[2]
-        return self._resultant
+    def constraint_direction(self) -> float:
+        """Use w; return 1.w."""
+        self._uses_w = True
+        if self._w_sum is None:
+            # With the Schur correction w is a constant part of M^-1 1, which cancels in all that is made of it.
+            args = self._inverse_of_one, self._free, self._free, self._q, self._free, 0.0
+            self._w_sum = self._sums("correct_and_dot", 4, *args)[2]
+        return self._w_sum
 
     def precondition(self) -> Preconditioned:
-        """Find z; return what there is to know of it."""
-        self._z = self._inverse(self._error)
-        constant = self._of_constant if self._relief or self._shares else self._z
-        fields = self._z, self._inside, self._error, self._v, constant
-        return Preconditioned(*self._sums("weigh", 4, *fields, self._relief))
+        """Make z = M^-1 r on F; return its inner products."""
+        self._z = self._inverse(self._r_free)
+        one = self._inverse_of_one if self._theta or self._uses_w else self._z
+        fields = self._z, self._free, self._r_free, self._q, one
+        rz, zq, z_sum, wq = self._sums("correct_and_dot", 4, *fields, self._theta)
+        return Preconditioned(rz, zq, z_sum, wq)
 
-    def turn(self, beta: float) -> Field:
-        """Turn t; return it."""
-        self._region.run("turn", 0, self._t, self._z, beta)
-        return self.t
+    def update_direction(self, beta: float) -> Field:
+        """Make s = z + beta s, and return it."""
+        self._region.run("xpay", 0, self._s, self._z, beta)
+        return self.s
 
-    def bound(self, beta: float, shift: float, step: float) -> Bounded:
-        """Turn t, take a step of it as far as cells may go; return what comes of it."""
-        shared, by = (self._of_constant, shift) if self._shares else (self._z, 0.0)
-        fields = self._base, self._change, self._inside, self._t, self._z, shared
-        gone, lifted, force, uniform = self._region.run("bound", 4, *fields, beta, by, step)
-        self._lost, self._count = self._lost + gone, self._count - gone
-        if self._lost > FEW * self._count:
-            self._forget_constant()
-        elif gone:  # what is not shared says nothing of it
-            known = self._resultant if self._shares else None
-            self._resultant = None if known is None else known - self._weight * uniform
-        return Bounded(lifted, self._weight * self._count, self._weight * force)
+    def project(self, beta: float, mu: float, step: float) -> Projected:
+        """Make s the step along z + beta s - mu w, projected onto the bounds."""
+        w, mu = (self._inverse_of_one, mu) if self._uses_w else (self._z, 0.0)
+        fields = self._base, self._correction, self._free, self._s, self._z, w
+        lost, lifted, force, w_lost = self._region.run("project_step", 4, *fields, beta, mu, step)
+        self._lost, self._count = self._lost + lost, self._count - lost
+        if self._lost > tuning.STALE_CONSTRAINT_DIRECTION * self._count:
+            self._forget_inverse_of_one()
+        elif lost:  # where w is not used, its sum over the lost cells was not made
+            known = self._w_sum if self._uses_w else None
+            self._w_sum = None if known is None else known - self._weight * w_lost
+        return Projected(lifted, self._weight * self._count, self._weight * force)
 
-    def share_out(self, force: float) -> None:
-        """Have the cells that are free share what t changes of the force."""
-        fields = self._base, self._change, self._inside, self._t
+    def redistribute(self, force: float) -> None:
+        """Subtract a force from s on F, in proportion to the pressure."""
+        fields = self._base, self._correction, self._free, self._s
         added = force / self._weight
-        # What cells carry tells their shares; new cells carry nothing yet. The rest is as it was at the beginning.
-        carried, rounding = self._carried + added, ROUNDINGS * float(np.finfo(self.t.dtype).eps)
-        some = carried > rounding * abs(self._carried)
-        share, alike = (added / carried, 0.0) if some else (0.0, added / self._count)
-        self._region.run("share_out", 0, *fields, share, alike)
+        p_sum, rounding = self._p_sum + added, ROUNDINGS * float(np.finfo(self.s.dtype).eps)
+        # In proportion to the pressure; where all cells of F are new they have none yet, and share alike.
+        if p_sum > rounding * abs(self._p_sum):
+            self._region.run("subtract_affine", 0, *fields, added / p_sum, 0.0)
+        else:
+            self._region.run("subtract_affine", 0, *fields, 0.0, added / self._count)
 
-    def measure(self, v: Field) -> Measured:
-        """Take v; return what there is to know of it and of t."""
-        self._v = self._located(v)
-        return Measured(*self._sums("measure", 6, self._t, self._v, self._inside, self._r))
+    def inner_products(self, q: Field) -> Products:
+        """Take q = A s; return the inner products of s, q and r."""
+        self._q = self._located(q)
+        return Products(*self._sums("dot_products", 6, self._s, self._q, self._free, self._r))
 
     def advance(self, alpha: float, mean: float) -> float:
-        """Go along t; return the largest lack inside."""
-        lower(self.r, self.v, alpha, mean)
+        """Add alpha s to the pressure, subtract alpha (q - mean) from r; return the largest size of r on F."""
+        subtract_shifted(self.r, self.q, alpha, mean)
         return self._advanced(alpha)
 
-    def take_in(self, least: float) -> float:
-        """Free the cells that lack more; return the largest lack."""
-        # What is listed no more is never looked at again.
-        self._region.run("forget", 0, self._t, self._inside)
-        worst = take_in(self.inside, self.r, least)
+    def free_violated(self, threshold: float) -> float:
+        """Free the cells whose residual is larger than a threshold; return the largest of these."""
+        # Cells that drop out of the list of groups are never visited again.
+        self._region.run("multiply", 0, self._s, self._free)
+        worst = mask_above(self.free, self.r, threshold)
         if worst:
-            self._changed()
+            self.__dict__.pop("_region", None)
+            self._forget_inverse_of_one()
         return worst
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure that there is now."""
-        return planes.widen(np.ascontiguousarray(start, dtype=np.float64), self.change, self.inside, unit)
+        return planes.add_scaled(
+            np.ascontiguousarray(start, dtype=np.float64), self.correction, self.free, unit
+        )
 
-    def _located(self, field: Field) -> Located:
-        if field.shape != self.inside.shape:  # machine code looks at nothing twice
-            raise ValueError(f"a field of shape {field.shape} where {self.inside.shape} is expected")
-        return Located.of(np.ascontiguousarray(field, dtype=self.inside.dtype))
+    def _located(self, field: Field) -> Operand:
+        if field.shape != self.free.shape:  # machine code checks no shape
+            raise ValueError(f"a field of shape {field.shape} where {self.free.shape} is expected")
+        return Operand(np.ascontiguousarray(field, dtype=self.free.dtype))
 
-    def _zeros(self) -> Located:
-        return Located.of(room.zeros(self.inside.shape, self.inside.dtype))
-
-    @cached_property
-    def _region(self) -> Region:
-        return Region(self.inside, (self._base.field, self.change))
+    def _zeros(self) -> Operand:
+        return Operand(room.zeros(self.free.shape, self.free.dtype))
 
     @cached_property
-    def _of_constant(self) -> Located:
-        """What the inverse answers to a constant on the region."""
-        return self._inverse(self._inside)
+    def _region(self) -> ActiveCells:
+        return ActiveCells(self.free, (self._base.field, self.correction))
 
-    def _changed(self) -> None:
-        """Forget what hangs on the region."""
-        self.__dict__.pop("_region", None)
-        self._forget_constant()
+    @cached_property
+    def _inverse_of_one(self) -> Operand:
+        """M0^-1 1, with 1 on F: the constraint direction, and what the Schur correction is made of."""
+        return self._inverse(self._free)
 
-    def _forget_constant(self) -> None:
-        self.__dict__.pop("_of_constant", None)
-        self._resultant, self._lost = None, 0.0
+    def _forget_inverse_of_one(self) -> None:
+        self.__dict__.pop("_inverse_of_one", None)
+        self._w_sum, self._lost = None, 0.0
 
     def _advanced(self, alpha: float) -> float:
-        fields = self._change, self._r, self._error, self._t, self._inside
-        return self._region.run("advance", 1, *fields, alpha, largest=True)[0]
+        fields = self._correction, self._r, self._r_free, self._s, self._free
+        return self._region.run("axpy_and_max", 1, *fields, alpha, largest=True)[0]
 
-    def _inverse(self, field: Located) -> Located:
-        """Return about the pressure under a field that is zero outside the region and has margins."""
-        local: LocalInverse | None = getattr(self._driver, "local_inverse", None)
+    def _inverse(self, field: Operand) -> Operand:
+        """Return M0^-1 of a field that is zero outside F and has margins, without the Schur correction."""
+        local: LocalInverse | None = getattr(self._inner, "local_inverse", None)
         if local is None:
-            return self._located(self._driver.approximate_inverse(field.field))
+            return self._located(self._inner.approximate_inverse(field.field))
         return self._located(local.on(self._region, field.field))
 
-    def _sums(self, name: str, count: int, *arguments: Located | float) -> list[float]:
+    def _sums(self, name: str, count: int, *arguments: Operand | float) -> list[float]:
         return [self._weight * one for one in self._region.run(name, count, *arguments)]

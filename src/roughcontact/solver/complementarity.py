@@ -1,11 +1,11 @@
-"""Cells that are neither pressed nor open: a rounding floor for the pressure, and the other side of a knife edge.
+"""Strict complementarity: a rounding floor for the pressure, and cells that have neither pressure nor gap.
 
 The conditions of contact are strictly complementary where each cell has either a pressure or a gap. A cell with neither
 is weakly active: the solution does not depend on whether it is in contact, but the stiffness does. On loading it joins,
 on unloading it leaves. In floating-point numbers its pressure is rounding, of either sign.
 
-A displacement is known to some units in the last place of the largest one, ``u_max``. So a pressure p is known to
-nothing, and set to zero, where its own displacement ``A_ii p`` is no more than a few times that. An iteration that
+A displacement is known to some units in the last place of the largest one, ``u_max``. So a pressure p is
+rounding, and set to zero, where its own displacement ``A_ii p`` is no more than a few times that. An iteration that
 stops at a residual r knows a displacement to ``r u_max`` only. Where more depends on such cells than the stiffness may
 err by, it goes on to the last digits. Random surfaces hardly have such cells: one among 70 000 in contact at a residual
 of 3e-9 (tried by hand).
@@ -26,11 +26,9 @@ from roughcontact.halfspace.operators.operator import Operator, self_influences
 from roughcontact.kernels import planes
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import UNITS, Judge
+from roughcontact.solver.optimality import UNITS, Iterate, Optimality
 from roughcontact.solver.state import State
 from roughcontact.solver.status import Status
-from roughcontact.solver.trial import Trial
-from roughcontact.solver.verdict import judge_pressure
 
 __all__ = ["SLIGHT", "resolve_contact", "weakly_active"]
 
@@ -124,11 +122,11 @@ def _weak(operator: Operator, separation: Array, state: State, known: float) -> 
     Displacements are `known` to so much of the largest.
     """
     p, u, own = state.pressure, _displacement(operator, state), _own(operator, state.pressure)
-    trial = Trial(p, u, separation)
-    if isinstance(own, float) and trial.fits_machine_code(
+    iterate = Iterate(p, u, separation)
+    if isinstance(own, float) and iterate.fits_machine_code(
         math.inf
-    ):  # one pass, and nearly always none is found
-        seen = planes.look(*trial)
+    ):  # one pass; nearly always none is found
+        seen = planes.extremes(*iterate)
         assert seen is not None  # it was certified
         if min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement:
             return None
@@ -157,8 +155,8 @@ def _floored(operator: Operator, separation: Array, terms: Terms, state: State, 
     p = xp.where(weak, 0.0, p)
     if isinstance(terms.control, Force) and terms.hardness == math.inf:
         p *= terms.control.value / measure.total(p)
-    trial = Trial(p, operator.apply(p), separation)
-    depth, residual, _ = judge_pressure(Judge.of(operator, terms), measure, terms, trial)
+    iterate = Iterate(p, operator.apply(p), separation)
+    depth, residual, _ = Optimality.of(operator, terms).evaluate(iterate)
     if residual > terms.tolerance:  # which then is below the rounding floor
         return state
     return replace(state, pressure=p, depth=depth, residual=residual, steps=state.steps + 1, tangent=None)

@@ -1,52 +1,54 @@
-"""Conjugate gradients on a given region at given displacement, whatever the sign of the pressure."""
+"""Preconditioned conjugate gradients on a given set of cells: a given displacement, pressure of any sign."""
 
 from __future__ import annotations
 
-from roughcontact.solver.inner_operator import Driver
-from roughcontact.solver.vectors import Fields
+from roughcontact.solver.inner_operator import InnerOperator
+from roughcontact.solver.vectors import Vectors
 
-__all__ = ["relax"]
+__all__ = ["conjugate_gradients"]
 
 
-def relax(driver: Driver, fields: Fields, *, limit: float, max_steps: int) -> tuple[float, int]:
-    """Change the pressure on a region to what gives it the displacement it lacks (thesis, A.1.3 as corrected).
+def conjugate_gradients(
+    inner: InnerOperator, vectors: Vectors, *, limit: float, max_steps: int
+) -> tuple[float, int]:
+    """Correct the pressure on F until its residual is small (thesis, A.1.3 as corrected; docs/method.md, C1 to C6).
 
     Parameters
     ----------
-    driver : Driver
-    fields : Fields
-        Of the solve: the change, and what it leaves lacking, are found there. Directions leave alone the last one of
-        an earlier run.
+    inner : InnerOperator
+    vectors : Vectors
+        Of the solve: correction and residual are found there. The first direction is conjugate to the last one of an
+        earlier run.
     limit : float
-        Stop when the largest lack on the region [m] is no more than this.
+        Stop when the largest residual on F [m] is no more than this.
     max_steps : int
         Largest number of products.
 
     Returns
     -------
-    largest : float
-        Lack on the region [m].
+    residual : float
+        Largest on F [m].
     steps : int
         Products.
 
     Notes
     -----
-    Each direction is made conjugate to the one before by their products themselves, so that a driver that is none too
-    exact does not mislead.
+    Each direction is made conjugate to the one before by their products themselves, so that the errors of an inexact
+    operator do not add up.
     """
-    fields.begin()
-    size, steps = fields.size(), 0
-    if not size > limit:
-        return size, steps
-    last = fields.measure(fields.v)
-    while size > limit and steps < max_steps:
-        found = fields.precondition()
-        if not found.descent > 0:
+    vectors.restart()
+    r_max, steps = vectors.residual_max(), 0
+    if not r_max > limit:
+        return r_max, steps
+    last = vectors.inner_products(vectors.q)
+    while r_max > limit and steps < max_steps:  # C1
+        rz, zq, _, _ = vectors.precondition()  # C2
+        if not rz > 0:
             break
-        t = fields.turn(-found.overlap / last.curvature if last.curvature > 0 else 0.0)
-        last = fields.measure(driver.apply(t))
+        s = vectors.update_direction(-zq / last.sq if last.sq > 0 else 0.0)  # C3, C4
+        last = vectors.inner_products(inner.apply(s))  # C5: the product of the step
         steps += 1
-        if not last.curvature > 0:  # rounding has eaten the direction
+        if not last.sq > 0:  # the direction is but rounding
             break
-        size = fields.advance(last.descent / last.curvature, 0.0)
-    return size, steps
+        r_max = vectors.advance(last.rs / last.sq, 0.0)  # C6
+    return r_max, steps

@@ -1,4 +1,4 @@
-"""Small contact regions by a dense factorisation."""
+"""Small free sets by a dense factorisation: the inner solve of the active set method on few cells."""
 
 from __future__ import annotations
 
@@ -9,22 +9,18 @@ import numpy.typing as npt
 import scipy.linalg
 
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.inner_product import Measure
 
-__all__ = ["DENSE_LIMIT", "Pressed", "press_cells", "solve_cells"]
+__all__ = ["DirectSolution", "press_cells", "solve_cells"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
-DENSE_LIMIT = 2000  # cells: a matrix of 32 MB; time and memory grow with the third and second power beyond
-
-# Letting go of one cell costs two triangular solves, a new factorisation a sixth of the cells as many.
-FEW = 1 / 8
-
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pressed:
+class DirectSolution:
     """A pressure [Pa] on `cells`, nowhere negative, its depth [m], and the pressure per unit depth [Pa/m].
 
     `error` is the largest deviation from one of the displacement under that last pressure.
@@ -37,8 +33,8 @@ class Pressed:
     error: float
 
 
-def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> Pressed:
-    """Press on `cells` alone and let go of those that would pull, until none does (thesis, eqs A.6 to A.8).
+def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> DirectSolution:
+    """Solve on `cells` alone and deactivate those with tensile pressure, until none has any (thesis, eqs A.6 to A.8).
 
     Parameters
     ----------
@@ -52,22 +48,22 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
 
     Notes
     -----
-    With A a = 1 and A b = separation on the cells, the pressure is ``depth * a - b``; the force fixes the
-    depth.
+    With A a = 1 and A b = f on the cells the pressure is ``p = d a - b`` (A8); the force F fixes the depth
+    ``d = (F + 1.b) / 1.a``.
     """
     weights = Measure(operator.weights).on(cells)
     heights = separation.ravel()[cells]
     system = _System(operator.as_matrix(cells), weights, np.stack([np.ones(len(cells)), heights], axis=1))
     while True:
-        a, b = system.solution.T  # zero on the cells that were let go
+        a, b = system.solution.T  # zero on the deactivated cells
         depth = (control.value + weights @ b) / (weights @ a) if isinstance(control, Force) else control.value
         p = depth * a - b
-        pulls = system.kept & (p <= 0)
-        if not pulls.any() or (pulls == system.kept).all():
+        tensile = system.kept & (p <= 0)
+        if not tensile.any() or (tensile == system.kept).all():
             kept = system.kept
             error = float(np.abs(system.product(a) - 1.0)[kept].max())
-            return Pressed(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], error)
-        system.release(pulls)
+            return DirectSolution(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], error)
+        system.deactivate(tensile)
 
 
 def solve_cells(operator: Operator, cells: Cells, right: Array) -> tuple[Array, Array]:
@@ -79,11 +75,11 @@ def solve_cells(operator: Operator, cells: Cells, right: Array) -> tuple[Array, 
 
 
 class _System:
-    """A symmetric positive definite system from which unknowns are let go one by one.
+    """A symmetric positive definite system whose unknowns are deactivated, some at a time.
 
     The influence matrix is symmetric under the weights; scaled by their roots it is so under none. Its first
     factor overwrites the upper triangle, so that no copy is made (a fresh page costs more than its numbers);
-    the lower triangle and a note of the diagonal keep the matrix.
+    the lower triangle and a copy of the diagonal keep the matrix.
     """
 
     def __init__(self, matrix: Array, weights: Array, right: Array) -> None:
@@ -109,18 +105,18 @@ class _System:
         """Solution for every right side on the kept unknowns, zero elsewhere, shape (n, m)."""
         x = self._free
         if self._gone.size:
-            # The kept rows hold with the gone unknowns at zero: their columns of the inverse make up for it.
+            # The rows of the others hold with these at zero (a Schur complement of the inverse).
             x = x - self._columns @ np.linalg.solve(self._columns[self._gone], x[self._gone])
             x[self._gone] = 0.0
         whole = np.zeros(self._right.shape)
         whole[self._base] = x
         return whole if self._root is None else whole / self._root
 
-    def release(self, unknowns: npt.NDArray[np.bool_]) -> None:
-        """Let go of `unknowns`: of a few by their columns of the inverse, of many by a new factorisation."""
+    def deactivate(self, unknowns: npt.NDArray[np.bool_]) -> None:
+        """Fix `unknowns` at zero: a few by their columns of the inverse, many by a new factorisation."""
         self.kept = self.kept & ~unknowns
         gone = np.flatnonzero(~self.kept[self._base])
-        if len(gone) > FEW * len(self._base):
+        if len(gone) > tuning.DOWNDATED * len(self._base):
             self._refactorise()
             return
         new = np.setdiff1d(gone, self._gone)
@@ -132,7 +128,7 @@ class _System:
     def product(self, x: Array) -> Array:
         """Return the product of the matrix with `x`."""
         scaled = x if self._root is None else x * self._root[:, 0]
-        # Put back for once: what is added for the factor's roots, in small units far larger numbers, would be rounding.
+        # The matrix gets its diagonal back meanwhile: taken off the product instead, the factor's would leave rounding.
         factor = self._matrix.diagonal().copy()
         np.fill_diagonal(self._matrix, self._diagonal)
         product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)

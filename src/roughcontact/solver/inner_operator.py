@@ -1,4 +1,8 @@
-"""What drives a solve on a region: an operator that need not be exact, since products with the exact one certify."""
+"""The inner operator: what an inner solve applies. It may be inexact, since exact products check each outer iterate.
+
+That is mixed-precision iterative refinement: most products in single precision, on the tiles that the region touches
+where that costs less, residuals of the outer iteration in double precision on the whole.
+"""
 
 from __future__ import annotations
 
@@ -10,64 +14,64 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
-from roughcontact.convolution import Convolution
-from roughcontact.halfspace.operators.operator import (
-    Invertible,
-    Linear,
-    Operator,
-    keeps_precision,
-    self_influence,
-)
+from roughcontact.halfspace.operators.operator import Linear, Operator, capabilities, self_influence
 from roughcontact.halfspace.sums.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.halfspace.sums.tiles import Tiles
+from roughcontact.solver import tuning
 
-__all__ = ["Driver", "Plane", "driver_on", "factorised", "first_product"]
+__all__ = [
+    "FullGrid",
+    "InnerOperator",
+    "SingleFullGrid",
+    "direct_limit",
+    "first_product",
+    "inner_operator_on",
+]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-FACTORISED = 1200  # cells: their third power, against some thirty products on few tiles
-ROUGHLY = 300  # cells, where an answer is but the start of another: against a few products
-LOOSE = 1e-5  # tolerance of such an answer
-SINGLE = 4_000  # cells from which on half the numbers are half the work
-SAFE = (
-    1e-25  # influences between this and its inverse, and squares of answers, are numbers of single precision
-)
+# Influences between this and its inverse, and squares of displacements, are numbers of single precision.
+SINGLE_RANGE = 1e-25
 
 
-class Driver(Linear, Invertible, Protocol):
+class InnerOperator(Linear, Protocol):
     """A symmetric map between some cells, in some precision, its preconditioner, and the way there and back."""
 
     @property
-    def gain(self) -> float:
-        """What one round can take off an error; 0 where the products are exact."""
+    def contraction(self) -> float:
+        """Factor by which one sweep of refinement can reduce the residual; 0 where products are exact."""
         ...
 
     @property
-    def relief(self) -> float:
-        """What is taken off the diagonal of its inverse, of what that answers to a constant on a region."""
+    def diagonal_correction(self) -> float:
+        """theta: part of M0^-1 1 that is subtracted from the diagonal of M0^-1 (the Schur correction)."""
+        ...
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return M0^-1 of a displacement [m]: a pressure [Pa] that would cause about this; symmetric and definite."""
         ...
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
-        """Return a field of the plane on the cells of the driver, another value beyond its edge."""
+        """Return a field of the grid on the cells of the inner operator, another value beyond its edge."""
         ...
 
     def scatter(self, values: Any) -> Any:
-        """Return the field of the plane that has `values` on these cells and is zero elsewhere."""
+        """Return the field of the grid that has `values` on these cells and is zero elsewhere."""
         ...
 
-    def narrow(self, values: Any, unit: float = 1.0) -> Any:
-        """Return numbers over a unit, in the precision of the driver."""
+    def scaled(self, values: Any, unit: float = 1.0) -> Any:
+        """Return numbers over a unit, in the precision of the inner operator."""
         ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Plane:
+class FullGrid:
     """All cells of an operator, in double precision."""
 
     operator: Operator
-    gain: float = 0.0
+    contraction: float = 0.0
 
     @property
     def weights(self) -> float | Array:
@@ -76,12 +80,12 @@ class Plane:
 
     @property
     def local_inverse(self) -> LocalInverse | None:
-        """What preconditions in machine code, if there is such a thing."""
-        return getattr(self.operator, "local_inverse", None)
+        """The truncated inverse that preconditions in machine code, if there is one."""
+        return capabilities(self.operator).local_inverse()
 
     @property
-    def relief(self) -> float:
-        """What is taken off the diagonal of that, of what it answers to a constant on a region."""
+    def diagonal_correction(self) -> float:
+        """Of the truncated inverse."""
         return 0.0 if self.local_inverse is None else RELIEF
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
@@ -92,7 +96,7 @@ class Plane:
         """Return the field."""
         return values
 
-    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+    def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return the field over a unit."""
         return values if unit == 1 else over(values, unit, "float64")
 
@@ -103,85 +107,85 @@ class Plane:
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m].
 
-        Where nothing is known that is the displacement, over about what all cells together do to one: a pressure in
+        Of an operator without one that is the displacement, over about what all cells together do to one: a pressure in
         any unit, and no step along it is much too long.
         """
-        if isinstance(self.operator, Invertible):
-            return self.operator.approximate_inverse(displacement)
+        inverse = capabilities(self.operator).approximate_inverse
+        if inverse is not None:
+            return inverse(displacement)
         return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SinglePlane(Plane):
+class SingleFullGrid(FullGrid):
     """All cells of an operator, in single precision."""
 
-    gain: float = 1e-4  # seven digits, of which a product loses one or two
+    contraction: float = 1e-4  # seven digits, of which a product loses one or two
 
-    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+    def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return the field over a unit, in single precision."""
         return over(values, unit, "float32")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        quick: Convolution | None = getattr(self.operator, "quick", None)
-        return self.operator.apply(pressure) if quick is None else quick.apply(pressure)
+        convolution = capabilities(self.operator).single_convolution
+        return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
 
-def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) -> Driver:
-    """Return what solves on a region at the least cost, the previous driver if it still does."""
-    if isinstance(previous, PatchOperator) and previous.tiles.hold(region):
+def inner_operator_on(
+    operator: Operator, support: Mask, previous: InnerOperator | None = None
+) -> InnerOperator:
+    """Return the inner operator of least cost on some cells, the previous one if it still covers them."""
+    if isinstance(previous, PatchOperator) and previous.tiles.hold(support):
         return previous
-    if not _tame(operator):
-        return Plane(operator)
-    tiles = _tiles_of(operator, region)
+    if not _fits_single(operator):
+        return FullGrid(operator)
+    tiles = _tiles_of(operator, support)
     if tiles is not None:
-        patch: PatchOperator = _patches(operator).on(tiles)
-        return patch
-    return previous if isinstance(previous, Plane) else _plane(operator)
+        mesh = capabilities(operator).particle_mesh()
+        assert mesh is not None  # the tiles are its own
+        return mesh.on(tiles)
+    return previous if isinstance(previous, FullGrid) else _full_grid(operator)
 
 
-def _patches(operator: Operator) -> Any:
-    """Return what works on tiles of this operator; None if there is no such thing."""
-    return getattr(operator, "patches", None)
+def first_product(
+    operator: Operator, pressure: Array, inner: InnerOperator | None = None
+) -> tuple[Array, bool]:
+    """Return the displacement [m] under a first pressure [Pa], and whether it is exact (A2).
+
+    An inner operator that covers all cells under pressure gives it on its own cells alone.
+    """
+    size = largest(pressure)
+    if inner is None:
+        inner = _full_grid(operator) if _fits_single(operator) else FullGrid(operator)
+        # Where tiles will be used, no transfer function of single precision is made for the grid.
+        if inner.contraction and _tiles_of(operator, pressure > 0) is not None:
+            inner = FullGrid(operator)
+    if not (inner.contraction and size > 0):
+        return operator.apply(pressure), True
+    part = inner.scaled(inner.gather(pressure), size)
+    return times(inner.scatter(inner.apply(part)), size), False
+
+
+def direct_limit(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
+    """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
+    if capabilities(operator).particle_mesh() is None:
+        return limit
+    rough = tolerance >= tuning.ROUGH_TOLERANCE
+    return min(limit, tuning.DIRECT_ROUGHLY if rough else tuning.DIRECT_BESIDE_TILES)
 
 
 def _tiles_of(operator: Operator, region: Mask) -> Tiles | None:
-    """Return the tiles of a region; None where the whole plane costs less."""
-    if not is_numpy(region) or _patches(operator) is None:
-        return None
-    tiles: Tiles | None = _patches(operator).tiles(region)
-    return tiles
+    """Return the tiles of a region; None where the whole grid costs less."""
+    mesh = capabilities(operator).particle_mesh() if is_numpy(region) else None
+    return None if mesh is None else mesh.tiles(region)
 
 
-def first_product(operator: Operator, pressure: Array, driver: Driver | None = None) -> tuple[Array, bool]:
-    """Return about the displacement [m] under a first guess of the pressure [Pa], and whether it is exact.
-
-    A `driver` that has all cells under pressure tells it on its own cells alone.
-    """
-    size = largest(pressure)
-    if driver is None:
-        driver = _plane(operator) if _tame(operator) else Plane(operator)
-        # Where tiles will drive, no kernel of single precision is made for the plane.
-        if driver.gain and _tiles_of(operator, pressure > 0) is not None:
-            driver = Plane(operator)
-    if not (driver.gain and size > 0):
-        return operator.apply(pressure), True
-    part = driver.narrow(driver.gather(pressure), size)
-    return times(driver.scatter(driver.apply(part)), size), False
+def _fits_single(operator: Operator) -> bool:
+    """Whether its influences are in the range of single precision."""
+    return SINGLE_RANGE < self_influence(operator) < 1 / SINGLE_RANGE
 
 
-def _tame(operator: Operator) -> bool:
-    """Whether its influences are numbers of single precision."""
-    return SAFE < self_influence(operator) < 1 / SAFE
-
-
-def _plane(operator: Operator) -> Plane:
-    single = keeps_precision(operator) and math.prod(operator.grid.shape) >= SINGLE
-    return SinglePlane(operator) if single else Plane(operator)
-
-
-def factorised(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
-    """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    if _patches(operator) is None:
-        return limit
-    return min(limit, FACTORISED if tolerance < LOOSE else ROUGHLY)
+def _full_grid(operator: Operator) -> FullGrid:
+    single = capabilities(operator).single_precision and math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
+    return SingleFullGrid(operator) if single else FullGrid(operator)

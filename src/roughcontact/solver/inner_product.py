@@ -1,16 +1,16 @@
-"""Inner products and means under the weights of an operator."""
+"""Inner products under the weights of an operator, and those that a step of conjugate gradients takes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed, is_numpy, namespace
 
-__all__ = ["Measure"]
+__all__ = ["Measure", "Preconditioned", "Products", "Projected"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -63,6 +63,47 @@ class Measure:
         return (
             self.weights if self._placed is None or is_numpy(field) else self._placed.beside(_number(field))
         )
+
+
+class Preconditioned(NamedTuple):
+    """Inner products of the preconditioned residual z = M^-1 r, over the free set."""
+
+    rz: float
+    """r.z"""
+    zq: float
+    """z.q, with q = A s of the last direction"""
+    z_sum: float
+    """1.z"""
+    wq: float
+    """w.q, if a constraint direction w is used"""
+
+
+class Products(NamedTuple):
+    """Inner products of a search direction s, its image q = A s, and the residual r."""
+
+    sq: float
+    """s.q, the curvature, over all cells"""
+    q_sum: float
+    """1.q over the free set"""
+    rs: float
+    """r.s over all cells"""
+    rs_free: float
+    """r.s over the free set"""
+    s_sum: float
+    """1.s over the free set"""
+    r_sum: float
+    """1.r over the free set"""
+
+
+class Projected(NamedTuple):
+    """What the projection onto the bounds has made of a trial step."""
+
+    lifted: float
+    """Sum of the sizes by which pressures are taken to their bounds [Pa]."""
+    area: float
+    """Of the free set that is left."""
+    force: float
+    """What the projection has added to 1.s."""
 
 
 def _number(field: Any) -> Any:

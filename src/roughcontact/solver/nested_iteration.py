@@ -1,72 +1,73 @@
-"""Coarse to fine: a first guess of the pressure from the same problem on larger cells."""
+"""Nested iteration: the first pressure from the same problem on larger cells, recursively."""
 
 from __future__ import annotations
+
+from functools import reduce
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.operator import Coarsenable, Operator, is_semidefinite
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
+from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Terms
 from roughcontact.solver.projection import elastic_control
-from roughcontact.solver.restriction import raised
 from roughcontact.solver.state import Solver
-from roughcontact.solver.subdomain import Windows, bounding_box, embed
+from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 
-__all__ = ["coarse_guess", "coarse_operator"]
+__all__ = ["block_minimum", "block_separation", "coarse_operator", "nested_start"]
 
 Array = npt.NDArray[np.float64]
 
-COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
-SMALL = 512  # cells along it up to which a level more costs more than the steps that it saves (tried by hand)
-COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 
-
-def coarse_guess(
+def nested_start(
     operator: Operator, separation: Array, control: Control, solver: Solver
 ) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on larger cells, recursively.
 
-    Without coarser cells the guess is no pressure.
+    On the coarsest cells that is no pressure.
     """
     coarser = coarse_operator(operator, separation.shape)
     if coarser is None:
         return namespace(separation).zeros_like(separation), 0.0
     part, factors = coarser
     control = elastic_control(operator, separation, control)
-    heights = raised(separation, factors)
+    blocks = block_separation(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
-        control = _reachable(control, separation, heights)
-    guess = coarse_guess(part, heights, control, solver)
-    state, place = Windows(part).solve(solver, heights, Terms(control, COARSE_TOLERANCE), guess)
-    return _spread(embed(state.pressure, place, heights.shape), factors, separation), state.depth
+        control = _reachable(control, separation, blocks)
+    start = nested_start(part, blocks, control, solver)
+    terms = Terms(control, tuning.COARSE_TOLERANCE)
+    state, subdomain = SubdomainSolver(part).solve(solver, blocks, terms, start)
+    return _interpolated(prolong(state.pressure, subdomain, blocks.shape), factors, separation), state.depth
 
 
-def _spread(coarse: Array, factors: tuple[int, ...], separation: Array) -> Array:
-    """Return the pressure on the cells of which blocks have another, zero where a cell is missing."""
+def _interpolated(coarse: Array, factors: tuple[int, ...], separation: Array) -> Array:
+    """Return the pressure of blocks on their cells, constant in each, zero where a cell is missing."""
     xp = namespace(separation)
-    # Only where there is some, which elsewhere than on the host would cost a look: planes are large.
+    # Only where there is some; elsewhere than on the host a box costs a transfer. Planes are large.
     some = bounding_box(coarse > 0) if is_numpy(coarse) else None
-    box = tuple(slice(0, n) for n in coarse.shape) if some is None else some
-    fine, there = coarse[box], []
-    for axis, (part, factor, n) in enumerate(zip(box, factors, separation.shape, strict=True)):
+    blocks = tuple(slice(0, n) for n in coarse.shape) if some is None else some
+    fine, there = coarse[blocks], []
+    for axis, (part, factor, n) in enumerate(zip(blocks, factors, separation.shape, strict=True)):
         fine = xp.repeat(fine, factor, axis=axis)
         there.append(slice(part.start * factor, min(part.stop * factor, n)))
-    place = tuple(there)
-    fine = fine[tuple(slice(0, part.stop - part.start) for part in place)]
-    return embed(xp.where(xp.isfinite(separation[place]), fine, 0.0), place, tuple(separation.shape))
+    box = tuple(there)
+    fine = fine[tuple(slice(0, part.stop - part.start) for part in box)]
+    return prolong(xp.where(xp.isfinite(separation[box]), fine, 0.0), box, tuple(separation.shape))
 
 
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
-    """Return the operator on larger cells and the factor of each axis, 1, 2 or 4; None if that ends here."""
+    """Return the operator on larger cells and the factor of each axis, 1, 2 or 4; None on the coarsest."""
     grid = operator.grid
-    if max(shape) <= COARSEST or not (isinstance(operator, Coarsenable) and isinstance(grid, Grid)):
+    if max(shape) <= tuning.COARSEST or not isinstance(grid, Grid):
         return None
-    most = 4 if max(shape) <= SMALL else 2
-    factors = tuple(most if n >= most * COARSEST else 2 if n > COARSEST // 2 else 1 for n in shape)
+    most = 4 if max(shape) <= tuning.FACTOR_FOUR else 2
+    factors = tuple(
+        most if n >= most * tuning.COARSEST else 2 if n > tuning.COARSEST // 2 else 1 for n in shape
+    )
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
-    coarse = operator.coarsened(_coarse_grid(grid, coarse_shape, factors))
+    coarse = capabilities(operator).coarsened(_coarse_grid(grid, coarse_shape, factors))
     return None if coarse is None else (coarse, factors)
 
 
@@ -90,3 +91,57 @@ def _coarse_grid(grid: Grid, shape: tuple[int, ...], factors: tuple[int, ...]) -
         )
     ]
     return Grid(shape, spacing, grid.periodic)
+
+
+def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
+    """Return a separation for each block of cells, from which the contact of the cells is best predicted.
+
+    Where long waves carry the contact that is the mean, whatever the slope. Where the cells of a block are rough their
+    summits touch, and the block is raised above the plane through them by twice as far as they stand out of
+    it, never above its highest cell. Half as much misleads on surfaces without long waves, H < 0 (tried by hand); the
+    highest cell itself costs smooth ones up to twice the steps (`benchmarks/ideas.py`).
+
+    Parameters
+    ----------
+    separation : array
+        Of cells [m], infinite where one is missing.
+    factors : tuple of int
+        Cells of a block along each axis, 1, 2 or 4: blocks of four are blocks of blocks. Only whole blocks of two by
+        two distinguish slope from roughness; of others it is the lowest separation.
+    """
+    for _ in range(max(factors).bit_length() - 1):
+        halves = tuple(min(f, 2) for f in factors)
+        separation = _raised_blocks(separation, halves)
+        factors = tuple(f // half for f, half in zip(factors, halves, strict=True))
+    return separation
+
+
+def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
+    low = block_minimum(separation, factors)
+    if factors != (2, 2):
+        return low
+    xp, (ny, nx) = namespace(separation), (n // 2 * 2 for n in separation.shape)
+    for start in range(0, ny, tuning.SLAB):  # planes are large, and fresh memory is slow
+        upper, lower = (separation[start + k : min(start + tuning.SLAB, ny) : 2, :nx] for k in (0, 1))
+        with np.errstate(invalid="ignore"):  # missing cells
+            both, apart = upper + lower, upper - lower
+            out_of_it = xp.abs(apart[:, ::2] - apart[:, 1::2])
+            block = (both[:, ::2] + both[:, 1::2] - tuning.SUMMITS * out_of_it) / 4
+        whole = low[start // 2 : start // 2 + block.shape[0], : nx // 2]
+        whole[...] = xp.where(block > whole, block, whole)
+    return low
+
+
+def block_minimum(separation: Array, factors: tuple[int, ...]) -> Array:
+    """Return the lowest value of each block; infinite for a block of missing cells."""
+    xp, padded = namespace(separation), separation
+    for axis, factor in enumerate(factors):
+        lacking = [n if a != axis else -n % factor for a, n in enumerate(padded.shape)]
+        if lacking[axis]:
+            edge = xp.full(tuple(lacking), np.inf, dtype=padded.dtype, device=padded.device)
+            padded = xp.concat([padded, edge], axis=axis)
+    for axis, factor in enumerate(factors):
+        # Slices, not an axis of blocks: a reduction along two numbers takes several times as long.
+        parts = [padded[(slice(None),) * axis + (slice(k, None, factor), ...)] for k in range(factor)]
+        padded = reduce(xp.minimum, parts)
+    return padded

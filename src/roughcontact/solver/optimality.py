@@ -1,83 +1,179 @@
-"""The certificate: one dimensionless residual for all solvers and all operators."""
+"""Optimality (KKT) conditions of contact: their residual, which certifies all solvers, and the active set.
+
+The conditions are ``g >= 0, p >= 0, p g = 0`` with the gap ``g = A p + f - d``; under a hardness H ``p <= H`` and
+``g <= 0`` where ``p = H``. See docs/method.md, "Optimality".
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import largest, namespace
 from roughcontact.halfspace.operators.operator import Operator, self_influence
+from roughcontact.kernels import loader, planes
 from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.projection import force_multiplier
 
-__all__ = ["Judge"]
+__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "predict_free_set"]
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
-# A pressure is stored to half a unit in its last place, and so is its displacement: at given force the gap
-# can be no better than some units in the last place of what the largest pressure does in its own cell. Where
+# Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
+# the gap can be no better than some units in the last place of what the largest pressure does in its own cell. Where
 # uniform pressure moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
 UNITS = 16 * float(np.finfo(np.float64).eps)
 
 
+class Iterate(NamedTuple):
+    """A pressure, nowhere negative, with its displacement and the separation of the bodies."""
+
+    pressure: Array
+    """p [Pa]"""
+    displacement: Array
+    """u = A p [m]"""
+    separation: Array
+    """f, the undeformed gap [m]; infinite where a cell never touches"""
+
+    def fits_machine_code(self, hardness: float) -> bool:
+        """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
+        shape = self.pressure.shape
+        return hardness == math.inf and all(
+            loader.takes(f) and f.dtype == np.float64 and f.flags.c_contiguous and f.shape == shape
+            for f in self
+        )
+
+
+class Evaluation(NamedTuple):
+    """The residual of an iterate, and the depth at which it was found."""
+
+    depth: float
+    """The given depth, or the multiplier of the force: the mean of u + f over the cells between the bounds [m]."""
+    residual: float
+    """See `Optimality.residual`."""
+    scale: float
+    """What that is relative to: the largest displacement [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PredictedSet:
+    """A prediction of the free set F from an iterate."""
+
+    free: Mask
+    """The cells of F."""
+    count: int
+    """How many they are."""
+    dropped: int
+    """How many with pressure or penetration were left out, since a projected step of one cell leaves them none."""
+    support: Mask
+    """F and all cells with pressure."""
+
+
 @dataclass(frozen=True, slots=True)
-class Judge:
-    """Measures by how much a pressure violates the conditions of contact.
+class Optimality:
+    """The conditions of one problem, and the residual of an iterate.
 
     Parameters
     ----------
+    terms : Terms
+    measure : Measure
     self_influence : float
-        Displacement of a cell per unit pressure on itself [m/Pa].
-    allowance : float
-        Part of a cell's own displacement that is rounding.
-    hardness : float
-        Pressure that no cell may exceed [Pa].
+        A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     """
 
+    terms: Terms
+    measure: Measure
     self_influence: float
-    allowance: float
-    hardness: float = math.inf
 
     @classmethod
-    def of(cls, operator: Operator, terms: Terms) -> Judge:
-        """Return the judge of an operator and what is asked.
+    def of(cls, operator: Operator, terms: Terms) -> Optimality:
+        """Return the conditions for an operator and what is asked."""
+        return cls(terms, Measure(operator.weights), self_influence(operator))
 
-        At given depth nothing is allowed for rounding: the pressure has no given size there, and one that
-        has run away could excuse itself.
-        """
-        allowance = UNITS if isinstance(terms.control, Force) else 0.0
-        return cls(self_influence(operator), allowance, terms.hardness)
-
-    def scale(self, displacement: Array) -> float:
-        """Return what residuals are relative to [m]: the largest displacement."""
-        return largest(displacement) if math.prod(displacement.shape) else 0.0
+    def evaluate(self, iterate: Iterate) -> Evaluation:
+        """Return depth and residual of an iterate."""
+        terms, measure = self.terms, self.measure
+        if not measure.varies and iterate.fits_machine_code(terms.hardness):
+            return self._evaluate_in_one_pass(iterate)
+        pressure, displacement, separation = iterate
+        gap = displacement + separation
+        between = (pressure > 0) & (pressure < terms.hardness)
+        depth = force_multiplier(measure, gap, pressure, between) if terms.depth is None else terms.depth
+        gap -= depth
+        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
-        """Return the largest violation of the conditions of contact, relative to the largest displacement.
+        """Return the largest violation of the conditions, relative to the largest displacement.
 
-        That is the largest of ``|gap|`` where there is pressure and of ``-gap`` where there is none; under the
-        hardness, where the body gives way, of ``gap``. It is infinite for a negative pressure or one beyond the
-        hardness, or for numbers that are none. It speaks of the algebra, not of the grid.
+        That is the largest of ``|g|`` where ``0 < p < H``, of ``-g`` where ``p = 0``, and of ``g`` where ``p = H``. It
+        is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It speaks of the algebra,
+        not of the grid.
         """
-        xp = namespace(pressure)
-        # Negative or beyond the hardness, infinite or no number: one of these comparisons is false.
+        xp, hardness = namespace(pressure), self.terms.hardness
+        # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
         strongest = float(xp.max(pressure))
-        if not (float(xp.min(pressure)) >= 0 and strongest <= self.hardness and strongest < math.inf):
+        if not (float(xp.min(pressure)) >= 0 and strongest <= hardness and strongest < math.inf):
             return math.inf
-        # Nowhere may it be negative; where there is pressure, not positive either.
-        lifted = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
-        yielding = self.hardness < math.inf
-        lowest = float(xp.min(xp.where(pressure == self.hardness, 0.0, gap) if yielding else gap))
-        return self.relative(max(-lowest, lifted), self.scale(displacement), strongest)
+        open_under_pressure = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
+        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if hardness < math.inf else gap))
+        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        return self.relative(max(-lowest, open_under_pressure), scale, strongest)
 
     def relative(self, violation: float, scale: float, strongest: float) -> float:
-        """Return the residual of the largest violation [m], beside the largest displacement [m] and pressure [Pa]."""
+        """Return the residual of the largest violation [m], given the largest displacement [m] and pressure [Pa].
+
+        At given force a violation within the rounding floor counts as that floor at most. At given depth the pressure
+        has no given size, and one that diverges would raise its own floor: there is none.
+        """
         if not (math.isfinite(violation) and math.isfinite(scale)):
             return math.inf
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        rounding = self.allowance * self.self_influence * strongest
-        return min(relative, UNITS) if violation <= rounding else relative
+        floor = UNITS * self.self_influence * strongest if isinstance(self.terms.control, Force) else 0.0
+        return min(relative, UNITS) if violation <= floor else relative
+
+    def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
+        seen, depth = planes.extremes(*iterate), self.terms.depth
+        if seen is None or (not seen.count and depth is None):
+            return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
+        if depth is None:
+            depth = seen.level / seen.count
+        residual = math.inf
+        if seen.weakest >= 0:
+            violation = max(depth - seen.lowest, seen.highest - depth)
+            residual = self.relative(violation, seen.displacement, seen.strongest)
+        return Evaluation(depth, residual, seen.displacement)
+
+
+def predict_free_set(
+    terms: Terms, iterate: Iterate, *, depth: float, allowed: float, self_influence: float = math.inf
+) -> PredictedSet:
+    """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
+
+    With a finite self-influence A_ii [m/Pa] those with ``A_ii p < g`` are left out: one projected step of the cell
+    alone leaves no pressure on them. Cells at the hardness are free where their gap is more than is allowed.
+    """
+    pressure, displacement, separation = iterate
+    if iterate.fits_machine_code(terms.hardness):
+        free, count, dropped = planes.predict_active(
+            *iterate, depth=depth, least=-allowed, own=self_influence
+        )
+        return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
+    xp, carrying = namespace(pressure), pressure > 0
+    gap = displacement + separation - depth
+    free, dropped = carrying | (gap < -allowed), 0
+    if terms.hardness < math.inf:
+        upper = pressure >= terms.hardness
+        free = (free & ~upper) | (upper & (gap > allowed))
+    if self_influence < math.inf:
+        tensile = free & (pressure * self_influence < gap)
+        free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
+    return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)

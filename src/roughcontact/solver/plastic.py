@@ -1,4 +1,4 @@
-"""Bodies that give way under a hardness: by projection, or from the depth that carries the force."""
+"""Perfectly plastic contact, limited by the hardness: by projection, or from the depth that carries the force."""
 
 from __future__ import annotations
 
@@ -9,25 +9,23 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.solver import tuning
 from roughcontact.solver.control import Depth, Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Judge
+from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.state import State
 
-__all__ = ["press_hard"]
+__all__ = ["press_plastic"]
 
 Array = npt.NDArray[np.float64]
 
-TRIALS = 80  # depths: by halving alone, more than the digits of a depth
-CLOSE = 1e-9  # of the force: then the cells at the bounds are the right ones, but for some at the very edge
 
-
-def press_hard(operator: Operator, separation: Array, terms: Terms, start: Array, max_steps: int) -> State:
+def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Array, max_steps: int) -> State:
     """Press on terms with a hardness, from a `start` of the pressure [Pa].
 
-    Where nearly every cell in contact gives way, too few are left to tell the depth at a given force, and the
-    projected method may run in circles. At given depth it does not; the force grows with the depth.
+    Where nearly every cell in contact is plastic, the few between the bounds hardly determine the depth at a given
+    force, and the projected method may cycle. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
     state = solver.run(operator, separation, terms, start)
@@ -49,23 +47,23 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         pressure, steps = state.pressure, steps + state.steps
         return measure.total(pressure) / force - 1
 
-    # At least what the hardness does to a single cell: a flat body bears at no depth, and doubling needs one.
-    own = Judge.of(operator, terms).self_influence
+    # At least what the hardness does to a single cell: a flat body bears at depth zero, which cannot be doubled.
+    own = Optimality.of(operator, terms).self_influence
     low, high = 0.0, max(_bearing_depth(measure, separation, force / terms.hardness), own * terms.hardness)
     below, above = -1.0, excess(high)
-    for _ in range(TRIALS):
+    for _ in range(tuning.DEPTH_TRIALS):
         if above >= 0:
             break
         low, below = high, above
         high *= 2
         above = excess(high)
-    for trial in range(TRIALS):
+    for trial in range(tuning.DEPTH_TRIALS):
         # The chord where it is safe, the middle where the curve is a staircase.
         chord = low - below * (high - low) / (above - below)
         middle = (low + high) / 2
         depth = chord if abs(chord - middle) < 0.4 * (high - low) and trial % 2 else middle
         found = excess(depth)
-        if abs(found) <= CLOSE or not low < depth < high:
+        if abs(found) <= tuning.FORCE_CLOSE or not low < depth < high:
             break
         if found < 0:
             low, below = depth, found
@@ -78,7 +76,7 @@ def _bearing_depth(measure: Measure, separation: Array, area: float) -> float:
     """Return the depth at which the undeformed surface would bear on an area [m]."""
     xp = namespace(separation)
     low, high = 0.0, float(xp.max(xp.where(xp.isfinite(separation), separation, 0.0)))
-    for _ in range(60):  # by halving: cells are many, halvings are few
+    for _ in range(60):  # by bisection: cells are many, bisections are few
         middle = (low + high) / 2
         if measure.total(separation <= middle) < area:
             low = middle

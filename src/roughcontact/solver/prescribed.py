@@ -11,24 +11,28 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
-from roughcontact.halfspace.operators.operator import Listable, Operator, is_semidefinite
-from roughcontact.material import number
-from roughcontact.solver.conjugate_gradients import relax
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
+from roughcontact.solver import tuning
+from roughcontact.solver.conjugate_gradients import conjugate_gradients
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.solver.direct import DENSE_LIMIT, solve_cells
-from roughcontact.solver.inner_operator import Driver, Plane, driver_on, factorised, first_product
+from roughcontact.solver.direct import solve_cells
+from roughcontact.solver.inner_operator import (
+    FullGrid,
+    InnerOperator,
+    direct_limit,
+    first_product,
+    inner_operator_on,
+)
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.region import checked_region
-from roughcontact.solver.subdomain import Place, bounding_box, embed, take
-from roughcontact.solver.vectors import fields_on
+from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
+from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import scalar
 
-__all__ = ["Prescribed", "prescribe", "prescribed_displacement"]
+__all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
-
-SMALLER = 0.5  # of the padded cells: a box that is worth a kernel of its own
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,10 +62,10 @@ class Prescribed:
 
 
 def prescribed_displacement(
-    operator: Operator,
-    region: Mask,
+    mask: Mask,
     displacement: float | Array,
     *,
+    operator: Operator,
     tolerance: float = 1e-8,
     max_steps: int = 5000,
     initial: Array | None = None,
@@ -72,11 +76,11 @@ def prescribed_displacement(
 
     Parameters
     ----------
-    operator : Operator
-    region : bool array
-        The cells that carry pressure; at least one.
+    mask : bool array
+        The region: the cells that carry pressure, at least one.
     displacement : float or array
         Their displacement [m]; values outside the region do not matter.
+    operator : Operator
     tolerance : float
         Largest error of the displacement, relative to its largest value; between 1e-14 and 1e-2.
     max_steps : int
@@ -87,13 +91,13 @@ def prescribed_displacement(
     Raises
     ------
     ValueError
-        If the region is empty, of a wrong shape, told by other numbers than ones and zeros, or the whole of a
+        If the region is empty, of a wrong shape, given by other numbers than ones and zeros, or the whole of a
         periodic grid, if the displacement is zero or not finite on it, if the initial pressure is not finite, if one
-        of them does not fit the region, or if the operator, the tolerance or the number of steps is none.
+        of them does not fit the region, or if the operator, the tolerance or the number of steps is not one.
     RuntimeError
         If the tolerance was missed.
     """
-    answer = prescribe(operator, region, displacement, tolerance, max_steps, initial)
+    answer = prescribe(operator, mask, displacement, tolerance, max_steps, initial)
     if not answer.residual <= tolerance:
         remedy = "a larger tolerance" if answer.steps < max_steps else "more steps (max_steps)"
         raise RuntimeError(
@@ -133,41 +137,42 @@ def prescribe(
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
         raise ValueError("the initial pressure must be finite [Pa]")
-    place = _place(operator, region)
+    subdomain = _subdomain(operator, region)
     part, inside, wanted = operator, region, target
     start = None if initial is None else xp.where(region, initial, 0.0)
-    if place is not None:
-        part = _part(operator, place)
-        inside, wanted = take(region, place), take(target, place)
-        start = None if start is None else take(start, place)
+    if subdomain is not None:
+        part = _part(operator, subdomain)
+        inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
+        start = None if start is None else restrict(start, subdomain)
     with one_blas_thread():
-        pressure, lacking, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
+        pressure, residual, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
         # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
-        work = Measure(part.weights).dot(pressure, wanted + lacking)
-    whole = pressure if place is None else embed(pressure, place, region.shape)
-    return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(lacking) / size, steps)
+        work = Measure(part.weights).dot(pressure, wanted + residual)
+    whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
+    return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(residual) / size, steps)
 
 
-def _place(operator: Operator, region: Mask) -> Place | None:
+def _subdomain(operator: Operator, region: Mask) -> Subdomain | None:
     """Return where a solve on a region costs least: on its cells, of a list, or in its box; None for the whole."""
-    if not is_numpy(region):  # elsewhere than on the host a box costs a look at every side
+    if not is_numpy(region):  # elsewhere than on the host a box costs a transfer for each of its sides
         return None
-    if getattr(operator, "listed", False):
+    if capabilities(operator).listed:
         return np.flatnonzero(region)
     box = bounding_box(region)
     assert box is not None  # some cell is in the region
-    # A box takes a kernel of its own, as dear as two products or three; nothing repeats itself in it.
+    # A box takes a kernel of its own, which costs as much as two products or three; in a box nothing is periodic.
     padded = math.prod(2 * (s.stop - s.start) for s in box)
     whole = math.prod(n if p else 2 * n for n, p in zip(region.shape, operator.grid.periodic, strict=True))
-    return box if padded < SMALLER * whole else None
+    return box if padded < tuning.SMALLER_BOX * whole else None
 
 
-def _part(operator: Operator, place: Place) -> Operator:
-    """Return the operator between the cells of a place."""
-    if isinstance(place, tuple):
-        return operator.restrict(place)
-    assert isinstance(operator, Listable)  # of others no list is made
-    return operator.between(place)
+def _part(operator: Operator, subdomain: Subdomain) -> Operator:
+    """Return the operator between the cells of a subdomain."""
+    if isinstance(subdomain, tuple):
+        return operator.restrict(subdomain)
+    submatrix = capabilities(operator).submatrix
+    assert submatrix is not None  # of others no list is made
+    return submatrix(subdomain)
 
 
 def _check(name: str, given: Any, region: Mask) -> None:
@@ -175,68 +180,89 @@ def _check(name: str, given: Any, region: Mask) -> None:
     if is_array(given) and given.ndim == 0:
         return
     if not is_array(given):
-        number(name, given)
+        scalar(given, name)
         return
     if tuple(given.shape) != tuple(region.shape):
         raise ValueError(
             f"the {name}, of shape {tuple(given.shape)}, does not fit {tuple(region.shape)} cells"
         )
     if is_numpy(given) != is_numpy(region):
-        raise ValueError(f"the {name} must be an array of the library that the region is of")
+        raise ValueError(f"the {name} must be an array of the same library as the region")
 
 
 def _solve(
     operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
 ) -> tuple[Array, Array, int]:
-    """Return pressure, the displacement that is lacking by a product of its own [m], and the number of products."""
+    """Return pressure, residual by an exact product [m], and number of products: iterative refinement (D1 to D5)."""
     xp, before = namespace(wanted), math.inf
-    driver: Driver | None = None
+    inner: InnerOperator | None = None
     pressure, u, exact, steps = xp.zeros_like(wanted), xp.zeros_like(wanted), True, 0
     if start is not None:
-        pressure, driver, steps = start, driver_on(operator, region), 1
-        u, exact = first_product(operator, start, driver)
+        pressure, inner, steps = start, inner_operator_on(operator, region), 1
+        u, exact = first_product(operator, start, inner)
     elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
-        # The matrix may be another than that of the products.
+        # The matrix may differ from that of the products.
         if largest(xp.where(region, wanted - u, 0.0)) > limit:
             u, steps = operator.apply(pressure), 1
     while True:
-        lacking = xp.where(region, wanted - u, 0.0)
-        error = largest(lacking)
+        r = xp.where(region, wanted - u, 0.0)  # D2
+        error = largest(r)
         if not error > limit or steps >= max_steps:
             if exact:
-                return pressure, lacking, steps
+                return pressure, r, steps
             u, exact, steps = operator.apply(pressure), True, steps + 1
             continue
-        if driver is None:
-            driver = driver_on(operator, region)
+        if inner is None:
+            inner = inner_operator_on(operator, region)
         elif not error < before / 2:
-            if not driver.gain:
-                return pressure, lacking, steps
-            driver = Plane(operator)  # the other has done what it could
+            if not inner.contraction:
+                return pressure, r, steps
+            inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
-        part = driver.narrow(driver.gather(lacking) / error)  # so that single precision holds all numbers
-        measure, none = Measure(driver.weights), namespace(part).zeros_like(part)
-        fields = fields_on(driver, measure, driver.gather(region), part, none)
-        _, done = relax(
-            driver,
-            fields,
-            limit=max(0.5 * limit / error, driver.gain),
+        part = inner.scaled(inner.gather(r) / error)  # so that single precision holds all numbers
+        measure, base = Measure(inner.weights), namespace(part).zeros_like(part)
+        vectors = vectors_on(inner, measure, inner.gather(region), part, base)
+        _, done = conjugate_gradients(  # D3
+            inner,
+            vectors,
+            limit=max(0.5 * limit / error, inner.contraction),
             max_steps=max_steps - steps - 1,
         )
-        pressure = pressure + driver.scatter(error * xp.astype(fields.change, xp.float64))
+        pressure = pressure + inner.scatter(error * xp.astype(vectors.correction, xp.float64))  # D4
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 
 def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
-    """Return the pressure on few cells and the displacement that their matrix says it causes on them.
+    """Return the pressure on few cells, and its displacement on them by their matrix.
 
-    More begin from nothing: what coarser cells would tell of them saves hardly any product, and takes longer.
+    More cells start from zero: a start from coarser cells saves hardly a product, and takes longer.
     """
-    if not is_numpy(region) or np.count_nonzero(region) > factorised(operator, DENSE_LIMIT):
+    if not is_numpy(region) or np.count_nonzero(region) > direct_limit(operator, tuning.DIRECT_CELLS):
         return None
     pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
     with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead
         pressure.ravel()[cells], u.ravel()[cells] = solve_cells(operator, cells, wanted.ravel()[cells])
         return pressure, u
     return None
+
+
+def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
+    """Return which cells of a grid are meant, as truth values.
+
+    Raises
+    ------
+    ValueError
+        If the shape is another, or if there are numbers other than one and zero: heights or gaps, say, or NaN.
+    """
+    given = region if is_array(region) else np.asarray(region)
+    xp = namespace(given)
+    if tuple(given.shape) != shape:
+        raise ValueError(f"a region of shape {tuple(given.shape)} does not fit the grid of shape {shape}")
+    if xp.isdtype(given.dtype, "bool"):
+        return given
+    if xp.isdtype(given.dtype, "numeric"):
+        inside: Mask = given == 1
+        if bool(xp.all(inside | (given == 0))):
+            return inside
+    raise ValueError("a region is given by truth values, such as pressure > 0, or by ones and zeros alone")

@@ -1,4 +1,7 @@
-"""Pressures between zero and the hardness, and the depth that they mean."""
+"""The feasible set: pressures between zero and the hardness under the given force, and the multiplier of the force.
+
+The projection onto the simplex of given force is that of Michelot (J. Optim. Theory Appl. 50, 195, 1986).
+"""
 
 from __future__ import annotations
 
@@ -10,25 +13,24 @@ from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 
-__all__ = ["depth_of", "elastic_control", "within"]
+__all__ = ["elastic_control", "feasible_start", "force_multiplier", "project"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-PASSES = (
-    50  # in which a force is shared out between cells; what is left then is shared out in the next iteration
-)
+PASSES = 50  # in which a force is redistributed; what is left then is left to the next iteration
 ROUNDING = 1e-14  # of a force: a sum over many cells is no better
 
 
-def depth_of(measure: Measure, level: Array, pressure: Array, inside: Mask) -> float:
-    """Return the depth that leaves no gap on the mean of the cells between the bounds.
+def force_multiplier(measure: Measure, level: Array, pressure: Array, free: Mask) -> float:
+    """Return the multiplier of the force, the depth: with it the mean gap of the cells between the bounds is zero.
 
-    Without any it is the least at which no cell under the hardness would be pulled.
+    That is the mean of the `level` u + f over them (Polonsky and Keer 1999). Without any it is the smallest depth at
+    which the gap is not positive under the hardness.
     """
     xp = namespace(level)
-    if bool(xp.any(inside)):
-        return measure.mean(level, inside)
+    if bool(xp.any(free)):
+        return measure.mean(level, free)
     return float(xp.max(xp.where(pressure > 0, level, -np.inf)))
 
 
@@ -44,36 +46,54 @@ def elastic_control(operator: Operator, separation: Array, control: Control) -> 
     return control if control.value <= mean else Depth(mean)
 
 
-def within(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:
-    """Return the pressure between zero and the hardness, under the force that is prescribed, if one is.
+def feasible_start(
+    measure: Measure, separation: Array, control: Control, initial: Array, self_influence: float
+) -> Array:
+    """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
 
-    Where cells that carry nothing have to help, those of the smallest `gap` do.
+    Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
+    them alone by the depth.
+    """
+    xp = namespace(separation)
+    p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
+    if not bool(xp.any(p > 0)):
+        lowest = separation == xp.min(separation)
+        p = xp.where(lowest, 1.0 if isinstance(control, Force) else control.value / self_influence, p)
+    if isinstance(control, Force):
+        p *= control.value / measure.total(p)
+    return p  # type: ignore[no-any-return]
+
+
+def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:
+    """Return the pressure projected onto the bounds, and onto the force where one is prescribed.
+
+    Where cells without pressure have to carry some, those of the smallest `gap` do.
     """
     hardness, xp = terms.hardness, namespace(pressure)
     if not isinstance(terms.control, Force):
         return xp.clip(pressure, 0.0, hardness)  # type: ignore[no-any-return]
     force = terms.control.value
     if hardness == np.inf:
-        return _under_force(measure, pressure, force)
+        return _project_onto_simplex(measure, pressure, force)
     pressure = xp.clip(pressure, 0.0, hardness)
-    # What exceeds the hardness, or lacks, is shared by the cells that can take it. Each pass takes at least one cell
-    # to a bound, or is the last but for rounding.
+    # The missing force is distributed over the cells between the bounds. Each pass takes at least one cell to a bound,
+    # or is the last but for rounding.
     for _ in range(PASSES):
-        lacking = force - measure.total(pressure)
-        if abs(lacking) <= ROUNDING * force:
+        missing = force - measure.total(pressure)
+        if abs(missing) <= ROUNDING * force:
             break
         free = (pressure > 0) & (pressure < hardness)
-        if not bool(xp.any(free)):  # all at the bounds: the next cells to touch help, or all give
-            free = _nearest(measure, gap, pressure, lacking / hardness) if lacking > 0 else pressure > 0
-        pressure = xp.where(free, xp.clip(pressure + lacking / measure.total(free), 0.0, hardness), pressure)
+        if not bool(xp.any(free)):  # all at their bounds: the next cells to touch take it, or all give some
+            free = _nearest(measure, gap, pressure, missing / hardness) if missing > 0 else pressure > 0
+        pressure = xp.where(free, xp.clip(pressure + missing / measure.total(free), 0.0, hardness), pressure)
     return pressure
 
 
 def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask:
-    """Return the cells without pressure that stand nearest, as many as have twice the `area`."""
+    """Return the cells without pressure of the smallest gap, as many as have twice the `area`."""
     xp = namespace(gap)
     free = (pressure == 0) & xp.isfinite(gap)
-    # The gap up to which the cells are enough, by halving: cells are many, halvings are few.
+    # The gap up to which the cells are enough, by bisection: cells are many, bisections are few.
     low, high = float(xp.min(xp.where(free, gap, np.inf))), float(xp.max(xp.where(free, gap, -np.inf)))
     for _ in range(60):
         middle = (low + high) / 2
@@ -84,8 +104,8 @@ def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask
     return free & (gap <= high)  # type: ignore[no-any-return]
 
 
-def _under_force(measure: Measure, pressure: Array, force: float) -> Array:
-    """Return the pressure under the right force: the nearest one below, or the same enlarged.
+def _project_onto_simplex(measure: Measure, pressure: Array, force: float) -> Array:
+    """Return the nearest pressure on the simplex of given force where it is too large, else the same scaled up.
 
     The nearest is ``max(pressure - shift, 0)``; each pass finds the shift for the cells that are left.
     """

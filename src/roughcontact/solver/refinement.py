@@ -1,4 +1,4 @@
-"""Inexact operators may drive the iteration; the exact one certifies."""
+"""Defect correction: an inexact sum is iterated, and the exact one gives the residual that certifies."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of
 from roughcontact.solver.complementarity import resolve_contact
 from roughcontact.solver.control import Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Judge
-from roughcontact.solver.projection import depth_of
+from roughcontact.solver.optimality import Optimality
+from roughcontact.solver.projection import force_multiplier
 from roughcontact.solver.state import Solver, State
 from roughcontact.solver.status import Status
 
-__all__ = ["run_certified"]
+__all__ = ["solve_refined"]
 
 Array = npt.NDArray[np.float64]
 
 
-def run_certified(
+def solve_refined(
     solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
 ) -> State:
-    """Run a solver with the operator or, where its sum is not exact, by defect correction with the exact one."""
+    """Run a solver with the operator or, where its sum is not exact, by defect correction (D1 to D5)."""
     exact = exact_of(operator)
 
     def run(terms: Terms, initial: Array) -> State:
@@ -38,19 +38,20 @@ def run_certified(
 
 
 def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-    """Run a solver; an inexact operator's separation is corrected by what its sum lacks until the exact one agrees."""
+    """Add the defect of the inexact sum to the separation and solve again, until the exact residual is small."""
     exact = exact_of(operator)
-    measure, judge = Measure(exact.weights), Judge.of(exact, terms)
+    measure, optimality = Measure(exact.weights), Optimality.of(exact, terms)
     inner = replace(terms, tolerance=terms.tolerance / 2)
-    lacking, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
+    defect, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
     while True:
-        state = solver.run(operator, separation + lacking, inner, pressure)
+        # D1: the inexact problem, on which the defect acts as a part of the separation
+        state = solver.run(operator, separation + defect, inner, pressure)
         pressure, steps = state.pressure, steps + state.steps + 1
         displacement = exact.apply(pressure)
         level = displacement + separation
-        inside = (pressure > 0) & (pressure < terms.hardness)
-        depth = depth_of(measure, level, pressure, inside) if terms.depth is None else terms.depth
-        residual = judge.residual(pressure, displacement, level - depth)
+        free = (pressure > 0) & (pressure < terms.hardness)
+        depth = force_multiplier(measure, level, pressure, free) if terms.depth is None else terms.depth
+        residual = optimality.residual(pressure, displacement, level - depth)
         found = replace(
             state, depth=depth, residual=residual, steps=steps, tangent=None, displacement=displacement
         )
@@ -60,4 +61,4 @@ def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Ter
             return found
         if not residual < best / 2:
             return replace(found, status=Status.STAGNATED)
-        best, lacking = residual, displacement - operator.apply(pressure)
+        best, defect = residual, displacement - operator.apply(pressure)  # D2: (A - A~) p

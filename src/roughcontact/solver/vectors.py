@@ -1,9 +1,12 @@
-"""The fields of a solve on a region: in machine code where there is some, else by the library of the arrays."""
+"""The vectors of an inner solve, by the library of the arrays; `compiled_vectors` has the same in machine code.
+
+The names are those of docs/method.md: residual r, preconditioned residual z, search direction s, its image q = A s, and
+constraint direction w, on the free set F.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -12,311 +15,256 @@ from roughcontact.arrays import largest, namespace
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
 from roughcontact.kernels.constants import NEVER, ROUNDINGS
-from roughcontact.solver.bounded import Bounded, Measured, Preconditioned
-from roughcontact.solver.compiled_vectors import CompiledFields
+from roughcontact.solver.compiled_vectors import CompiledVectors
 from roughcontact.solver.control import Terms
-from roughcontact.solver.inner_operator import Driver
-from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.trial import Trial
+from roughcontact.solver.inner_operator import InnerOperator
+from roughcontact.solver.inner_product import Measure, Preconditioned, Products, Projected
+from roughcontact.solver.optimality import Iterate
 
-__all__ = ["Fields", "fields_on", "scaled_fields"]
+__all__ = ["ArrayVectors", "Vectors", "scaled_vectors", "vectors_on"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 
-class Fields(Protocol):
-    """The fields of one solve, and what is done to them; sums are weighted.
-
-    Inside the region are the cells whose pressure is free, between its bounds. There t is the direction, v what it
-    causes, and z the lack after the preconditioner; outside only r and the change mean anything.
-    """
-
-    @property
-    def inside(self) -> Array:
-        """One on the cells that are free, zero elsewhere."""
-        ...
-
-    @property
-    def change(self) -> Array:
-        """Of the pressure, so far."""
-        ...
-
-    @property
-    def r(self) -> Array:
-        """Displacement that is lacking."""
-        ...
-
-    @property
-    def t(self) -> Array:
-        """The direction."""
-        ...
-
-    @property
-    def v(self) -> Array:
-        """What it causes."""
-        ...
-
-    @property
-    def held(self) -> Mask | None:
-        """Cells at the hardness; None without one."""
-        ...
-
-    def begin(self) -> float:
-        """Have nothing shared as yet; return the area of the region."""
-        ...
-
-    def level(self, most: float) -> None:
-        """Take what the region lacks on the mean as it has begun off all lacks, if that is more than `most`."""
-        ...
-
-    def size(self) -> float:
-        """Return the largest lack inside."""
-        ...
-
-    def excess(self) -> float:
-        """Return how far pressures are out of bounds at most, and those of other cells from the one that they keep."""
-        ...
-
-    def share(self) -> float:
-        """Have changes of pressure shared by the region, as its inverse of a constant is; return the sum of that."""
-        ...
-
-    def precondition(self) -> Preconditioned:
-        """Find z, and return what there is to know of it."""
-        ...
-
-    def turn(self, beta: float) -> Array:
-        """Make t the direction ``beta t + z``, and return it."""
-        ...
-
-    def bound(self, beta: float, shift: float, step: float) -> Bounded:
-        """Make t the change that a step along ``beta t + z``, less `shift` times what is shared, brings within bounds.
-
-        Cells that it takes out of bounds go there and are free no longer, cells that are not free return to theirs.
-        """
-        ...
-
-    def share_out(self, force: float) -> None:
-        """Have the cells that are free share, as they carry it, what t changes of the force."""
-        ...
-
-    def measure(self, v: Array) -> Measured:
-        """Take v, and return what there is to know of it and of t."""
-        ...
-
-    def advance(self, alpha: float, mean: float) -> float:
-        """Add ``alpha t`` to the change, take ``alpha (v - mean)`` off r, and return the largest lack inside."""
-        ...
-
-    def take_in(self, least: float) -> float:
-        """Free the cells that lack more than `least`, or as much too little; return the largest lack, 0 if none."""
-        ...
-
-    def pressure(self, start: Array, unit: float) -> Array:
-        """Return the pressure in the region that began as `start` and has changed, in a `unit`; nowhere negative."""
-        ...
-
-
-def fields_on(
-    driver: Driver,
-    measure: Measure,
-    kept: Mask,
-    lacking: Array,
-    base: Array,
-    held: Mask | None = None,
-    ceiling: float = math.inf,
-) -> Fields:
-    """Return the fields of a solve.
+class ArrayVectors:
+    """The vectors of one inner solve and what is done to them; sums are weighted by the areas of the cells.
 
     Parameters
     ----------
-    driver : Driver
-        Its precision is that of the fields.
-    kept : bool array
-        Cells that are free at first.
-    lacking, base : array
-        Displacement that is lacking, finite, which is overwritten, and the pressure that changes.
-    held : bool array, optional
-        Cells at the hardness at first.
-    ceiling : float
-        The hardness.
-    """
-    if _has_machine_code(lacking, measure, ceiling):
-        inside = with_margins(kept, lacking.dtype)
-        return CompiledFields(driver, float(measure.weights), inside, lacking, base)
-    return _Generic(driver, measure, kept, lacking, base, held, ceiling)
-
-
-def scaled_fields(
-    driver: Driver, measure: Measure, terms: Terms, region: Mask, trial: Trial, *, otherwise: float
-) -> tuple[Fields, float]:
-    """Return the fields of a solve for what is lacking of a depth, and their unit.
-
-    Parameters
-    ----------
-    driver : Driver
+    inner : InnerOperator
+        Its precision is that of the vectors.
     measure : Measure
-    terms : Terms
-        Where no depth is prescribed it is the mean level of the region.
-    region : bool array
-        Cells that are free at first, one at least, on those of the driver.
-    trial : Trial
-        Where the solve begins, there too.
-    otherwise : float
-        Unit where nothing is lacking, if it is not zero [m].
+    free : bool array
+        The free set F at first: cells whose pressure lies between its bounds.
+    residual, base : array
+        Residual, finite, which is overwritten, and the pressure that is corrected.
+    upper : bool array, optional
+        Cells that are active at the upper bound at first.
+    bound : float
+        The upper bound: the hardness.
 
-    Returns
-    -------
-    fields : Fields
-    unit : float
-        What is lacking in the region at most [m]: then single precision holds all numbers. Pressures are in the unit
-        too [Pa].
+    Attributes
+    ----------
+    free : array
+        One on F, zero elsewhere.
+    correction : array
+        Of the pressure, so far.
+    r, s, q : array
+        Residual, search direction, and its image. Outside F only r and the correction have a meaning.
     """
-    start, displacement, separation = trial
-    ceiling = terms.hardness
-    if _has_machine_code(separation, measure, ceiling):
-        area = float(measure.weights)
-        return CompiledFields.scaled(driver, area, region, trial, depth=terms.depth, otherwise=otherwise)
-    xp = namespace(separation)
-    level = separation + displacement
-    depth = measure.mean(level, region) if terms.depth is None else terms.depth
-    unit = largest((depth - level)[region]) or otherwise or 1.0
-    there = xp.isfinite(separation)
-    lacking = driver.narrow((depth - xp.where(there, level, 0.0)) / unit)
-    lacking = xp.where(there, lacking, NEVER)
-    held = (start >= ceiling) & ~region
-    base = driver.narrow(start / unit)
-    return _Generic(driver, measure, region, lacking, base, held, ceiling / unit), unit
 
-
-def _has_machine_code(field: Array, measure: Measure, ceiling: float) -> bool:
-    """Whether there is machine code for such fields."""
-    return not measure.varies and ceiling == math.inf and loader.takes(field)
-
-
-class _Generic:
     def __init__(
         self,
-        driver: Driver,
+        inner: InnerOperator,
         measure: Measure,
-        kept: Mask,
-        lacking: Array,
+        free: Mask,
+        residual: Array,
         base: Array,
-        held: Mask | None,
-        ceiling: float,
+        upper: Mask | None = None,
+        bound: float = math.inf,
     ) -> None:
-        xp = namespace(lacking)
-        self.inside, self.r, self.change = xp.astype(kept, lacking.dtype), lacking, xp.zeros_like(lacking)
-        self.t, self.v = xp.zeros_like(lacking), lacking
-        self._driver, self._measure, self._base, self._ceiling = driver, measure, base, ceiling
-        self._kept, self._held = kept, xp.zeros_like(kept) if held is None else held
-        self._error, self._z = lacking, lacking
-        self._shared: Array | None = None
+        xp = self._xp = namespace(residual)
+        self.free, self.r = xp.astype(free, residual.dtype), residual
+        self.correction, self.s, self.q = xp.zeros_like(residual), xp.zeros_like(residual), residual
+        self._inner, self._measure, self._base, self._bound = inner, measure, base, bound
+        self._free, self._upper = free, xp.zeros_like(free) if upper is None else upper
+        self._r_free, self._z = residual, residual
+        self._w: Array | None = None
 
     @property
-    def held(self) -> Mask | None:
-        return self._held if self._ceiling < math.inf else None
+    def upper(self) -> Mask | None:
+        """Cells that are active at the upper bound; None without one."""
+        return self._upper if self._bound < math.inf else None
 
-    def begin(self) -> float:
-        self._shared = None
-        return self._measure.total(self.inside)
+    def restart(self) -> float:
+        """Forget the constraint direction; return the area of F."""
+        self._w = None
+        return self._measure.total(self.free)
 
-    def level(self, most: float) -> None:
-        lack, area = self._measure.dot(self.inside, self.r), self._measure.total(self.inside)
-        if abs(lack) > most * area:
-            self.r -= lack / area
+    def remove_mean(self, threshold: float) -> None:
+        """Subtract the mean of the residual over F, if it is larger than a threshold (B2)."""
+        r_sum, area = self._measure.dot(self.free, self.r), self._measure.total(self.free)
+        if abs(r_sum) > threshold * area:
+            self.r -= r_sum / area
 
-    def size(self) -> float:
-        self._error = self.r * self.inside
-        return largest(self._error)
+    def residual_max(self) -> float:
+        """Return the largest size of r on F."""
+        self._r_free = self.r * self.free
+        return largest(self._r_free)
 
-    def excess(self) -> float:
+    def bound_violation(self) -> float:
+        """Return how far a pressure is out of its bounds at most, or that of an active cell from its bound."""
         return largest(self._out_of_bounds())
 
-    def share(self) -> float:
-        self._shared = self._driver.approximate_inverse(self.inside) * self.inside
-        return self._measure.total(self._shared)
+    def constraint_direction(self) -> float:
+        """Make w = M^-1 1 on F; return its sum 1.w (B4)."""
+        self._w = self._inner.approximate_inverse(self.free) * self.free
+        return self._measure.total(self._w)
 
     def precondition(self) -> Preconditioned:
-        self._z = self._driver.approximate_inverse(self._error)
-        self._z *= self.inside
-        dot, shared = self._measure.dot, self._shared
-        alike = 0.0 if shared is None else dot(shared, self.v)
+        """Make z = M^-1 r on F; return its inner products (B5)."""
+        self._z = self._inner.approximate_inverse(self._r_free)
+        self._z *= self.free
+        dot, w = self._measure.dot, self._w
+        wq = 0.0 if w is None else dot(w, self.q)
         return Preconditioned(
-            dot(self._error, self._z), dot(self._z, self.v), self._measure.total(self._z), alike
+            rz=dot(self._r_free, self._z), zq=dot(self._z, self.q), z_sum=self._measure.total(self._z), wq=wq
         )
 
-    def turn(self, beta: float) -> Array:
-        self.t *= beta
-        self.t += self._z
-        return self.t  # type: ignore[no-any-return]
+    def update_direction(self, beta: float) -> Array:
+        """Make s = z + beta s, and return it (C4)."""
+        self.s *= beta
+        self.s += self._z
+        return self.s  # type: ignore[no-any-return]
 
-    def bound(self, beta: float, shift: float, step: float) -> Bounded:
-        xp, p, kept = namespace(self.r), self._base + self.change, self._kept
-        self.turn(beta)
-        if self._shared is not None:
-            self.t -= shift * self._shared
-        self.t *= step * self.inside
-        low, high = kept & (p + self.t < 0), kept & (p + self.t > self._ceiling)
+    def project(self, beta: float, mu: float, step: float) -> Projected:
+        """Make s the step along z + beta s - mu w, projected onto the bounds (B8).
+
+        Cells that it takes out of bounds go to their bound and leave F; active cells return to theirs.
+        """
+        xp, p, free = self._xp, self._base + self.correction, self._free
+        self.update_direction(beta)
+        if self._w is not None:
+            self.s -= mu * self._w
+        self.s *= step * self.free
+        low, high = free & (p + self.s < 0), free & (p + self.s > self._bound)
         if bool(xp.any(low | high)):
-            self._now(kept & ~(low | high), self._held | high)
-        lifted = xp.where(self._kept, 0.0, -self._out_of_bounds())
-        new, total = self.t * self.inside + lifted, self._measure.total
-        force, self.t = total(new - self.t), new
-        return Bounded(float(xp.sum(xp.abs(lifted), dtype=xp.float64)), total(self.inside), force)
+            self._set_free(free & ~(low | high), self._upper | high)
+        lifted = xp.where(self._free, 0.0, -self._out_of_bounds())
+        projected, total = self.s * self.free + lifted, self._measure.total
+        force, self.s = total(projected - self.s), projected
+        return Projected(float(xp.sum(xp.abs(lifted), dtype=xp.float64)), total(self.free), force)
 
-    def share_out(self, force: float) -> None:
-        carried = (self._base + self.change + self.t) * self.inside
-        total = self._measure.total(carried)
-        if not total > 0:  # new cells only
-            carried, total = self.inside, self._measure.total(self.inside)
-        self.t = self.t - force / total * carried
+    def redistribute(self, force: float) -> None:
+        """Subtract a force from s on F, in proportion to the pressure (B9)."""
+        p = (self._base + self.correction + self.s) * self.free
+        total = self._measure.total(p)
+        if not total > 0:  # all cells of F are new
+            p, total = self.free, self._measure.total(self.free)
+        self.s = self.s - force / total * p
 
-    def measure(self, v: Array) -> Measured:
-        self.v, dot, inside = v, self._measure.dot, self.inside
-        alone = inside * self.t
-        descents = dot(self.r, self.t), dot(self.r, alone)
-        return Measured(
-            dot(self.t, v), dot(inside, v), *descents, self._measure.total(alone), dot(inside, self.r)
+    def inner_products(self, q: Array) -> Products:
+        """Take q = A s; return the inner products of s, q and r (B11)."""
+        self.q, dot, free = q, self._measure.dot, self.free
+        s_free = free * self.s
+        return Products(
+            sq=dot(self.s, q),
+            q_sum=dot(free, q),
+            rs=dot(self.r, self.s),
+            rs_free=dot(self.r, s_free),
+            s_sum=self._measure.total(s_free),
+            r_sum=dot(free, self.r),
         )
 
     def advance(self, alpha: float, mean: float) -> float:
-        self.change += alpha * self.t
-        self.r -= alpha * (self.v - mean if mean else self.v)
-        self.t *= self.inside
-        return self.size()
+        """Add alpha s to the pressure, subtract alpha (q - mean) from r; return the largest size of r on F (B14)."""
+        self.correction += alpha * self.s
+        self.r -= alpha * (self.q - mean if mean else self.q)
+        self.s *= self.free
+        return self.residual_max()
 
-    def take_in(self, least: float) -> float:
-        xp, lacking = namespace(self.r), self.r
-        self.t *= self.inside
-        added = ((lacking > least) & ~self._kept & ~self._held) | ((lacking < -least) & self._held)
-        if not bool(xp.any(added)):
+    def free_violated(self, threshold: float) -> float:
+        """Free the active cells whose residual has the wrong sign by more than a threshold (B16).
+
+        Return the largest residual of these, 0 without any.
+        """
+        xp, r = self._xp, self.r
+        self.s *= self.free
+        freed = ((r > threshold) & ~self._free & ~self._upper) | ((r < -threshold) & self._upper)
+        if not bool(xp.any(freed)):
             return 0.0
-        self._now(self._kept | added, self._held & ~added)
-        return largest(xp.where(added, lacking, 0.0))
+        self._set_free(self._free | freed, self._upper & ~freed)
+        return largest(xp.where(freed, r, 0.0))
 
     def pressure(self, start: Array, unit: float) -> Array:
-        xp = namespace(start)
-        p = xp.astype(self.change, xp.float64)  # in place: planes are large
+        """Return the pressure on F that began as `start` and was corrected, in a `unit`; nowhere negative."""
+        xp = self._xp
+        p = xp.astype(self.correction, xp.float64)  # in place: planes are large
         p *= unit
         p += start
         p = xp.where(p > 0, p, 0.0)
-        p *= self.inside
+        p *= self.free
         return p  # type: ignore[no-any-return]
 
     def _out_of_bounds(self) -> Array:
-        """Return how far pressures are beyond their bounds, and those of other cells from the one that they keep."""
-        xp, p = namespace(self.r), self._base + self.change
+        """Return how far pressures are beyond their bounds, and those of active cells from theirs."""
+        xp, p = self._xp, self._base + self.correction
         rounding = ROUNDINGS * float(xp.finfo(p.dtype).eps)
         p = xp.where(xp.abs(p) > rounding * xp.abs(self._base), p, 0.0)
-        if self._ceiling == math.inf:
-            return xp.where(self._kept, xp.minimum(p, 0.0), p)  # type: ignore[no-any-return]
-        over = p - self._ceiling
-        over = xp.where(xp.abs(over) > rounding * self._ceiling, over, 0.0)
-        inside = xp.minimum(p, 0.0) + xp.maximum(over, 0.0)
-        return xp.where(self._kept, inside, xp.where(self._held, over, p))  # type: ignore[no-any-return]
+        if self._bound == math.inf:
+            return xp.where(self._free, xp.minimum(p, 0.0), p)  # type: ignore[no-any-return]
+        over = p - self._bound
+        over = xp.where(xp.abs(over) > rounding * self._bound, over, 0.0)
+        violation = xp.minimum(p, 0.0) + xp.maximum(over, 0.0)
+        return xp.where(self._free, violation, xp.where(self._upper, over, p))  # type: ignore[no-any-return]
 
-    def _now(self, kept: Mask, held: Mask) -> None:
-        self._kept, self._held = kept, held
-        self.inside = namespace(kept).astype(kept, self.inside.dtype)
+    def _set_free(self, free: Mask, upper: Mask) -> None:
+        self._free, self._upper = free, upper
+        self.free = self._xp.astype(free, self.free.dtype)
+
+
+Vectors = ArrayVectors | CompiledVectors
+
+
+def vectors_on(
+    inner: InnerOperator,
+    measure: Measure,
+    free: Mask,
+    residual: Array,
+    base: Array,
+    upper: Mask | None = None,
+    bound: float = math.inf,
+) -> Vectors:
+    """Return the vectors of a solve, in machine code where there is some; parameters as of `ArrayVectors`."""
+    if _has_machine_code(residual, measure, bound):
+        return CompiledVectors(
+            inner, float(measure.weights), with_margins(free, residual.dtype), residual, base
+        )
+    return ArrayVectors(inner, measure, free, residual, base, upper, bound)
+
+
+def scaled_vectors(
+    inner: InnerOperator, measure: Measure, terms: Terms, free: Mask, iterate: Iterate, *, otherwise: float
+) -> tuple[Vectors, float]:
+    """Return the vectors of a solve for a depth, in units of the first residual, and this unit (B1).
+
+    Parameters
+    ----------
+    inner : InnerOperator
+    measure : Measure
+    terms : Terms
+        Where no depth is prescribed it is the mean of u + f over F.
+    free : bool array
+        F at first, one cell at least, on the cells of the inner operator.
+    iterate : Iterate
+        Where the solve begins, there too.
+    otherwise : float
+        Unit where the residual is zero, if it is not zero itself [m].
+
+    Returns
+    -------
+    vectors : Vectors
+    unit : float
+        Largest residual on F [m]: with it single precision holds all numbers. Pressures are in the unit too [Pa].
+    """
+    start, displacement, separation = iterate
+    bound = terms.hardness
+    if _has_machine_code(separation, measure, bound):
+        area = float(measure.weights)
+        return CompiledVectors.scaled(inner, area, free, iterate, depth=terms.depth, otherwise=otherwise)
+    xp = namespace(separation)
+    level = separation + displacement
+    depth = measure.mean(level, free) if terms.depth is None else terms.depth
+    unit = largest((depth - level)[free]) or otherwise or 1.0
+    there = xp.isfinite(separation)
+    residual = inner.scaled((depth - xp.where(there, level, 0.0)) / unit)
+    residual = xp.where(there, residual, NEVER)
+    upper = (start >= bound) & ~free
+    base = inner.scaled(start / unit)
+    return ArrayVectors(inner, measure, free, residual, base, upper, bound / unit), unit
+
+
+def _has_machine_code(field: Array, measure: Measure, bound: float) -> bool:
+    """Whether there is machine code for such vectors."""
+    return not measure.varies and bound == math.inf and loader.takes(field)

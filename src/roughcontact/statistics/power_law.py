@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["PowerLaw", "fit_power_law"]
 
@@ -42,7 +42,18 @@ class PowerLaw:
 
     @numeric
     def stiffness(self, force: float | Array) -> Array:
-        """Return the stiffness [N/m] at a `force` [N]."""
+        """Return the stiffness at given forces.
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force [N].
+
+        Returns
+        -------
+        array, the shape of `force`
+            Stiffness k [N/m].
+        """
         ratio = np.asarray(force, dtype=np.float64) / self.force_scale
         return np.asarray(self.stiffness_scale * self.prefactor * ratio**self.exponent)
 

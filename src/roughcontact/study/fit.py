@@ -78,8 +78,8 @@ def fit_power_laws(
         is one. All other dimensions tell ensembles apart.
     window : Window, optional
         See `roughcontact.study.fit_window`. Without, that of the thesis, for which loading curves bring along what it
-        takes: mean stiffness above 20 cells and below 90 % of saturation, force up to 0.07. A law that is not quite a
-        power law has another exponent in another window.
+        takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to 0.07. A law that
+        is not quite a power law has another exponent in another window.
     rng : Generator
         Draws the samples again. All ensembles are drawn alike, since their samples are paired.
     mean : {"arithmetic", "geometric"}

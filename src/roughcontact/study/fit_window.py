@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.contact.curve import FORCE_LIMIT
-from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
@@ -51,21 +51,22 @@ def force_window(lowest: float, highest: float) -> Window:
     return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
 
 
-def resolved_window(cell: Any, saturation: Any, highest: float = FORCE_LIMIT) -> Window:
+def resolved_window(cell: Any, full_contact_stiffness: Any, highest: float = FORCE_LIMIT) -> Window:
     """Return the window of the thesis: stiffness above 20 cells (section 4.3), force up to 0.07 (section 4.5).
 
     Parameters
     ----------
-    cell, saturation : float or DataArray
+    cell, full_contact_stiffness : float or DataArray
         k/(E* L) of a single cell and with all cells in contact, below 90 % of which the window ends: of N springs 1/N
         and 1.
     highest : float
         Dimensionless force.
     """
     rule = (
-        f"mean stiffness above {CELLS} cells and below {SATURATED:g} of saturation, force up to {highest:g}"
+        f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "
+        f"force up to {highest:g}"
     )
-    return Window((0.0, highest), (CELLS * cell, SATURATED * saturation), rule)
+    return Window((0.0, highest), (CELLS * cell, FULL_CONTACT_SHARE * full_contact_stiffness), rule)
 
 
 def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> Window:
@@ -74,7 +75,7 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
     Parameters
     ----------
     dataset : Dataset
-        With ``stiffness``, ``dimensionless_stiffness``, ``cell_stiffness`` and ``saturation``.
+        With ``stiffness``, ``dimensionless_stiffness``, ``cell_stiffness`` and ``full_contact_stiffness``.
     samples : sequence of str
         Dimensions of the samples.
     points : str
@@ -85,12 +86,12 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
     ValueError
         If one is missing, or the curves are those of line contacts, which have no such window.
     """
-    wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "saturation")
+    wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "full_contact_stiffness")
     missing = [name for name in wanted if name not in dataset]
     if missing:
         raise ValueError(
             f"the curves do not say what is resolved, for want of {', '.join(missing)}: give a window, "
-            "resolved_window(cell, saturation) or force_window(lowest, highest)"
+            "resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)"
         )
     if dataset.attrs.get("geometry") == Geometry.LINE.value:
         raise ValueError(
@@ -99,8 +100,10 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
     # E* L, whatever the body is; it has no meaning where both are zero or infinite.
     stiffness = dataset["stiffness"]
     scale = stiffness.where((stiffness > 0) & np.isfinite(stiffness)) / dataset["dimensionless_stiffness"]
-    cell, saturation = (_mean(dataset[name] / _mean(scale, points), *samples) for name in wanted[2:])
-    return resolved_window(cell, saturation)
+    cell, full_contact_stiffness = (
+        _mean(dataset[name] / _mean(scale, points), *samples) for name in wanted[2:]
+    )
+    return resolved_window(cell, full_contact_stiffness)
 
 
 def _mean(values: xarray.DataArray, *dims: str) -> xarray.DataArray:

@@ -37,14 +37,13 @@ def combined(
     Parameters
     ----------
     lower, upper : Surface
-        Both as measured, each looked at from outside, with its first row at the top of the picture. Their middles
-        are laid on each other.
+        Both as measured, each seen from outside, with its first row at the top of the picture. Their middles coincide.
     turned_about : {"y", "x", None}
         Axis about which the upper body is turned over to face the lower one. About y, as a page is turned:
         its columns are reversed. About x: its rows. None: it is given as seen through its
         back, in the lower one's coordinates.
     grid : Grid, optional
-        Grid of the result, of which the middle is laid on theirs. By default that of the surface with the
+        Grid of the result, whose middle coincides with theirs. By default that of the surface with the
         smaller cells; of the lower one if they are equal.
     interpolation : {"cubic", "linear"}
         How a surface on another grid is resampled, see `resampled` for its cost. Surfaces on equal grids are added
@@ -59,12 +58,21 @@ def combined(
     ------
     ValueError
         If one is periodic along an axis and the other is not, their periods differ, or they do not overlap.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> rough = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> f"{rc.combined(rough, rough, turned_about=None).rms:.3g} m"
+    '2e-06 m'
     """
     turned = _turned(upper, turned_about)
     target = grid
     if target is None:
         target = upper.grid if upper.grid.cell_area < lower.grid.cell_area * (1 - _SAME) else lower.grid
-    below, above = (resampled(body, target, interpolation) for body in (lower, turned))
+    below, above = (resampled(body, target, interpolation=interpolation) for body in (lower, turned))
     heights = below.heights + above.heights
     if np.isnan(heights).all():
         raise ValueError("the two surfaces have no measured point in common: nothing can touch")
@@ -72,7 +80,7 @@ def combined(
     return Surface(heights, target, (*below.provenance, line))
 
 
-def resampled(surface: Surface, grid: Grid, interpolation: Interpolation = "cubic") -> Surface:
+def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
     """Return the heights interpolated at the cell centres of another grid with the same middle.
 
     Parameters
@@ -101,6 +109,15 @@ def resampled(surface: Surface, grid: Grid, interpolation: Interpolation = "cubi
     their height, so that a surface that is rough down to its spacing comes out smoother between its points. Between
     the outermost points and the edges of their cells the same polynomials are continued. Onto a coarser grid nothing is
     averaged: waves shorter than twice its spacing appear as longer ones.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> coarse, fine = (rc.Grid((n, n), 64e-6 / n, periodic=True) for n in (32, 64))
+    >>> wave = rc.shapes.wave(coarse, amplitude=1e-6, wavelength=32e-6)
+    >>> finer = rc.resampled(wave, fine)
+    >>> finer.grid.shape, f"{finer.rms:.2g} m"
+    ((64, 64), '7.1e-07 m')
     """
     if interpolation not in ("cubic", "linear"):
         raise ValueError(f"interpolation must be 'cubic' or 'linear', not {interpolation!r}")

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -31,7 +31,7 @@ _CELLS = 4
 def filtered(
     surface: Surface, *, short_cutoff: float | None = None, long_cutoff: float | None = None
 ) -> Surface:
-    """Return the surface without its waves shorter than one cut-off and longer than another.
+    """Return the surface without the waves shorter than one cut-off and longer than another.
 
     Parameters
     ----------
@@ -42,6 +42,11 @@ def filtered(
         Wavelength [m] above which waves are taken out, the mean with them (the L-filter; high-pass). With both the
         long waves are taken out of what the S-filter leaves (the S-L surface; band-pass).
 
+    Returns
+    -------
+    Surface
+        The filtered surface; missing points stay missing.
+
     Raises
     ------
     ValueError
@@ -50,11 +55,11 @@ def filtered(
 
     Notes
     -----
-    A wave of length l is transmitted by exp(-pi (alpha c/l)^2) = 2^(-(c/l)^2) by a low-pass of cut-off c,
-    alpha^2 = ln 2 / pi, and by one less this by a high-pass. Along a periodic axis that is exact. Along a free axis
-    the heights within reach are averaged with the weights exp(-pi (x/(alpha c))^2), divided by their sum: near an
-    edge, about half a cut-off wide, the mean is taken over what is there (regression of order 0). Missing points
-    have no weight and stay missing.
+    The Gaussian filter of ISO 16610-61 for areas and ISO 16610-21 for profiles. A wave of length l is transmitted by
+    exp(-pi (alpha c/l)^2) = 2^(-(c/l)^2) by a low-pass of cut-off c, alpha^2 = ln 2 / pi, and by one less this by a
+    high-pass. Along a periodic axis that is exact. Along a free axis the heights within reach are averaged with the
+    weights exp(-pi (x/(alpha c))^2), divided by their sum: near an edge, about half a cut-off wide, the mean is taken
+    over the cells that exist (regression of order 0). Missing points have no weight and stay missing.
     """
     if short_cutoff is None and long_cutoff is None:
         raise ValueError("give short_cutoff, long_cutoff or both [m]")

@@ -13,8 +13,7 @@ from roughcontact.grid import Grid
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import Spectrum, Support, multiplicity, wave_powers, wavenumbers
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
@@ -75,6 +74,20 @@ def self_affine(
     ------
     ValueError
         If a parameter is out of range, or no wave is left.
+
+    Notes
+    -----
+    Thesis, eqs 2.10 to 2.15; two of them are corrected: in 2.12 the exponent lacks the position, and 2.15 is a sum over
+    wave vectors.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> f"{surface.rms:.3g} m"
+    '1e-06 m'
     """
     if not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
@@ -112,9 +125,13 @@ def synthesise(
     rng : numpy.random.Generator
         Source of the phases.
     rms : float, optional
-        Root mean square height [m]; without it the spectrum is taken as it is, and not just as a shape.
-    support, amplitudes, nodal
-        See `self_affine`.
+        Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
+    support : {"square", "disc"}
+        All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
+    amplitudes : {"exact", "gaussian"}
+        The spectrum exactly, or on the average over a Gaussian process.
+    nodal : bool
+        Whether the last row and column repeat the first, see `self_affine`.
 
     Returns
     -------
@@ -126,6 +143,16 @@ def synthesise(
     ------
     ValueError
         If a parameter is out of range, the spectrum is negative, not finite or not even, or no wave is left.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> spectrum = rc.SelfAffineSpectrum(hurst=0.8, rolloff=16e-6).scaled(1e-6, grid)
+    >>> surface = rc.synthesise(grid, spectrum, np.random.default_rng(1))
+    >>> f"{surface.rms:.3g} m"
+    '1e-06 m'
     """
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")

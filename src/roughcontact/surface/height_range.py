@@ -1,19 +1,57 @@
-"""The range of heights, at the border: finite, and neither so small nor so large that products lose digits."""
+"""Heights at the border: real, as many as cells, finite, and in a range in which products keep their digits."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
-from roughcontact.theory.tools.domain import moderate
+from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
+from roughcontact.validation import moderate
 
-__all__ = ["check_heights"]
+__all__ = ["is_elsewhere", "own_heights"]
+
+Array = npt.NDArray[np.float64]
 
 
-def check_heights(heights: npt.NDArray[np.float64]) -> None:
+def is_elsewhere(heights: Any) -> bool:
+    """Return whether heights are an array of another library than NumPy."""
+    return is_array(heights) and not is_numpy(heights)
+
+
+def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
+    """Return heights as a surface keeps them: a read-only copy, of another library's array the array itself.
+
+    Raises
+    ------
+    ValueError
+        If they are not real numbers, do not fit the grid, are infinite or all missing, or have a range that cannot be
+        squared without loss.
+    """
+    if is_elsewhere(heights):
+        own = heights
+        if not namespace(own).isdtype(own.dtype, "real floating"):
+            raise ValueError(
+                f"heights that are not NumPy's must be real floating numbers [m], not of type {own.dtype}: "
+                "convert whole numbers to float64"
+            )
+        if wants_gradient(own):
+            raise ValueError("nothing here is differentiated: give heights without gradients, .detach()")
+    else:
+        given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
+        if given.dtype.kind not in "fiu":
+            raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
+        own = np.array(given, dtype=np.float64)
+        own.flags.writeable = False
+    if tuple(own.shape) != shape:
+        raise ValueError(f"heights of shape {tuple(own.shape)} do not fit the grid of shape {shape}")
+    _check_range(own)
+    return own  # type: ignore[no-any-return]
+
+
+def _check_range(heights: Array) -> None:
     """Refuse heights that are infinite or all missing, or whose range is not 0 and cannot be squared without loss.
 
     Raises

@@ -1,4 +1,4 @@
-"""Level a surface, or take out its form: what remains is what is called rough."""
+"""Remove the tilt of a surface, or its form: what remains is its roughness."""
 
 from __future__ import annotations
 
@@ -13,22 +13,45 @@ if TYPE_CHECKING:
 
 __all__ = ["levelled", "without_form"]
 
-_DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
+# The degree of the polynomial that is taken out, and what the provenance calls it.
+_TRENDS = {
+    "mean": (0, "mean height removed"),
+    "plane": (1, "tilt removed by a least-squares plane"),
+    "quadratic": (2, "least-squares quadratic removed"),
+}
 
 
 def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "plane") -> Surface:
-    """Return the surface less its mean height, its least-squares plane or its least-squares quadratic.
+    """Return the surface without its mean height, its tilt or its curvature, by least squares.
 
-    On a line the plane is a straight line and the quadratic a parabola. Missing points are ignored and stay.
+    Missing points are ignored and stay missing.
+
+    Parameters
+    ----------
+    surface : Surface
+    kind : {"plane", "mean", "quadratic"}
+        What is removed: the least-squares plane and with it the tilt, the mean height alone, or the least-squares
+        polynomial of the second degree. On a line these are a straight line, the mean and a parabola.
+
+    Returns
+    -------
+    Surface
+        The surface with one more line of provenance.
+
+    Raises
+    ------
+    ValueError
+        If there is no such `kind`.
     """
-    if kind not in _DEGREES:
+    if kind not in _TRENDS:
         raise ValueError(f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
-    heights = surface.heights - polynomial_trend(surface.heights, _DEGREES[kind])
-    return replace(surface, heights=heights, provenance=(*surface.provenance, f"levelled by its {kind}"))
+    degree, line = _TRENDS[kind]
+    heights = surface.heights - polynomial_trend(surface.heights, degree)
+    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
 
 
 def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) -> Surface:
-    """Return the surface less the form that fits it best, by least squares of the heights.
+    """Return the surface without the form that fits it best, by least squares of the heights.
 
     Parameters
     ----------
@@ -36,6 +59,11 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
     form : int or {"sphere", "cylinder"}
         Total degree of a polynomial, up to 12; or a sphere; or a cylinder that lies in any direction and may be
         tilted along it. On a line both are an arc of a circle.
+
+    Returns
+    -------
+    Surface
+        The surface less its form, which the provenance describes.
 
     Raises
     ------

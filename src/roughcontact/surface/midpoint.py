@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["midpoint_line", "midpoint_surface"]
 
@@ -65,6 +65,14 @@ def midpoint_line(
     second differences over all positions, from a lag of 8 to one of 16 cells in 512, grow with the exponents 0.26,
     0.50 and 0.79 for H = 0.2, 0.5 and 0.8. The largest features rest on the first few numbers drawn, so
     samples scatter widely. Use `self_affine` for an exact spectrum.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> line = rc.midpoint_line(rc.Grid(129, 1e-6), hurst=0.8, rng=np.random.default_rng(1), rms=1e-6)
+    >>> f"{line.rms:.3g} m, ends at {line.heights[0]:.0f} and {line.heights[-1]:.0f} m"
+    '1e-06 m, ends at 0 and 0 m'
     """
     levels = _levels(grid, 1)
     first = _first(hurst, rng, displacement, rms, distribution)
@@ -132,6 +140,14 @@ def midpoint_surface(
     grid: over all positions second differences along it grow with smaller exponents at the shortest lags, some 0.53
     (0.56 with "saupe") from a lag of 1 to one of 2 cells at H = 0.8, and 0.75 from 8 to 16. Use
     `self_affine` for an exact spectrum.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.midpoint_surface(rc.Grid((65, 65), 1e-6), hurst=0.8, rng=np.random.default_rng(1), rms=1e-6)
+    >>> f"{surface.rms:.3g} m"
+    '1e-06 m'
     """
     levels = _levels(grid, 2)
     first = _first(hurst, rng, displacement, rms, distribution)

@@ -28,6 +28,16 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     method : {"harmonic", "nearest"}
         The solution of Laplace's equation through the measured heights around, like a soap film (at the edge of a
         free map it meets the edge at right angles); or the height of the nearest measured point.
+
+    Returns
+    -------
+    Surface
+        The surface without missing points; the surface itself if it has none.
+
+    Raises
+    ------
+    ValueError
+        If there is no such `method`.
     """
     if method not in ("harmonic", "nearest"):
         raise ValueError(f"method must be 'harmonic' or 'nearest', not {method!r}")
@@ -44,32 +54,27 @@ def _harmonic(heights: Array, spacing: tuple[float, ...], periodic: tuple[bool, 
     from scipy.sparse import coo_array
     from scipy.sparse.linalg import splu
 
-    missing = np.isnan(heights)
+    missing = np.isnan(heights).reshape(-1)
     unknowns = np.flatnonzero(missing)
     number = np.full(heights.size, -1)
     number[unknowns] = np.arange(unknowns.size)
-    flat = heights.reshape(-1)
-    level = float(np.nanmean(heights))
-    places = np.arange(heights.size).reshape(heights.shape)
+    flat, level = heights.reshape(-1), float(np.nanmean(heights))
+    places = np.stack(np.unravel_index(unknowns, heights.shape))
     diagonal, right = np.zeros(unknowns.size), np.zeros(unknowns.size)
     rows, columns, values = [], [], []
-    for axis, (step, repeats) in enumerate(zip(spacing, periodic, strict=True)):
+    for axis, (n, step, repeats) in enumerate(zip(heights.shape, spacing, periodic, strict=True)):
+        weight = (min(spacing) / step) ** 2  # only the ratio of the steps counts
         for way in (1, -1):
-            neighbour = np.roll(places, -way, axis=axis)
-            if not repeats:
-                neighbour = neighbour.copy()
-                neighbour[(slice(None),) * axis + (-1 if way == 1 else 0,)] = -1
-            beside = neighbour.reshape(-1)[unknowns]
-            inside = beside >= 0
-            # Only the ratio of the steps counts.
-            weight = (min(spacing) / step) ** 2
+            moved = places.copy()
+            moved[axis] += way
+            inside = np.flatnonzero(repeats | ((moved[axis] >= 0) & (moved[axis] < n)))
+            beside = np.ravel_multi_index(tuple(moved[:, inside]), heights.shape, mode="wrap")
             diagonal[inside] += weight
-            known = inside & ~np.isnan(np.where(inside, flat[beside], np.nan))
-            right[known] += weight * (flat[beside[known]] - level)
-            both = inside & ~known
-            rows.append(np.flatnonzero(both))
-            columns.append(number[beside[both]])
-            values.append(np.full(np.count_nonzero(both), -weight))
+            known = ~missing[beside]
+            right[inside[known]] += weight * (flat[beside[known]] - level)
+            rows.append(inside[~known])
+            columns.append(number[beside[~known]])
+            values.append(np.full(rows[-1].size, -weight))
     each = np.arange(unknowns.size)
     matrix = coo_array(
         (

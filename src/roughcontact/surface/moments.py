@@ -19,7 +19,7 @@ from roughcontact.surface.wave_grid import (
     wave_powers,
     wavenumbers,
 )
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
 
@@ -49,6 +49,13 @@ class Moments:
     ------
     ValueError
         If a moment is negative or not a number, or `dimension` is neither 1 nor 2.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> moments = rc.Moments(m0=1e-12, m2=5e-3, m4=1e8)
+    >>> f"{moments.rms_height:.3g} m, slope {moments.rms_slope:.3g}, Nayak {moments.nayak:.3g}"
+    '1e-06 m, slope 0.1, Nayak 4'
     """
 
     m0: float
@@ -93,7 +100,7 @@ class Moments:
         return replace(self, dimension=1)
 
 
-def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") -> Moments:
+def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square") -> Moments:
     """Return the moments of `spectrum` as sums over the waves of `grid`.
 
     They are those of every surface with exact amplitudes that is synthesised on the grid with that spectrum,
@@ -101,24 +108,45 @@ def grid_moments(spectrum: Spectrum, grid: Grid, support: Support = "square") ->
 
     Parameters
     ----------
-    spectrum : callable or PlanarSpectrum
-        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     grid : Grid
         One period; of a nodal grid without its last row and column.
+    spectrum : callable or PlanarSpectrum
+        C2D [m^4], on a line C1D [m^3], see `synthesise`.
     support : {"square", "disc"}
         See `self_affine`.
+
+    Returns
+    -------
+    Moments
+        m0, m2 and m4 of a profile.
+
+    Raises
+    ------
+    ValueError
+        If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> spectrum = rc.SelfAffineSpectrum(hurst=0.8).scaled(1e-6, grid)
+    >>> f"{rc.grid_moments(grid, spectrum).rms_height:.3g} m"
+    '1e-06 m'
     """
     powers = wave_powers(spectrum, grid.shape, grid.spacing, support) * multiplicity(grid.shape)
     return _summed(powers, grid)
 
 
-def surface_moments(surface: Surface, derivative: Literal["spectral", "difference"] | None = None) -> Moments:
+def surface_moments(
+    surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
+) -> Moments:
     """Return the moments of the heights of a surface or a line.
 
     Parameters
     ----------
     surface : Surface
-        Level it first: a tilt counts as slope.
+        Without tilt, which would count as slope: see `Surface.levelled`.
     derivative : {"spectral", "difference"}, optional
         How slopes and curvatures are taken; by default "spectral" on a periodic grid without missing points,
         else "difference". "spectral" takes any surface for one period of a periodic one, a step at
@@ -140,6 +168,15 @@ def surface_moments(surface: Surface, derivative: Literal["spectral", "differenc
     Differences of neighbours, ``(z[i+1] - z[i])/D`` and the second differences, damp a wave q along an axis: its
     mean square slope by ``s^2`` and its mean square curvature by ``s^4``, ``s = sin(qD/2)/(qD/2)``, which is
     0.64 for the shortest waves. Differences with a missing neighbour are left out of the means.
+
+    Examples
+    --------
+    >>> import math
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> moments = rc.surface_moments(rc.shapes.wave(grid, amplitude=1e-7, wavelength=32e-6))
+    >>> f"slope {moments.rms_slope:.5f} = {2 * math.pi / 32e-6 * 1e-7 / math.sqrt(2):.5f}"
+    'slope 0.01388 = 0.01388'
     """
     grid, whole = surface.grid, surface.missing == 0
     if derivative is None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -17,7 +17,17 @@ __all__ = ["flipped", "rotated", "transposed"]
 
 
 def transposed(surface: Surface) -> Surface:
-    """Return the surface with rows and columns exchanged: mirrored about the diagonal of the picture."""
+    """Return the surface with rows and columns exchanged: mirrored about the diagonal of the picture.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    Surface
+        On the grid with its axes exchanged.
+    """
     return replace(
         surface,
         heights=surface.heights.T,
@@ -27,7 +37,24 @@ def transposed(surface: Surface) -> Surface:
 
 
 def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
-    """Return the surface mirrored: along ``"y"`` top and bottom change places, along ``"x"`` left and right."""
+    """Return the surface mirrored along one axis.
+
+    Parameters
+    ----------
+    surface : Surface
+    axis : {"y", "x"}
+        "y" exchanges top and bottom, "x" left and right. A line has "x" only.
+
+    Returns
+    -------
+    Surface
+        On the same grid.
+
+    Raises
+    ------
+    ValueError
+        If the grid has no such axis.
+    """
     axes = {"x": -1} | ({"y": 0} if surface.grid.ndim == 2 else {})
     if axis not in axes:
         raise ValueError(f"axis must be one of {', '.join(axes)}, not {axis!r}")
@@ -37,7 +64,25 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
 
 @numeric
 def rotated(surface: Surface, quarters: int = 1) -> Surface:
-    """Return the surface turned counter-clockwise, as the picture shows it, by `quarters` of a turn."""
+    """Return the surface turned counter-clockwise, as the picture shows it.
+
+    Parameters
+    ----------
+    surface : Surface
+        On a grid of two axes.
+    quarters : int
+        Number of quarter turns; negative ones turn clockwise.
+
+    Returns
+    -------
+    Surface
+        After an odd number of quarters on the grid with its axes exchanged.
+
+    Raises
+    ------
+    ValueError
+        If the surface is a line, or `quarters` is not a whole number.
+    """
     if surface.grid.ndim != 2:
         raise ValueError("only a surface of two axes can be turned; flip a line")
     grid = _exchanged(surface.grid) if quarters % 2 else surface.grid

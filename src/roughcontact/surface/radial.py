@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_array, is_numpy
 from roughcontact.grid import RadialGrid
-from roughcontact.surface.height_range import check_heights
+from roughcontact.surface.height_range import is_elsewhere, own_heights
 
 __all__ = ["RadialProfile"]
 
@@ -36,6 +35,15 @@ class RadialProfile:
     ------
     ValueError
         If the heights do not fit the rings, are infinite, or hold no number.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(100, radius=1e-4)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / (2 * 1e-3), rings)
+    >>> solution = rc.press(ball, 1e9, force=1e-2, operator=rc.ring(rings, 1e9))
+    >>> f"Hertz: {(0.75 * 1e-2 / 1e9) ** (2 / 3) / 1e-3 ** (1 / 3) * 1e9:.0f} nm, here {solution.depth * 1e9:.0f} nm"
+    'Hertz: 383 nm, here 383 nm'
     """
 
     heights: Array
@@ -45,21 +53,9 @@ class RadialProfile:
     def __post_init__(self) -> None:
         if not isinstance(self.grid, RadialGrid):
             raise ValueError(f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}")
-        if is_array(self.heights) and not is_numpy(self.heights):
+        if is_elsewhere(self.heights):
             raise ValueError("the heights of a radial profile must be NumPy's: bring them to the host")
-        given = (
-            np.ma.filled(self.heights, np.nan)
-            if np.ma.isMaskedArray(self.heights)
-            else np.asarray(self.heights)
-        )
-        if given.dtype.kind not in "fiu":
-            raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
-        heights = np.array(given, dtype=np.float64)  # a copy: a profile never changes
-        if heights.shape != self.grid.shape:
-            raise ValueError(f"heights of shape {heights.shape} do not fit {self.grid.size} rings")
-        check_heights(heights)
-        heights.flags.writeable = False
-        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "heights", own_heights(self.heights, self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     @property

@@ -1,4 +1,4 @@
-"""Fewer points: cut out, thin out, average over pixels."""
+"""Fewer points: a part of a surface, a subsample, means over pixels."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import gaussian_mean
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -18,9 +18,20 @@ __all__ = ["averaged", "cropped", "downsampled"]
 
 
 def cropped(surface: Surface, *parts: slice) -> Surface:
-    """Return the part of the surface in `parts`, one slice of cells an axis: rows, then columns.
+    """Return the part of the surface in `parts`.
 
     An axis that is cut is free in the result; one that is kept whole stays as it was.
+
+    Parameters
+    ----------
+    surface : Surface
+    *parts : slice
+        Ranges of cells, one slice of step 1 for each axis: rows, then columns.
+
+    Returns
+    -------
+    Surface
+        The cells in `parts`.
 
     Raises
     ------
@@ -31,7 +42,7 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
     if len(parts) != grid.ndim:
         raise ValueError(f"cropping needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
     if any(part.step not in (None, 1) for part in parts):
-        raise ValueError("a crop has no step: use downsampled to thin out")
+        raise ValueError("a crop has no step: use downsampled for a subsample")
     ranges = [part.indices(n) for part, n in zip(parts, grid.shape, strict=True)]
     if any(stop <= start for start, stop, _ in ranges):
         raise ValueError(f"nothing is left of {grid.shape} cells in {_words(ranges)}")
@@ -48,7 +59,7 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
 
 
 def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: bool = True) -> Surface:
-    """Return every `factor`-th point of the surface along each axis.
+    """Return a subsample of the surface: every `factor`-th point along each axis.
 
     Parameters
     ----------
@@ -58,6 +69,11 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
     anti_alias : bool
         Filter first: the Gaussian filter with the shortest wave of the new grid, two new cells, as its cut-off.
         Without it, shorter waves come back as long ones that are not there.
+
+    Returns
+    -------
+    Surface
+        On a grid of fewer and larger cells.
 
     Raises
     ------
@@ -94,15 +110,18 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
 
 
 def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
-    """Return the surface as pixels of `factor` cells a side see it: the mean over each block.
-
-    A block of which less than half was measured is missing.
+    """Return the surface as pixels of `factor` cells a side record it: the mean over each block.
 
     Parameters
     ----------
     surface : Surface
     factor : int or tuple of int
         Cells a pixel for all axes, or one number an axis (y, x).
+
+    Returns
+    -------
+    Surface
+        On a grid of fewer and larger cells. A block of which less than half was measured is missing.
 
     Raises
     ------

@@ -19,8 +19,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.domain import moderate, number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, number, numeric
 
 __all__ = [
     "cone",
@@ -54,6 +53,10 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+
     Raises
     ------
     ValueError
@@ -74,6 +77,10 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
         Radius R [m].
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------
@@ -98,6 +105,10 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
         Direction along which the cylinder lies.
     centre : tuple of float, optional
         A point ``(y, x)`` of its crest [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------
@@ -125,6 +136,10 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+
     Raises
     ------
     ValueError
@@ -147,6 +162,10 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
         Coefficient Q > 0 [m^(1-n)].
     centre : tuple of float, optional
         Place ``(y, x)`` of the apex [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------
@@ -172,6 +191,10 @@ def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+
     Raises
     ------
     ValueError
@@ -192,6 +215,10 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
         Radii, ``0 <= inner < outer`` [m].
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------
@@ -223,6 +250,10 @@ def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     centre : tuple of float, optional
         Its centre ``(y, x)`` [m]; by default the middle of the grid.
 
+    Returns
+    -------
+    Surface
+
     Raises
     ------
     ValueError
@@ -248,6 +279,10 @@ def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
         Length of a side [m].
     centre : tuple of float, optional
         Its centroid ``(y, x)`` [m]; by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------
@@ -284,6 +319,10 @@ def wave(
         Direction along which the height changes. A line has its own only, "x".
     centre : tuple of float, optional
         Place ``(y, x)`` of a crest [m] (on a line ``(x,)``); by default the middle of the grid.
+
+    Returns
+    -------
+    Surface
 
     Raises
     ------

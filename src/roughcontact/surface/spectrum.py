@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -13,30 +12,11 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import moderate, numeric, require_numbers
 
-__all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
+__all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 
 Array = npt.NDArray[np.float64]
-
-
-class RadialSpectrum(Protocol):
-    """What theories ask of an isotropic spectrum: its values, its band and its moments."""
-
-    @property
-    def q_min(self) -> float:
-        """Smallest wavenumber [rad/m]; 0 if there is none."""
-
-    @property
-    def q_max(self) -> float:
-        """Largest wavenumber [rad/m]; infinite if there is none."""
-
-    def __call__(self, wavenumber: Array) -> Array:
-        """Return C2D [m^4] at the wavenumbers [rad/m]; zero outside the band."""
-
-    def moments(self) -> Moments:
-        """Return the moments of the continuous spectrum."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +44,14 @@ class SelfAffineSpectrum:
     ------
     ValueError
         If H is out of range, or a wavelength or the scale is not positive, or the limits leave no wave.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> spectrum = rc.SelfAffineSpectrum(hurst=0.8, long_cutoff=1e-4, short_cutoff=1e-6).scaled(rms=1e-6)
+    >>> moments = spectrum.moments()
+    >>> f"{moments.rms_height:.3g} m, slope {moments.rms_slope:.3f}"
+    '1e-06 m, slope 0.290'
     """
 
     hurst: float
@@ -122,6 +110,11 @@ class SelfAffineSpectrum:
 
         An integral that diverges for want of a limit is infinite: m0 without `long_cutoff` or
         `rolloff` for H >= 0, and m2 without `short_cutoff` for H <= 1, for example.
+
+        Returns
+        -------
+        Moments
+            m0, m2 and m4 of a profile.
         """
         # The angular mean of cos^n times the angle's range, and of a line its two sides.
         factors = (2.0, 2.0, 2.0) if self.dimension == 1 else (2 * math.pi, math.pi, 3 * math.pi / 4)
@@ -142,6 +135,11 @@ class SelfAffineSpectrum:
         support : {"square", "disc"}
             Which waves of the grid, see `self_affine`.
 
+        Returns
+        -------
+        SelfAffineSpectrum
+            The same law with another `scale`.
+
         Raises
         ------
         ValueError
@@ -150,7 +148,7 @@ class SelfAffineSpectrum:
         if not (math.isfinite(rms) and rms > 0):
             raise ValueError(f"rms must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
-        m0 = (self.moments() if grid is None else grid_moments(self, grid, support)).m0
+        m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
             raise ValueError(
                 f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "
@@ -189,6 +187,17 @@ class StretchedSpectrum:
     ------
     ValueError
         If `ratio` is not positive or `angle` not finite, or the spectrum is that of a line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> spectrum = rc.StretchedSpectrum(rc.SelfAffineSpectrum(0.8, long_cutoff=16e-6), ratio=4)
+    >>> surface = rc.synthesise(grid, spectrum, np.random.default_rng(1), rms=1e-6)
+    >>> along, across = (rc.structure_profile(surface, axis, lags=[1]).value.item() for axis in "xy")
+    >>> along < across
+    True
     """
 
     spectrum: Callable[[Array], Array]
@@ -205,7 +214,18 @@ class StretchedSpectrum:
             raise ValueError("a line has no direction: stretch the spectrum of a surface, dimension=2")
 
     def at(self, qy: Array, qx: Array) -> Array:
-        """Return C2D [m^4] at the wave vectors ``(qy, qx)`` [rad/m]."""
+        """Return C2D at wave vectors.
+
+        Parameters
+        ----------
+        qy, qx : array
+            Components of the wave vectors [rad/m], of one shape.
+
+        Returns
+        -------
+        array, the same shape
+            C2D [m^4].
+        """
         cos, sin = math.cos(self.angle), math.sin(self.angle)
         along, across = qx * cos + qy * sin, qy * cos - qx * sin
         stretch = math.sqrt(self.ratio)
@@ -221,12 +241,32 @@ class DirectionalSpectrum:
     function : callable
         ``function(qy, qx)`` returns C2D [m^4] for arrays of components [rad/m] of any shape. The first component
         is that along y, as everywhere.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> ridges = rc.DirectionalSpectrum(lambda qy, qx: np.where(qy == 0, 1 / (1 + (qx / 1e5) ** 4), 0.0))
+    >>> surface = rc.synthesise(grid, ridges, np.random.default_rng(1), rms=1e-6)
+    >>> f"{surface.rms:.3g} m"
+    '1e-06 m'
     """
 
     function: Callable[[Array, Array], Array]
 
     def at(self, qy: Array, qx: Array) -> Array:
-        """Return C2D [m^4] at the wave vectors ``(qy, qx)`` [rad/m].
+        """Return C2D at wave vectors.
+
+        Parameters
+        ----------
+        qy, qx : array
+            Components of the wave vectors [rad/m], of one shape.
+
+        Returns
+        -------
+        array, the same shape
+            C2D [m^4].
 
         Raises
         ------

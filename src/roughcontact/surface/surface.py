@@ -1,4 +1,4 @@
-"""Heights on a grid, and how to level them."""
+"""Heights on a grid."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from typing import ClassVar, Concatenate, ParamSpec, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import filtered
-from roughcontact.surface.height_range import check_heights
+from roughcontact.surface.height_range import own_heights
 from roughcontact.surface.levelling import levelled, without_form
 from roughcontact.surface.missing import filled
 from roughcontact.surface.orientation import flipped, rotated, transposed
 from roughcontact.surface.sampling import averaged, cropped, downsampled
-from roughcontact.surface.taper import tapered
 from roughcontact.surface.tip import scanned
+from roughcontact.surface.windows import tapered
 
 __all__ = ["Surface"]
 
@@ -66,6 +66,17 @@ class Surface:
     ValueError
         If the heights do not fit the grid, are infinite, hold no measured point, or have a range below 1e-50 m (but
         for 0) or above 1e50 m, where products lose digits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid(shape=(2, 3), spacing=1e-6)
+    >>> surface = rc.Surface(np.array([[0.0, 1e-9, np.nan], [2e-9, 3e-9, 4e-9]]), grid)
+    >>> surface.missing, f"{surface.rms:.3g} m"
+    (1, '1.41e-09 m')
+    >>> surface.levelled("mean").provenance
+    ('mean height removed',)
     """
 
     heights: Array
@@ -76,41 +87,7 @@ class Surface:
     __array_ufunc__: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        if is_array(self.heights) and not is_numpy(self.heights):
-            self._keep()
-            return
-        given = (
-            np.ma.filled(self.heights, np.nan)
-            if np.ma.isMaskedArray(self.heights)
-            else np.asarray(self.heights)
-        )
-        if given.dtype.kind not in "fiu":
-            raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
-        heights = np.array(given, dtype=np.float64)  # a copy: a surface never changes
-        if heights.shape != self.grid.shape:
-            raise ValueError(
-                f"heights of shape {heights.shape} do not fit the grid of shape {self.grid.shape}"
-            )
-        check_heights(heights)
-        heights.flags.writeable = False
-        object.__setattr__(self, "heights", heights)
-        object.__setattr__(self, "provenance", tuple(self.provenance))
-
-    def _keep(self) -> None:
-        """Check heights of another library than NumPy, and leave them where they are."""
-        heights, xp = self.heights, namespace(self.heights)
-        if not xp.isdtype(heights.dtype, "real floating"):
-            raise ValueError(
-                f"heights that are not NumPy's must be real floating numbers [m], not of type {heights.dtype}: "
-                "convert whole numbers to float64"
-            )
-        if wants_gradient(heights):
-            raise ValueError("nothing here is differentiated: give heights without gradients, .detach()")
-        if tuple(heights.shape) != self.grid.shape:
-            raise ValueError(
-                f"heights of shape {tuple(heights.shape)} do not fit the grid of shape {self.grid.shape}"
-            )
-        check_heights(heights)
+        object.__setattr__(self, "heights", own_heights(self.heights, self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     def __add__(self, other: Surface) -> Surface:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
+import scipy.ndimage
 
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.grid import Grid
+from roughcontact.validation import moderate, numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -24,7 +25,8 @@ Array = npt.NDArray[np.float64]
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
     """Return the surface as a tip records it that follows without force: the heights of its lowest point.
 
-    Peaks come out wider, valleys narrower, and those too narrow for the tip are not reached (thesis, section 2.1).
+    Peaks come out wider, valleys narrower, and the tip does not reach into those too narrow for it (thesis, section
+    2.1).
 
     Parameters
     ----------
@@ -32,6 +34,11 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     tip_radius : float
         Radius of the tip at its apex [m].
     tip : {"sphere", "paraboloid"}
+
+    Returns
+    -------
+    Surface
+        The recorded heights; missing points stay missing.
 
     Raises
     ------
@@ -52,16 +59,15 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
         raise ValueError(f"tip must be 'sphere' or 'paraboloid', not {tip!r}")
     heights, grid = surface.heights, surface.grid
     measured = ~np.isnan(heights)
-    solid = np.where(measured, heights, -np.inf)
     span = float(heights[measured].max() - heights[measured].min())
+    record = np.where(measured, heights, -np.inf)
     if tip == "paraboloid":
-        record = solid
+        reach = math.sqrt(2 * tip_radius * span)
         for axis in range(grid.ndim):
-            reach = math.sqrt(2 * tip_radius * span)
-            record = _dilated(record, grid.spacing, grid.periodic, reach, tip_radius, tip, (axis,))
+            record = _dilated(record, grid, reach, tip_radius, tip, (axis,))
     else:
         reach = math.sqrt(span * (2 * tip_radius - span)) if span < tip_radius else tip_radius
-        record = _dilated(solid, grid.spacing, grid.periodic, reach, tip_radius, tip, range(grid.ndim))
+        record = _dilated(record, grid, reach, tip_radius, tip, tuple(range(grid.ndim)))
     line = f"scanned by a {tip} of radius {tip_radius:.6g} m"
     return replace(
         surface, heights=np.where(measured, record, np.nan), provenance=(*surface.provenance, line)
@@ -69,39 +75,32 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
 
 
 def _dilated(
-    heights: Array,
-    spacing: tuple[float, ...],
-    periodic: tuple[bool, ...],
-    reach: float,
-    radius: float,
-    tip: str,
-    axes: range | tuple[int, ...],
+    heights: Array, grid: Grid, reach: float, radius: float, tip: str, axes: tuple[int, ...]
 ) -> Array:
     """Return the largest height less the tip's over all shifts along `axes` within `reach` [m]."""
-    far = [0] * heights.ndim
-    for axis in axes:
-        most = math.floor(reach / spacing[axis] * (1 + 1e-12))
-        # On a free axis no neighbour is farther than the other end; on a periodic one all have been met by then.
-        far[axis] = min(most, heights.shape[axis] - 1)
-    pads = [(n, n) for n in far]
-    wide = heights
-    for axis, pad in enumerate(pads):
-        around = [pad if k == axis else (0, 0) for k in range(heights.ndim)]
-        free = np.pad(wide, around, constant_values=-np.inf)
-        wide = np.pad(wide, around, mode="wrap") if periodic[axis] else free
-    result = heights.copy()
-    scratch = np.empty_like(result)
-    for shift in np.ndindex(*(2 * n + 1 for n in far)):
-        offset = [k - n for k, n in zip(shift, far, strict=True)]
-        square = sum((k * step) ** 2 for k, step in zip(offset, spacing, strict=True))
-        if square > reach * reach * (1 + 1e-12):
-            continue
-        drop = (
-            square / (2 * radius)
-            if tip == "paraboloid"
-            else square / (radius + math.sqrt(max(radius * radius - square, 0)))
-        )
-        window = tuple(slice(k, k + n) for k, n in zip(shift, heights.shape, strict=True))
-        np.subtract(wide[window], drop, out=scratch)
-        np.maximum(result, scratch, out=result)
-    return result
+    # On a free axis no neighbour is farther than the other end; on a periodic one all have been met by then.
+    far = [
+        min(math.floor(reach / step * (1 + 1e-12)), n - 1) if axis in axes else 0
+        for axis, (n, step) in enumerate(zip(heights.shape, grid.spacing, strict=True))
+    ]
+    shifts = np.meshgrid(
+        *(np.arange(-n, n + 1) * step for n, step in zip(far, grid.spacing, strict=True)),
+        indexing="ij",
+        sparse=True,
+    )
+    square = np.asarray(sum(shift**2 for shift in shifts))
+    drop = (
+        square / (2 * radius)
+        if tip == "paraboloid"
+        else square / (radius + np.sqrt(np.maximum(radius * radius - square, 0)))
+    )
+    pads = [(n, n) if periodic else (0, 0) for n, periodic in zip(far, grid.periodic, strict=True)]
+    record = scipy.ndimage.grey_dilation(  # type: ignore[call-overload]  # its stubs know whole numbers only
+        np.pad(heights, pads, mode="wrap"),
+        footprint=square <= reach * reach * (1 + 1e-12),
+        structure=-drop,
+        mode="constant",
+        cval=-np.inf,
+    )
+    inner = tuple(slice(pad, pad + n) for (pad, _), n in zip(pads, heights.shape, strict=True))
+    return np.asarray(record[inner])

@@ -15,16 +15,12 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.theory.asperity_balance import balance, independent_depth
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import number, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import Array, number, numeric, positive, require, require_numbers
 
 __all__ = ["Asperities", "AsperityContact", "law", "press"]
-
-Array = npt.NDArray[np.float64]
 
 SOURCE = "Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54, 2569 (2006)"
 
@@ -188,6 +184,16 @@ def press(
     -----
     Every summit is in balance: ``compression = depth - fall - sum_j F_j/(pi E* r_j)``, or its force is 0 if that is
     negative. Inside the spot of another summit r is taken as the radius of the spot.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import asperities
+    >>> x, flat = np.array([0.0, 1e-3]), np.zeros(2)
+    >>> two = asperities.Asperities(x, flat, flat, np.full(2, 1e-3), 1e9)
+    >>> contact = asperities.press(two, force=2.0)  # two equal summits share the force
+    >>> contact.forces.round(6).tolist(), contact.merged
+    ([1.0, 1.0], 0)
     """
     if (force is None) == (depth is None):
         raise ValueError("give either a force [N] or a depth [m]")
@@ -216,6 +222,15 @@ def law(asperities: Asperities, *, interaction: bool = True) -> LoadingLaw:
         "contact_area", "spots" and "elastic_energy"; with interaction "depth" and "stiffness", those of the approach of
         the bodies, without it "interfacial_stiffness" alone, since nothing lies beneath the summits. Each call
         solves for all forces again. The law has no upper force: `AsperityContact.merged` tells where spots merge.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import asperities
+    >>> one = asperities.Asperities(np.zeros(1), np.zeros(1), np.zeros(1), np.full(1, 1e-3), 1e9)
+    >>> law = asperities.law(one)  # a single summit is Hertz' sphere: F = (4/3) E* R^(1/2) d^(3/2)
+    >>> round(float(4 / 3 * 1e9 * 1e-3**0.5 * law.predict("depth", 2.0) ** 1.5), 6)
+    2.0
     """
     found = {
         "contact_area": "contact_area",

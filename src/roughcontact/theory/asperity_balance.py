@@ -15,15 +15,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import require
+from roughcontact.theory.tools.roots import concave_root
+from roughcontact.validation import Array, require
 
 if TYPE_CHECKING:
     from roughcontact.theory.asperities import Asperities
 
 __all__ = ["balance", "independent_depth"]
-
-Array = npt.NDArray[np.float64]
 
 TOLERANCE = 1e-12  # of the balance over the depth of the flat, and of the force
 STEPS = 60

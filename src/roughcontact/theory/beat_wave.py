@@ -12,8 +12,7 @@ from scipy.special import binom, gammaln, j0
 
 from roughcontact.theory import cosine
 from roughcontact.theory.height_distribution import HeightDistribution
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require, scalar
 
 __all__ = ["beat_wave"]
 
@@ -36,6 +35,10 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     amplitude : float
         h0 of each wave [m].
 
+    Returns
+    -------
+    HeightDistribution
+
     Raises
     ------
     ValueError
@@ -49,6 +52,13 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     Near the peak from the power series of the N-fold convolution of 1/(pi sqrt(z(2 - z))); further down from the
     Fourier series of the bounded heights, whose coefficients are J0^N. One wave is closed (thesis, eq. 4.33). The
     error is below 2e-6 for up to eight waves; for more, the fraction is small where it is computed to 1e-15 of one.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import beat_wave, cosine
+    >>> one = beat_wave.beat_wave(1, 1e-6).force(1e-6, 1e-3, 1e11)
+    >>> round(float(one / cosine.force(1e-6, 1e-6, 1e-3, 1e11)), 6)  # one wave is the cosine
+    1.0
     """
     given = scalar(modes, "modes")
     require(given >= 1 and given % 1 == 0, f"modes must be a positive whole number, not {modes}")

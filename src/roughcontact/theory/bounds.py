@@ -8,10 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.punch.polygon import square
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
-__all__ = ["CELL", "KING", "WINDOW", "cell", "king_saturation", "resolved", "saturation", "spring", "window"]
+__all__ = [
+    "CELL",
+    "KING",
+    "WINDOW",
+    "cell",
+    "full_contact_stiffness",
+    "king_full_contact_stiffness",
+    "resolved",
+    "spring",
+    "window",
+]
 
 # Of one square cell under uniform pressure, k/(E* spacing) = pi/K00 with K00 = 4 ln(1 + sqrt 2) (thesis, eq. 4.15).
 CELL = math.pi / (4 * math.log(1 + math.sqrt(2)))
@@ -33,6 +42,17 @@ def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     spacing : float or array
         Side of the square cell [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.cell(1e11, 1e-6)), 1)
+    89110.7
     """
     return CELL * positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
@@ -47,12 +67,23 @@ def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     spacing : float or array
         Distance of the springs [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.spring(1e11, 1e-6)), 1)
+    100000.0
     """
     return positive(modulus, "modulus [Pa]") * positive(spacing, "spacing [m]")
 
 
 @numeric
-def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+def full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
     """Return the stiffness that no contact inside a square exceeds, 1.152298 E* L [N/m] (thesis, eqs 4.7 and 4.14).
 
     Parameters
@@ -61,15 +92,26 @@ def saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     length : float or array
         Side L of the square [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.full_contact_stiffness(1e11, 1e-3) / 1e11 / 1e-3), 6)
+    1.152298
     """
     return square(modulus, length)
 
 
 @numeric
-def king_saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
-    """Return the saturation as the thesis prints it, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L [N/m] (eqs 4.7 and 4.14).
+def king_full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+    """Return the full-contact stiffness [N/m] as printed, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L (eqs 4.7 and 4.14).
 
-    0.9 % too low, see `saturation`: a converged result exceeds it. Only to redraw the thesis' figures.
+    0.9 % too low, see `full_contact_stiffness`: a converged result exceeds it. Only to redraw the thesis' figures.
 
     Parameters
     ----------
@@ -77,6 +119,17 @@ def king_saturation(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     length : float or array
         Side L of the square [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> round(float(bounds.king_full_contact_stiffness(1.0, 1.0)), 4)
+    1.1419
     """
     scale = positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
     return 2 * KING / math.sqrt(math.pi) * scale
@@ -102,15 +155,22 @@ def window(
     Returns
     -------
     lowest, highest : float or array
-        `cells` times that of one cell (eq. 4.16), and the saturation (eq. 4.14).
+        `cells` times that of one cell (eq. 4.16), and the full-contact stiffness (eq. 4.14).
 
     Raises
     ------
     ValueError
         If nothing lies between: the grid is too coarse.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> lowest, highest = bounds.window(1e11, 1e-3, 1e-6)
+    >>> round(float(highest / lowest), 1)  # 20 cells of a thousand a side: less than two decades
+    64.7
     """
     lowest = positive(cells, "cells") * cell(modulus, spacing)
-    highest = saturation(modulus, length)
+    highest = full_contact_stiffness(modulus, length)
     require(
         lowest < highest,
         f"{cells} single cells are stiffer than the whole square: the spacing must be below "
@@ -134,8 +194,25 @@ def resolved(
     ----------
     stiffness : float or array
         Contact stiffness k [N/m].
-    modulus, length, spacing, cells
-        See `window`.
+    modulus : float or array
+        Reduced modulus E* [Pa].
+    length : float or array
+        Side L of the square [m].
+    spacing : float or array
+        Side of a cell [m].
+    cells : float
+        How many times the stiffness of one cell is enough.
+
+    Returns
+    -------
+    bool or array
+        True where k is at least the lowest stiffness of the window and below the highest.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import bounds
+    >>> bounds.resolved([1e5, 1e7, 1e9], 1e11, 1e-3, 1e-6).tolist()
+    [False, True, False]
     """
     lowest, highest = window(modulus, length, spacing, cells=cells)
     k = positive(stiffness, "stiffness [N/m]", zero=True)

@@ -14,7 +14,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import make_interp_spline
 from scipy.special import erfc, ndtri_exp
 
@@ -24,13 +23,10 @@ from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.nayak import bandwidth, free_variance
 from roughcontact.theory.profile_moments import ProfileMoments, moment
 from roughcontact.theory.summit_integrals import log_integrals
-from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import number, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.theory.tools.roots import concave_root
+from roughcontact.validation import Array, number, numeric, positive, require, require_numbers
 
 __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
-
-Array = npt.NDArray[np.float64]
 
 ELLIPTIC = "Bush, Gibson and Thomas, Wear 35, 87 (1975)"
 CIRCULAR = "Greenwood, Wear 261, 191 (2006)"
@@ -82,32 +78,97 @@ class Summits:
         return math.sqrt(self.moments.m0)
 
     def pressure(self, separation: float | Array) -> Array:
-        """Return the nominal pressure [Pa] at a separation of the mean planes [m], which must not be negative."""
+        """Return the nominal pressure [Pa] at a separation of the mean planes [m], which must not be negative.
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
         return self._force_scale * np.exp(self._log_loads(self._plane(separation), 1.5)[0])
 
     def stiffness(self, separation: float | Array) -> Array:
-        """Return -dp/ds, the interfacial stiffness per nominal area [Pa/m]."""
+        """Return -dp/ds, the interfacial stiffness per nominal area [Pa/m].
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            K/A0 [Pa/m].
+        """
         slope = 1.5 * self._force_scale / self.scale
         return slope * np.exp(self._log_loads(self._plane(separation), 0.5)[0])
 
     def energy(self, separation: float | Array) -> Array:
-        """Return the elastic energy of the summits per nominal area [J/m^2]: the work of the pressure."""
+        """Return the elastic energy of the summits per nominal area [J/m^2]: the work of the pressure.
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            U/A0 [J/m^2].
+        """
         work = self._force_scale * self.scale / 2.5
         return work * np.exp(self._log_loads(self._plane(separation), 2.5)[0])
 
     def contact_fraction(self, separation: float | Array) -> Array:
-        """Return the real contact area over the nominal one [-]."""
+        """Return the real contact area over the nominal one [-].
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            A/A0 [-].
+        """
         factor = _area_factor if self.elliptic else None
         (log_value,) = log_integrals((1,), self._plane(separation), self.nayak, 1, factor)
         return np.asarray(math.sqrt(self.nayak) / 2 * np.exp(log_value))
 
     def spot_density(self, separation: float | Array) -> Array:
-        """Return the number of summits in contact per nominal area [1/m^2]."""
+        """Return the number of summits in contact per nominal area [1/m^2].
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            Contacts per area [1/m^2].
+        """
         (log_value,) = log_integrals((0,), self._plane(separation), self.nayak, 0, None)
         return np.asarray(self.moments.m4 / (2 * math.pi * self.moments.m2) * np.exp(log_value))
 
     def separation(self, pressure: float | Array) -> Array:
         """Return the separation of the mean planes [m] at a nominal pressure [Pa]; infinite without load.
+
+        Parameters
+        ----------
+        pressure : float or array
+            Nominal pressure p [Pa].
+
+        Returns
+        -------
+        float or array
+            Separation [m].
 
         Raises
         ------
@@ -185,6 +246,28 @@ def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulu
     Of both models and all spectra. It is 2.507 p/(E* g), g the rms slope, pi/2 times Persson's. A wide spectrum
     comes near it only at contact fractions far below any real one: with Nayak's parameter 100, the area at 1 % is half
     of it.
+
+    Parameters
+    ----------
+    pressure : float or array
+        Nominal pressure p [Pa].
+    moments : ProfileMoments
+        Profile moments of an isotropic Gaussian surface.
+    modulus : float
+        Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        A/A0 [-].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import bush_gibson_thomas as bgt
+    >>> moments = rc.Moments(1e-12, 0.005, 1e9)  # rms slope 0.1
+    >>> round(float(bgt.asymptotic_fraction(1e6, moments, 1e11)) * 1e11 * 0.1 / 1e6, 4)  # sqrt(2 pi)
+    2.5066
     """
     slope = math.sqrt(moment(moments, "m2"))
     ratio = positive(pressure, "the pressure [Pa]", zero=True) / positive(modulus, "the reduced modulus [Pa]")
@@ -197,6 +280,28 @@ def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modu
 
     The contact area is then half of what lies above the flat. Within a few per cent from s = 3 sqrt(m0) on if Nayak's
     parameter is near 2, much later for wide spectra.
+
+    Parameters
+    ----------
+    separation : float or array
+        Distance of the flat from the mean plane of the surface [m], not negative.
+    moments : ProfileMoments
+        Profile moments of an isotropic Gaussian surface.
+    modulus : float
+        Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        p [Pa].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import bush_gibson_thomas as bgt
+    >>> moments = rc.Moments(1e-12, 0.005, 1e9)
+    >>> round(float(bgt.asymptotic_pressure(3e-6, moments, 1e11)))
+    2692657
     """
     m0, m2 = moment(moments, "m0"), moment(moments, "m2")
     height = _above_the_mean(separation) / math.sqrt(2 * m0)
@@ -211,16 +316,28 @@ def law(moments: ProfileMoments, modulus: float, area: float, *, elliptic: bool 
 
     Parameters
     ----------
-    moments, modulus, elliptic
+    moments : ProfileMoments
         See `Summits`.
+    modulus : float
+        Reduced modulus E* [Pa].
     area : float
         Nominal area A0 [m^2].
+    elliptic : bool
+        Whether both curvatures of a summit count, or only their geometric mean.
 
     Returns
     -------
     LoadingLaw
         "interfacial_stiffness", "contact_area", "mean_gap", "spots" and "elastic_energy", see
         `interface.loading_law`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import bush_gibson_thomas as bgt
+    >>> law = bgt.law(rc.Moments(1e-12, 0.005, 1e9), 1e11, area=1e-6)
+    >>> round(float(law.predict("contact_area", 1.0)) * 1e12)  # [um^2] of 1e6
+    164
     """
     name, source = ("Bush-Gibson-Thomas", ELLIPTIC) if elliptic else ("Greenwood (simplified BGT)", CIRCULAR)
     return loading_law(Summits(moments, modulus, elliptic), area, name=name, source=source)

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require
 
 __all__ = ["SlippingSphere"]
 
@@ -38,6 +37,13 @@ class SlippingSphere:
     ------
     ValueError
         If a number is not positive and finite, or no solids have the ratio.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cattaneo
+    >>> sphere = cattaneo.SlippingSphere(force=1.0, radius=1e-2, modulus=1e11, friction=0.3, ratio=1.2)
+    >>> round(float(sphere.stick_radius(0.15) / sphere.contact_radius), 4)  # (1/2)^(1/3) at half of mu P
+    0.7937
     """
 
     force: float
@@ -48,7 +54,7 @@ class SlippingSphere:
 
     def __post_init__(self) -> None:
         for name in ("force", "radius", "modulus", "friction", "ratio"):
-            positive(scalar(getattr(self, name), f"the {name}"), f"the {name}")
+            positive_scalar(getattr(self, name), f"the {name}")
         # Poisson's ratio goes from -1 to 1/2; the last digits are left to the rounding of `pair_ratio`.
         require(
             0.75 * (1 - 1e-12) <= self.ratio <= 1.5 * (1 + 1e-12),
@@ -78,12 +84,36 @@ class SlippingSphere:
 
     @numeric
     def stick_radius(self, tangential: float | Array) -> Array:
-        """Return the radius c = a (1 - Q/(mu P))^(1/3) of the disc that sticks [m] under Q [N]."""
+        """Return the radius c = a (1 - Q/(mu P))^(1/3) of the disc that sticks [m] under Q [N].
+
+        Parameters
+        ----------
+        tangential : float or array
+            Tangential force Q, at most mu P [N].
+
+        Returns
+        -------
+        float or array
+            c [m]; 0 where all slips.
+        """
         return np.asarray(self.contact_radius * (1 - self._part(tangential)) ** (1 / 3))
 
     @numeric
     def traction(self, distance: float | Array, tangential: float) -> Array:
-        """Return the traction q [Pa] at a distance from the centre [m]."""
+        """Return the traction q [Pa] at a distance from the centre [m].
+
+        Parameters
+        ----------
+        distance : float or array
+            Distance r from the centre [m].
+        tangential : float
+            Tangential force Q, at most mu P [N].
+
+        Returns
+        -------
+        float or array
+            q [Pa], along the force; 0 outside the contact.
+        """
         r, a = positive(distance, "the distance [m]", zero=True), self.contact_radius
         c = float(self.stick_radius(tangential))
         # c sqrt(1 - r^2/c^2), without a division by a vanishing c
@@ -92,7 +122,18 @@ class SlippingSphere:
 
     @numeric
     def displacement(self, tangential: float | Array) -> Array:
-        """Return the tangential displacement [m] as Q [N] rises from zero."""
+        """Return the tangential displacement [m] as Q [N] rises from zero.
+
+        Parameters
+        ----------
+        tangential : float or array
+            Tangential force Q, at most mu P [N].
+
+        Returns
+        -------
+        float or array
+            Displacement of the bodies [m].
+        """
         f = self._part(tangential)
         y = (1 - f) ** (1 / 3)
         # 1 - y^2, exact for small f = 1 - y^3
@@ -100,18 +141,53 @@ class SlippingSphere:
 
     @numeric
     def reversed_displacement(self, tangential: float | Array, turned: float) -> Array:
-        """Return the displacement [m] as Q [N] falls after it had risen to `turned` [N], down to -`turned`."""
+        """Return the displacement [m] as Q [N] falls after it had risen to `turned` [N], down to -`turned`.
+
+        Parameters
+        ----------
+        tangential : float or array
+            Tangential force Q [N], from -`turned` to `turned`.
+        turned : float
+            Force at which Q turned around [N], at most mu P.
+
+        Returns
+        -------
+        float or array
+            Displacement of the bodies [m].
+        """
         fall = (turned - np.asarray(tangential, dtype=np.float64)) / 2
         return np.asarray(self.displacement(turned) - 2 * self.displacement(fall))
 
     @numeric
     def stiffness(self, tangential: float | Array) -> Array:
-        """Return dQ/d displacement = 2 G* c [N/m] as Q [N] rises from zero."""
+        """Return dQ/d displacement = 2 G* c [N/m] as Q [N] rises from zero.
+
+        Parameters
+        ----------
+        tangential : float or array
+            Tangential force Q, at most mu P [N].
+
+        Returns
+        -------
+        float or array
+            k_t [N/m].
+        """
         return np.asarray(2 * self.modulus / self.ratio * self.stick_radius(tangential))
 
     @numeric
     def cycle_loss(self, amplitude: float | Array) -> Array:
-        """Return the work [J] that friction takes in a cycle between +Q and -Q [N]."""
+        """Return the work [J] that friction takes in a cycle between +Q and -Q [N].
+
+        Parameters
+        ----------
+        amplitude : float or array
+            Largest tangential force Q of the cycle, at most mu P [N].
+
+        Returns
+        -------
+        float or array
+            Work [J].
+        """
         f = self._part(amplitude)
         y = (1 - f) ** (1 / 3)
         # 1 - y^5 - (5/6) (1 - y^3) (1 + y^2), without its cancellation at small f = 1 - y^3

@@ -19,8 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, positive, require, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require, shown
 
 __all__ = [
     "electrical",
@@ -48,10 +47,21 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
     resistivities : tuple of float
         rho of both bodies [ohm m]; 0 for a superconductor.
 
+    Returns
+    -------
+    float or array
+        Lambda_e [S].
+
     Raises
     ------
     ValueError
         If a number is negative, or both bodies are superconductors: then nothing limits the current.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> round(float(conductance.electrical(2e5, 1e11, (1.7e-8, 1.7e-8))), 3)  # Holm: 2a/rho of a disc, k = 2 E* a
+    117.647
     """
     first, second = _both(resistivities, "a resistivity [ohm m]")
     require(first + second > 0, "between two bodies without resistivity the conductance has no limit")
@@ -60,7 +70,28 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
 
 @numeric
 def stiffness_from_electrical(conductance: float | Array, modulus: float, resistivities: Pair) -> Array:
-    """Return the stiffness k [N/m] of the contact with an electrical conductance [S] (thesis, eq. 4.2)."""
+    """Return the stiffness k [N/m] of the contact with an electrical conductance [S] (thesis, eq. 4.2).
+
+    Parameters
+    ----------
+    conductance : float or array
+        Lambda_e [S].
+    modulus : float
+        Reduced modulus E* [Pa].
+    resistivities : tuple of float
+        Resistivity rho of both bodies [ohm m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> round(float(conductance.stiffness_from_electrical(117.647, 1e11, (1.7e-8, 1.7e-8))))
+    200000
+    """
     return _inverse(electrical, conductance, modulus, resistivities)
 
 
@@ -70,22 +101,73 @@ def thermal(stiffness: float | Array, modulus: float, conductivities: Pair) -> A
 
     Parameters
     ----------
-    stiffness, modulus
-        See `electrical`.
+    stiffness : float or array
+        k [N/m]; per nominal area [Pa/m] the conductance is one per area, too.
+    modulus : float
+        Reduced modulus E* [Pa] of the computation of k.
     conductivities : tuple of float
         Thermal conductivity lambda of both bodies [W/(m K)]; 0 for an insulator, infinite for an isothermal body.
+
+    Returns
+    -------
+    float or array
+        Lambda_t [W/K].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> round(float(conductance.thermal(2e5, 1e11, (400.0, float("inf")))), 6)  # copper on an isothermal body
+    0.0016
     """
     return np.asarray(_lengths(stiffness, modulus) * harmonic_mean(conductivities))
 
 
 @numeric
 def stiffness_from_thermal(conductance: float | Array, modulus: float, conductivities: Pair) -> Array:
-    """Return the stiffness k [N/m] of the contact with a thermal conductance [W/K] (thesis, eq. 4.4 corrected)."""
+    """Return the stiffness k [N/m] of the contact with a thermal conductance [W/K] (thesis, eq. 4.4 corrected).
+
+    Parameters
+    ----------
+    conductance : float or array
+        Lambda_t [W/K].
+    modulus : float
+        Reduced modulus E* [Pa].
+    conductivities : tuple of float
+        Thermal conductivity lambda of both bodies [W/(m K)].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> round(float(conductance.stiffness_from_thermal(1.6e-3, 1e11, (400.0, float("inf")))))
+    200000
+    """
     return _inverse(thermal, conductance, modulus, conductivities)
 
 
 def harmonic_mean(conductivities: Pair) -> float:
-    """Return the conductivity of two bodies in series, ``2/(1/lambda1 + 1/lambda2)`` [W/(m K)]."""
+    """Return the conductivity of two bodies in series, ``2/(1/lambda1 + 1/lambda2)`` [W/(m K)].
+
+    Parameters
+    ----------
+    conductivities : tuple of float
+        Thermal conductivity lambda of both bodies [W/(m K)].
+
+    Returns
+    -------
+    float
+        lambda [W/(m K)].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> round(conductance.harmonic_mean((400.0, 16.0)), 3)  # the poor conductor decides
+    30.769
+    """
     given = _both(conductivities, "a conductivity [W/(m K)]")
     require(
         np.isfinite(given).any(), "between two bodies of infinite conductivity the conductance has no limit"
@@ -95,7 +177,24 @@ def harmonic_mean(conductivities: Pair) -> float:
 
 
 def resistance(conductance: float | Array) -> Array:
-    """Return 1/conductance: ohm of S, K/W of W/K, m^2 K/W of W/(m^2 K); infinite of 0."""
+    """Return 1/conductance: ohm of S, K/W of W/K, m^2 K/W of W/(m^2 K); infinite of 0.
+
+    Parameters
+    ----------
+    conductance : float or array
+        Not negative [S, W/K, W/(m^2 K)].
+
+    Returns
+    -------
+    float or array
+        Resistance [ohm, K/W, m^2 K/W].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance
+    >>> conductance.resistance([4.0, 0.0]).tolist()
+    [0.25, inf]
+    """
     with np.errstate(divide="ignore"):
         return np.asarray(1 / _not_negative(conductance, "a conductance"))
 
@@ -131,6 +230,14 @@ def law(
     ------
     ValueError
         If neither pair is given, or the law knows no such stiffness.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import conductance, hertz
+    >>> law = conductance.law(hertz.law(1e-2, 1e11), 1e11, resistivities=(1.7e-8, 1.7e-8))
+    >>> ratio = law.predict("electrical_conductance", 8.0) / law.predict("electrical_conductance", 1.0)
+    >>> round(float(ratio), 6)  # as F^(1/3)
+    2.0
     """
     if quantity not in mechanical.quantities:
         raise ValueError(f"{mechanical.name} has no {quantity!r}; it has {sorted(mechanical.quantities)}")

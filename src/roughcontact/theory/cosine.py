@@ -14,9 +14,8 @@ import numpy.typing as npt
 from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["depth", "force", "law", "small_force", "stiffness"]
 
@@ -40,6 +39,17 @@ def force(
         Length L of the line, many waves or whole ones [m].
     modulus : float or array
         Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        F [N].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cosine
+    >>> round(float(cosine.force(2e-6, 1e-6, 1e-3, 1e11)))  # all springs touch: E* L h0
+    100
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     t = _angle(d / (2 * h0))
@@ -57,6 +67,17 @@ def stiffness(
     ----------
     depth, amplitude, length, modulus : float or array
         See `force`.
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cosine
+    >>> round(float(cosine.stiffness(1e-6, 1e-6, 1e-3, 1e11)))  # half of E* L at the mean plane
+    50000000
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     return scale / np.pi * _angle(d / (2 * h0))
@@ -74,13 +95,24 @@ def depth(
         Normal force F [N].
     amplitude, length, modulus : float or array
         See `force`.
+
+    Returns
+    -------
+    float or array
+        d [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cosine
+    >>> round(float(cosine.depth(100.0, 1e-6, 1e-3, 1e11)) * 1e6, 6)  # [um]
+    2.0
     """
     f = positive(force, "force [N]", zero=True)
     _, h0, scale = _given(0.0, amplitude, length, modulus)
     whole = f / (scale * h0)
     # (sin t - t cos t) = pi F/(E* L h0) is below t^3/3, and not below (t/pi)^3 pi up to t = pi.
     wanted = np.pi * np.minimum(whole, 1.0)
-    t = bisect(_bracket, wanted, np.cbrt(3 * wanted), np.pi * np.cbrt(wanted / np.pi))
+    t = bisect(lambda t: _bracket(t) > wanted, np.cbrt(3 * wanted), np.pi * np.cbrt(wanted / np.pi))
     value: Array = h0 * (2 * np.sin(t / 2) ** 2 + np.maximum(whole - 1, 0.0))
     return value
 
@@ -98,10 +130,22 @@ def small_force(
     depth, amplitude, length, modulus : float or array
         See `force`; the depth at most 2 h0.
 
+    Returns
+    -------
+    float or array
+        F [N].
+
     Raises
     ------
     ValueError
         If the depth exceeds 2 h0: all springs touch.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cosine
+    >>> force = cosine.force(2e-7, 1e-6, 1e-3, 1e11)
+    >>> round(float(cosine.small_force(2e-7, 1e-6, 1e-3, 1e11) / force), 3)
+    0.99
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force", d)
@@ -117,6 +161,17 @@ def law(amplitude: float, length: float, modulus: float) -> LoadingLaw:
     ----------
     amplitude, length, modulus : float
         See `force`.
+
+    Returns
+    -------
+    LoadingLaw
+        "stiffness" and "depth".
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cosine
+    >>> round(float(cosine.law(1e-6, 1e-3, 1e11).predict("stiffness", 100.0)))
+    100000000
     """
     wave = {"amplitude": amplitude, "length": length, "modulus": modulus}
     # A wrong body is refused now, not at the first force.

@@ -11,7 +11,7 @@ are, and the stiffer one holds. Computed periodic surfaces (H = 0.8, 128 x 128 c
 and 1/8 of the side L, shortest waves L/32, means of six samples) have 0.9 to 1.8 times that stiffness, from
 F/(E* h L) = 0.001 to 3.
 
-Without a roll-off the surface is one cell, and both laws meet next to saturation: no load obeys a linear law.
+Without a roll-off the surface is one cell, and both laws meet next to full contact: no load obeys a linear law.
 """
 
 from __future__ import annotations
@@ -25,9 +25,8 @@ import numpy as np
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, moderate, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, moderate, numeric, positive, require, require_numbers
 
 __all__ = ["Cell", "law"]
 
@@ -76,7 +75,20 @@ class Cell:
 
     @numeric
     def stiffness(self, force: float | Array, modulus: float) -> Array:
-        """Return the stiffness [N/m] if the cell carries the whole `force` [N]; `modulus` is E* [Pa]."""
+        """Return the stiffness [N/m] if the cell carries the whole `force` [N]; `modulus` is E* [Pa].
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force F [N].
+        modulus : float
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float or array
+            k [N/m].
+        """
         scale = positive(modulus, "the modulus [Pa]") * self.length
         ratio = positive(force, "the force [N]", zero=True) / (scale * self.rms)
         return np.asarray(scale * self.zeta * ratio ** (1 / (self.hurst + 1)))
@@ -93,6 +105,11 @@ class Cell:
             Reduced modulus E* [Pa].
         decay : float
             u0 [m], see `persson_separation.decay_length`.
+
+        Returns
+        -------
+        float
+            F [N].
         """
         scale = float(positive(modulus, "the modulus [Pa]")) * self.length * self.rms
         length = moderate(float(positive(decay, "the decay length [m]")), "the decay length [m]")
@@ -118,6 +135,11 @@ def law(
         Nominal area [m^2], at least that of a cell.
     gamma : float
         See `persson_separation`.
+
+    Returns
+    -------
+    LoadingLaw
+        "interfacial_stiffness".
 
     Raises
     ------

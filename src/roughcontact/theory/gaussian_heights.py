@@ -18,9 +18,8 @@ import numpy.typing as npt
 from scipy.special import ndtr
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, positive, require
-from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["exponent", "force", "law", "stiffness"]
 
@@ -43,6 +42,17 @@ def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modul
         Length L of the line [m].
     modulus : float or array
         Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        F [N].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import gaussian_heights
+    >>> round(float(gaussian_heights.force(0.0, 1e-6, 1e-3, 1e11)), 4)  # E* L h/sqrt(2 pi) at the mean plane
+    39.8942
     """
     t = number(level, "level")
     require(t > -np.inf, "level must be finite, or infinite above all heights, where nothing touches", t)
@@ -61,6 +71,18 @@ def stiffness(
         Normal force F [N].
     rms, length, modulus : float or array
         See `force`.
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import gaussian_heights
+    >>> force = gaussian_heights.force(0.0, 1e-6, 1e-3, 1e11)
+    >>> round(float(gaussian_heights.stiffness(force, 1e-6, 1e-3, 1e11)))  # half of E* L at the mean plane
+    50000000
     """
     return _scale(length, modulus) * ndtr(-_level(force, rms, length, modulus))
 
@@ -75,6 +97,17 @@ def exponent(
     ----------
     force, rms, length, modulus : float or array
         See `stiffness`; the force above 0.
+
+    Returns
+    -------
+    float or array
+        Exponent [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import gaussian_heights
+    >>> round(float(gaussian_heights.exponent(1e-4, 1e-6, 1e-3, 1e11)), 3)
+    0.96
     """
     positive(force, "force [N]")
     t = _level(force, rms, length, modulus)
@@ -90,6 +123,18 @@ def law(rms: float, length: float, modulus: float) -> LoadingLaw:
     ----------
     rms, length, modulus : float
         See `force`.
+
+    Returns
+    -------
+    LoadingLaw
+        "stiffness".
+
+    Examples
+    --------
+    >>> from roughcontact.theory import gaussian_heights
+    >>> law = gaussian_heights.law(1e-6, 1e-3, 1e11)
+    >>> round(float(law.predict("stiffness", 1.0)))
+    2628988
     """
     # A wrong body is refused now, not at the first force.
     force(0.0, rms, length, modulus)
@@ -117,7 +162,7 @@ def _level(force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modu
     scale = _scale(length, modulus) * positive(rms, "rms [m]")
     f = positive(force, "force [N]", zero=True) / scale
     # phi - t Q falls with t and is nowhere below -t.
-    value: Array = -bisect(lambda minus_t: _force(-minus_t), f, np.asarray(-HIGHEST), f)
+    value: Array = -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
     return value
 
 

@@ -11,7 +11,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import gammaln
 
 from roughcontact.theory.interface import loading_law
@@ -19,13 +18,10 @@ from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
 from roughcontact.theory.profile_moments import ProfileMoments
-from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import number, positive, require, scalar, shown
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.theory.tools.roots import concave_root
+from roughcontact.validation import Array, number, numeric, positive, require, require_numbers, scalar, shown
 
 __all__ = ["Asperity", "Population", "law", "population"]
-
-Array = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12  # a flat that rests on the lowest asperity has not passed it, whatever its last digit
 SOURCE = "Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966); parameters: McCool, Wear 107, 37 (1986)"
@@ -60,7 +56,19 @@ class Asperity:
     @classmethod
     @numeric
     def hertz(cls, radius: float, modulus: float) -> Asperity:
-        """Return a sphere of the given radius [m] on a body of reduced modulus [Pa]."""
+        """Return a sphere of the given radius [m] on a body of reduced modulus [Pa].
+
+        Parameters
+        ----------
+        radius : float
+            Radius of curvature R [m].
+        modulus : float
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        Asperity
+        """
         reduced = float(positive(modulus, "the reduced modulus [Pa]"))
         return cls(4 / 3 * reduced * math.sqrt(positive(radius, "the radius [m]")), 1.5, reduced)
 
@@ -132,6 +140,16 @@ class Population:
     def pressure(self, separation: float | Array) -> Array:
         """Return the nominal pressure [Pa] at a height of the flat above the mean plane of the surface [m].
 
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+
         Raises
         ------
         ValueError
@@ -141,20 +159,64 @@ class Population:
         return self._above(separation, self.asperity.coefficient, self.asperity.exponent)
 
     def stiffness(self, separation: float | Array) -> Array:
-        """Return -dp/ds, the interfacial stiffness per nominal area [Pa/m]."""
+        """Return -dp/ds, the interfacial stiffness per nominal area [Pa/m].
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            K/A0 [Pa/m].
+        """
         n = self.asperity.exponent
         return self._above(separation, self.asperity.coefficient * n, n - 1)
 
     def contact_fraction(self, separation: float | Array) -> Array:
-        """Return the real contact area over the nominal one [-]; above 1 if spots must overlap."""
+        """Return the real contact area over the nominal one [-]; above 1 if spots must overlap.
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            A/A0 [-].
+        """
         return self._above(separation, self.asperity.area_coefficient, 2 * self.asperity.exponent - 2)
 
     def spot_density(self, separation: float | Array) -> Array:
-        """Return the number of asperities in contact per area [1/m^2]."""
+        """Return the number of asperities in contact per area [1/m^2].
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            Contacts per area [1/m^2].
+        """
         return self._above(separation, 1.0, 0.0)
 
     def energy(self, separation: float | Array) -> Array:
-        """Return the elastic energy of the asperities per area [J/m^2]: the work of the pressure."""
+        """Return the elastic energy of the asperities per area [J/m^2]: the work of the pressure.
+
+        Parameters
+        ----------
+        separation : float or array
+            Distance of the flat from the mean plane of the surface [m], not negative.
+
+        Returns
+        -------
+        float or array
+            U/A0 [J/m^2].
+        """
         n = self.asperity.exponent
         return self._above(separation, self.asperity.coefficient / (n + 1), n + 1)
 
@@ -162,6 +224,16 @@ class Population:
         """Return the height of the flat above the mean plane of the surface [m] at a nominal pressure [Pa].
 
         Without load the flat is at infinity.
+
+        Parameters
+        ----------
+        pressure : float or array
+            Nominal pressure p [Pa].
+
+        Returns
+        -------
+        float or array
+            Separation [m].
 
         Raises
         ------
@@ -226,6 +298,18 @@ def population(
         Reduced modulus E* [Pa].
     distribution : {"gaussian", "exponential"}
         Of the summit heights; both with the mean and the standard deviation that follow from the moments.
+
+    Returns
+    -------
+    Population
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import greenwood_williamson
+    >>> asperities = greenwood_williamson.population(rc.Moments(1e-12, 0.005, 1e9), 1e11)
+    >>> round(asperities.density / 1e9, 3), round(asperities.std / 1e-6, 3)
+    (6.126, 0.989)
     """
     mean = summits(moments)
     sphere = Asperity.hertz(mean.radius, modulus)
@@ -240,10 +324,14 @@ def law(
 
     Parameters
     ----------
-    moments, modulus, distribution
-        See `population`.
+    moments : ProfileMoments
+        Profile moments of an isotropic Gaussian surface.
+    modulus : float
+        Reduced modulus E* [Pa].
     area : float
         Nominal area A0 [m^2].
+    distribution : {"gaussian", "exponential"}
+        Of the summit heights.
 
     Returns
     -------
@@ -256,6 +344,15 @@ def law(
     ------
     ValueError
         If the moments are not those of an isotropic Gaussian surface.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import greenwood_williamson
+    >>> law = greenwood_williamson.law(rc.Moments(1e-12, 0.005, 1e9), 1e11, 1e-6, distribution="exponential")
+    >>> stiffness = law.predict("interfacial_stiffness", [1.0, 2.0])
+    >>> round(float(stiffness[1] / stiffness[0]), 6)  # in proportion to the force
+    2.0
     """
     asperities = population(moments, modulus, distribution=distribution)
     name = "Greenwood-Williamson" + (", exponential" if distribution == "exponential" else "")

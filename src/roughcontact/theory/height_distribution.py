@@ -20,9 +20,8 @@ from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, finite, positive, require
-from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, finite, numeric, positive, require
 
 __all__ = [
     "HeightDistribution",
@@ -63,19 +62,64 @@ class HeightDistribution:
 
     @numeric
     def force(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
-        """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59)."""
+        """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59).
+
+        Parameters
+        ----------
+        depth : float or array
+            Indentation depth u from first touch [m].
+        length : float or array
+            Length L of the line [m].
+        modulus : float or array
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float or array
+            F [N].
+        """
         u = positive(depth, "depth [m]", zero=True)
         return _scale(length, modulus) * self.excess(u)
 
     @numeric
     def stiffness(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
-        """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61)."""
+        """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61).
+
+        Parameters
+        ----------
+        depth : float or array
+            Indentation depth u from first touch [m].
+        length : float or array
+            Length L of the line [m].
+        modulus : float or array
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float or array
+            k [N/m].
+        """
         u = positive(depth, "depth [m]", zero=True)
         return _scale(length, modulus) * self.fraction(u)
 
     @numeric
     def depth(self, force: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
-        """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`."""
+        """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`.
+
+        Parameters
+        ----------
+        force : float or array
+            Normal force F [N].
+        length : float or array
+            Length L of the line [m].
+        modulus : float or array
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
         wanted = positive(force, "force [N]", zero=True) / _scale(length, modulus)
         loaded = wanted > 0
         # No line carries more than its length times the depth.
@@ -83,7 +127,7 @@ class HeightDistribution:
         while (short := loaded & (self.excess(high) < wanted)).any():
             low, high = np.where(short, high, low), np.where(short, 2 * high, high)
             require(high < FARTHEST, "no depth gives this force: the density has no heights near the peak")
-        value: Array = np.where(loaded, bisect(self.excess, wanted, low, high), 0.0)[()]
+        value: Array = np.where(loaded, bisect(lambda u: self.excess(u) > wanted, low, high), 0.0)[()]
         return value
 
     @numeric
@@ -96,6 +140,11 @@ class HeightDistribution:
             Length L of the line [m].
         modulus : float
             Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        LoadingLaw
+            "stiffness" and "depth".
         """
         # A wrong body is refused now, not at the first force.
         _scale(length, modulus)
@@ -124,10 +173,21 @@ def from_density(
     breaks : sequence of float
         Depths [m] where the density jumps or is singular, such as its end.
 
+    Returns
+    -------
+    HeightDistribution
+
     Raises
     ------
     ValueError
         When evaluated: if an integral cannot be had to a relative error of 1e-8, for want of `breaks`.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> even = height_distribution.from_density(lambda z: 1e6)  # as many heights at every depth
+    >>> round(float(even.stiffness(1e-7, 1e-3, 1e11)))  # a tenth of a line of E* L is in contact
+    10000000
     """
     inner = tuple(sorted(float(positive(z, "breaks [m]")) for z in breaks))
     return HeightDistribution(
@@ -149,10 +209,21 @@ def from_samples(
     name : str
         For legends.
 
+    Returns
+    -------
+    HeightDistribution
+
     Raises
     ------
     ValueError
         If the shapes differ, the depths do not increase, or a number is negative.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> even = height_distribution.from_samples([0.0, 1e-6], [1e6, 1e6])  # heights spread evenly over 1 um
+    >>> round(float(even.force(1e-6, 1e-3, 1e11)), 6)  # E* L u/2
+    50.0
     """
     z, phi = positive(depth, "depth [m]", zero=True), positive(density, "density [1/m]", zero=True)
     require(
@@ -173,6 +244,17 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     ----------
     density_exponent : float or array
         beta, above -1: below, the density has no integral.
+
+    Returns
+    -------
+    float or array
+        alpha [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> round(float(height_distribution.stiffness_exponent(-0.5)), 6)  # a parabola: k ~ F^(1/3)
+    0.333333
     """
     beta = finite(density_exponent, "density_exponent")
     require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
@@ -188,6 +270,17 @@ def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
     ----------
     stiffness_exponent : float or array
         alpha, between 0 and 1: at 1 the density is no power but an exponential, and there is no highest peak.
+
+    Returns
+    -------
+    float or array
+        beta [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> round(float(height_distribution.density_exponent(1 / 3)), 6)
+    -0.5
     """
     alpha = np.asarray(stiffness_exponent, dtype=np.float64)[()]
     require(
@@ -208,6 +301,11 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
     ----------
     modes : float or array
         Number N of waves, at least 1.
+
+    Returns
+    -------
+    float or array
+        beta [-].
     """
     n = positive(modes, "modes")
     require(n >= 1, "modes must be at least 1", n)
@@ -225,6 +323,11 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
     ----------
     modes : float or array
         Number N of waves, at least 1.
+
+    Returns
+    -------
+    float or array
+        alpha [-].
     """
     return stiffness_exponent(legacy_density_exponent(modes))
 

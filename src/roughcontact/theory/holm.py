@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, number, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
 
@@ -25,6 +24,17 @@ def spot_resistance(radius: float | Array, resistivities: tuple[float, float]) -
         a [m].
     resistivities : tuple of float
         rho of both bodies [ohm m]. With 1/lambda, the inverse conductivities [m K/W], it is thermal [K/W].
+
+    Returns
+    -------
+    float or array
+        R [ohm]; infinite of no spot.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import holm
+    >>> round(float(holm.spot_resistance(1e-6, (1.7e-8, 1.7e-8))) * 1e3, 3)  # [mOhm] of copper
+    8.5
     """
     rho = _resistivity(resistivities)
     with np.errstate(divide="ignore"):
@@ -37,6 +47,28 @@ def spots_resistance(radii: Array, positions: Array, resistivities: tuple[float,
     ``R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} a_i a_j/s_ij / (sum a_i)^2``, rho the mean of both.
     It takes the current of each spot for proportional to its radius, and the other spots for points: right for
     spots that are small beside their distances. See `contact_length` for the arguments and errors.
+
+    Parameters
+    ----------
+    radii : array, shape (n,)
+        a_i [m].
+    positions : array, shape (n, 2)
+        Centres of the spots [m].
+    resistivities : tuple of float
+        Resistivity rho of both bodies [ohm m].
+
+    Returns
+    -------
+    float
+        R [ohm].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import holm
+    >>> radii, places = np.full(2, 1e-6), np.array([[0.0, 0.0], [1.0, 0.0]])
+    >>> round(holm.spots_resistance(radii, places, (1.7e-8, 1.7e-8)) * 1e3, 3)  # half of one spot's
+    4.25
     """
     return _resistivity(resistivities) / contact_length(radii, positions)
 
@@ -51,11 +83,23 @@ def contact_length(radii: Array, positions: Array) -> float:
     positions : array, shape (n, 2)
         Centres of the spots [m].
 
+    Returns
+    -------
+    float
+        k/E* [m].
+
     Raises
     ------
     ValueError
         If a radius is not positive, or two spots overlap: then their shapes matter, and a computation is wanted
         (`roughcontact.contact_stiffness`).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import holm
+    >>> round(holm.contact_length(np.full(1, 3e-6), np.zeros((1, 2))) * 1e6, 6)  # 2a [um]
+    6.0
     """
     a, centre = np.asarray(number(radii, "radii [m]")), np.asarray(number(positions, "positions [m]"))
     if a.ndim != 1 or a.size == 0 or centre.shape != (a.size, 2):
@@ -73,7 +117,7 @@ def contact_length(radii: Array, positions: Array) -> float:
             )
         mutual += 2 * a[i] * float(np.sum(a[i + 1 :] / distance))
     total = float(a.sum())
-    return 1 / (1 / (2 * total) + mutual / (np.pi * total**2))
+    return float(1 / (1 / (2 * total) + mutual / (np.pi * total**2)))
 
 
 @numeric
@@ -81,6 +125,24 @@ def holm_radius(stiffness: float | Array, modulus: float) -> Array:
     """Return the radius [m] of the one round spot with this stiffness, and so with its conductance: k/(2 E*).
 
     Also called contact length or Hertz radius (thesis, section 4.2, after eq. 4.6).
+
+    Parameters
+    ----------
+    stiffness : float or array
+        Contact stiffness k [N/m].
+    modulus : float
+        Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        Radius [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import holm
+    >>> round(float(holm.holm_radius(2e5, 1e11)) * 1e6, 6)  # [um]
+    1.0
     """
     return positive(stiffness, "the stiffness [N/m]", zero=True) / (2 * positive(modulus, "the modulus [Pa]"))
 
@@ -98,10 +160,21 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     modulus : float
         Reduced modulus E* [Pa].
 
+    Returns
+    -------
+    float
+        Radius [m].
+
     Raises
     ------
     ValueError
         If the whole is not softer than its spots: then there is no cluster.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import holm
+    >>> round(holm.cluster_radius(1e5, 2e5, 1e11) * 1e6, 6)  # [um]
+    1.0
     """
     k, apart = positive(stiffness, "the stiffness [N/m]"), positive(local, "the local stiffness [N/m]")
     require(k < apart, f"spots that share a load are softer than apart: {k} N/m is not below {apart} N/m")

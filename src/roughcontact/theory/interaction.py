@@ -18,20 +18,16 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.theory import greenwood_williamson
 from roughcontact.theory.interface import Interface
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.partial_moments import Distribution
 from roughcontact.theory.profile_moments import ProfileMoments
-from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.theory.tools.roots import concave_root
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["SQUARE", "finite_body", "law", "mean_gap"]
-
-Array = npt.NDArray[np.float64]
 
 # c of a uniform pressure on a square, 0.9464.
 SQUARE = 4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)
@@ -67,6 +63,16 @@ def mean_gap(
     ------
     ValueError
         If the flat is pushed below the lowest separation at which the theory holds.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import greenwood_williamson, interaction
+    >>> interface = greenwood_williamson.population(rc.Moments(1e-12, 0.005, 1e9), 1e11)
+    >>> gap = interaction.mean_gap(3e-6, interface, 1e11, 1e-6)
+    >>> sunk = interaction.SQUARE * interface.pressure(gap) * 1e-3 / 1e11
+    >>> round(float(gap - sunk) * 1e6, 6)  # the plane it was moved to [um]
+    3.0
     """
     height = np.asarray(plane, dtype=np.float64)
     factor = _compliance(modulus, area, deflection) * area
@@ -110,6 +116,15 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     ------
     ValueError
         If the law has no interfacial stiffness.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import interaction, persson
+    >>> waves = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> law = interaction.finite_body(persson.law(waves, 1e11, 1e-6), 1e11, 1e-6)
+    >>> bool(law.predict("stiffness", 1.0) < law.predict("interfacial_stiffness", 1.0))  # springs in series
+    True
     """
     require("interfacial_stiffness" in law.quantities, f"{law.name} has no interfacial stiffness to add to")
     compliance = _compliance(modulus, area, deflection)
@@ -144,15 +159,35 @@ def law(
 
     Parameters
     ----------
-    moments, modulus, area, distribution
-        See `greenwood_williamson.law`.
+    moments : ProfileMoments
+        Profile moments of an isotropic Gaussian surface.
+    modulus : float
+        Reduced modulus E* [Pa].
+    area : float
+        Nominal area A0 [m^2].
+    distribution : {"gaussian", "exponential"}
+        Of the summit heights.
     deflection : float
         See `mean_gap`.
+
+    Returns
+    -------
+    LoadingLaw
+        That of `greenwood_williamson.law` and "stiffness".
 
     Notes
     -----
     In terms of the force, interaction changes the approach and so the "stiffness", and nothing else: the same load
     still has the same number of contacts and the same area. An estimate: the load is taken for uniform.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import interaction
+    >>> law = interaction.law(rc.Moments(1e-12, 0.005, 1e9), 1e11, 1e-6)
+    >>> interface, body = law.predict("interfacial_stiffness", 1.0), 1e11 * 1e-3 / interaction.SQUARE
+    >>> round(float(law.predict("stiffness", 1.0) * (1 / interface + 1 / body)), 6)  # springs in series
+    1.0
     """
     independent = greenwood_williamson.law(moments, modulus, area, distribution=distribution)
     interacting = finite_body(independent, modulus, area, deflection=deflection)

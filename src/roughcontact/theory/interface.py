@@ -5,15 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import positive
+from roughcontact.validation import Array, positive
 
 __all__ = ["Interface", "loading_law"]
-
-Array = npt.NDArray[np.float64]
 
 
 class Interface(Protocol):

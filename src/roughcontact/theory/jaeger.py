@@ -17,8 +17,7 @@ from scipy.integrate import quad
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.computed import ComputedCurve, as_law
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require, scalar
 
 __all__ = ["cycle_loss", "displacement", "stiffness"]
 
@@ -48,10 +47,23 @@ def displacement(
     ratio : float
         E*/G* [-], see `mindlin.ratio`.
 
+    Returns
+    -------
+    float or array
+        Displacement of the bodies [m].
+
     Raises
     ------
     ValueError
         If the law knows no depth, or not at F and F - Q/mu, a number is out of range, or Q above mu F.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, jaeger, mindlin
+    >>> sphere = hertz.law(radius=1e-2, modulus=1e11)
+    >>> gross = mindlin.gross_slip(sphere.predict("depth", 1.0), 0.3, 1.2)
+    >>> round(float(jaeger.displacement(sphere, 1.0, 0.3, friction=0.3, ratio=1.2) / gross), 6)  # at Q = mu F
+    1.0
     """
     law, held = as_law(loading), _held(force, tangential, friction)
     gained = _known(law, "depth", positive(force, "the force [N]")) - _known(law, "depth", held)
@@ -70,6 +82,32 @@ def stiffness(
     """Return dQ/d displacement [N/m], ``(G*/E*) k(F - Q/mu)``, of a law that predicts the stiffness k.
 
     Parameters as of `displacement`.
+
+    Parameters
+    ----------
+    loading : LoadingLaw or computed curve
+        Frictionless loading: a law, or a curve in points.
+    force : float
+        Normal force F [N].
+    tangential : float or array
+        Tangential force Q, at most mu F [N].
+    friction : float
+        Coefficient of friction mu [-].
+    ratio : float
+        E*/G* [-], see `mindlin.ratio` and `mindlin.pair_ratio`.
+
+    Returns
+    -------
+    float or array
+        k_t [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, jaeger
+    >>> sphere = hertz.law(radius=1e-2, modulus=1e11)
+    >>> start = jaeger.stiffness(sphere, 1.0, 0.0, friction=0.3, ratio=1.2)
+    >>> round(float(start / sphere.predict("stiffness", 1.0)), 6)  # 1/ratio while nothing slips
+    0.833333
     """
     held = _held(force, tangential, friction)
     return np.asarray(_known(as_law(loading), "stiffness", held) / positive(ratio, "the ratio E*/G*"))
@@ -83,6 +121,31 @@ def cycle_loss(
 
     ``W = 4 Q1 D(Q1) - 8 int_0^Q1 D dQ``, D the displacement as Q rises from zero: the branches of a cycle are
     copies of that curve at twice the scale (Masing's rule). Parameters as of `displacement`.
+
+    Parameters
+    ----------
+    loading : LoadingLaw or computed curve
+        Frictionless loading: a law, or a curve in points.
+    force : float
+        Normal force F [N].
+    amplitude : float
+        Largest tangential force of the cycle, at most mu F [N].
+    friction : float
+        Coefficient of friction mu [-].
+    ratio : float
+        E*/G* [-], see `mindlin.ratio` and `mindlin.pair_ratio`.
+
+    Returns
+    -------
+    float
+        Work [J].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import cattaneo, hertz, jaeger
+    >>> loss = jaeger.cycle_loss(hertz.law(1e-2, 1e11), 1.0, 0.15, friction=0.3, ratio=1.2)
+    >>> round(loss / float(cattaneo.SlippingSphere(1.0, 1e-2, 1e11, 0.3, 1.2).cycle_loss(0.15)), 6)
+    1.0
     """
     law = as_law(loading)
 
@@ -96,7 +159,7 @@ def cycle_loss(
 
 def _held(force: float, tangential: float | Array, friction: float) -> Array:
     """Return the force F - Q/mu [N] whose contact sticks."""
-    pressed = float(positive(scalar(force, "the force [N]"), "the force [N]"))
+    pressed = positive_scalar(force, "the force [N]")
     pulled = positive(tangential, "the tangential force [N]", zero=True) / positive(
         friction, "the friction coefficient"
     )

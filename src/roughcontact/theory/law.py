@@ -7,13 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import Array, number
 
 __all__ = ["LoadingLaw", "over_area"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,6 +39,18 @@ class LoadingLaw:
     def predict(self, quantity: str, force: float | Array) -> Array:
         """Return a quantity at the forces [N]; NaN outside the domain.
 
+        Parameters
+        ----------
+        quantity : str
+            Name of one of the quantities.
+        force : float or array
+            Normal forces [N].
+
+        Returns
+        -------
+        float or array
+            In the unit of the quantity, of the shape of the forces.
+
         Raises
         ------
         ValueError
@@ -64,5 +73,26 @@ class LoadingLaw:
 
 
 def over_area(quantity: Callable[[Array], Array], area: float, force: Array) -> Array:
-    """Return what a nominal area [m^2] has in all of a quantity per area, a function of the nominal pressure [Pa]."""
+    """Return what a nominal area [m^2] has in all of a quantity per area, a function of the nominal pressure [Pa].
+
+    Parameters
+    ----------
+    quantity : Callable[[Array], Array]
+        Of the nominal pressure [Pa].
+    area : float
+        Nominal area A0 [m^2].
+    force : float or array
+        Normal forces [N].
+
+    Returns
+    -------
+    float or array
+        The quantity of the whole area.
+
+    Examples
+    --------
+    >>> from roughcontact.theory.law import over_area
+    >>> over_area(lambda pressure: 2 * pressure, 1e-6, 3.0)
+    6.0
+    """
     return area * quantity(force / area)

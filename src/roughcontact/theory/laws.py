@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any
@@ -63,7 +63,12 @@ class SurfaceFacts:
     radius: float | None = None
 
     def completed(self) -> SurfaceFacts:
-        """Return the facts with the defaults that follow from others."""
+        """Return the facts with the defaults that follow from others.
+
+        Returns
+        -------
+        SurfaceFacts
+        """
         area, length, moments = self.area, self.length, self.moments
         if area is None and length is not None:
             area = length**2
@@ -72,17 +77,8 @@ class SurfaceFacts:
         if moments is None and self.spectrum is not None:
             moments = Waves.of(self.spectrum)
         rms = math.sqrt(moments.m0) if self.rms is None and moments is not None else self.rms
-        return SurfaceFacts(
-            self.modulus,
-            area,
-            length,
-            self.spectrum,
-            moments,
-            rms,
-            self.hurst,
-            length if self.rolloff is None else self.rolloff,
-            self.radius,
-        )
+        rolloff = length if self.rolloff is None else self.rolloff
+        return replace(self, area=area, length=length, moments=moments, rms=rms, rolloff=rolloff)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,10 +163,20 @@ def named(name: str, **knowns: Any) -> LoadingLaw:
     **knowns
         The fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
 
+    Returns
+    -------
+    LoadingLaw
+
     Raises
     ------
     ValueError
         If the name or a fact is not known, a fact that the law needs is missing, or the law refuses one.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import laws
+    >>> round(float(laws.named("hertz", radius=1e-2, modulus=1e11).predict("stiffness", 1.0)))
+    8434327
     """
     if name not in LAWS:
         raise ValueError(f"there is no law named {name!r}; there are {', '.join(LAWS)}")

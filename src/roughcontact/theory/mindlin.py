@@ -17,8 +17,7 @@ from typing import Literal, Protocol
 
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, moderate, number, positive, require, scalar, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, moderate, number, numeric, positive, require, scalar, shown
 
 __all__ = [
     "ElasticSolid",
@@ -51,10 +50,26 @@ def ratio(poisson_ratio: float) -> float:
 
     Thesis, eqs 4.5 and 7.4: 1 at nu = 0, 1.5 at nu = 1/2.
 
+    Parameters
+    ----------
+    poisson_ratio : float
+        nu of both bodies [-].
+
+    Returns
+    -------
+    float
+        E*/G* [-].
+
     Raises
     ------
     ValueError
         If Poisson's ratio is not above -1 and at most 1/2.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import mindlin
+    >>> [round(mindlin.ratio(nu), 4) for nu in (0.0, 0.3, 0.5)]
+    [1.0, 1.2143, 1.5]
     """
     nu = scalar(poisson_ratio, "Poisson's ratio")
     require(-1 < nu <= 0.5, f"Poisson's ratio must be above -1 and at most 0.5, not {nu}")
@@ -64,10 +79,29 @@ def ratio(poisson_ratio: float) -> float:
 def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float:
     """Return k/k_t = E*/G* of two solids (beside thesis, eq. 4.5); without a `second` its partner is rigid.
 
+    Parameters
+    ----------
+    first : ElasticSolid
+        One body.
+    second : ElasticSolid, optional
+        The other; without it a rigid one.
+
+    Returns
+    -------
+    float
+        E*/G* [-].
+
     Raises
     ------
     ValueError
         If both are rigid, or one is no solid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import mindlin
+    >>> round(mindlin.pair_ratio(rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.3)), 4)  # of one Poisson's ratio: its own
+    1.2143
     """
     bodies = (first,) if second is None else (first, second)
     for body in bodies:
@@ -81,7 +115,26 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
 
 @numeric
 def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
-    """Return k_t [N/m] of a contact without slip from its normal stiffness k [N/m] (thesis, eqs 4.5 and 7.5)."""
+    """Return k_t [N/m] of a contact without slip from its normal stiffness k [N/m] (thesis, eqs 4.5 and 7.5).
+
+    Parameters
+    ----------
+    stiffness : float or array
+        Normal stiffness k, infinite in full contact [N/m].
+    ratio : float
+        E*/G* [-], see `mindlin.ratio` and `mindlin.pair_ratio`.
+
+    Returns
+    -------
+    float or array
+        k_t [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import mindlin
+    >>> round(float(mindlin.tangential_stiffness(1.2e5, mindlin.ratio(0.5))), 3)
+    80000.0
+    """
     k = number(stiffness, "the stiffness [N/m]")
     # Infinite in full contact.
     require(k >= 0, "a stiffness must not be negative [N/m]", k)
@@ -94,10 +147,29 @@ def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
 
     Of the power law of a rough surface it is the thesis' eq. 7.5.
 
+    Parameters
+    ----------
+    mechanical : LoadingLaw
+        That predicts a "stiffness".
+    ratio : float
+        E*/G* [-], see `mindlin.ratio` and `mindlin.pair_ratio`.
+
+    Returns
+    -------
+    LoadingLaw
+        "tangential_stiffness".
+
     Raises
     ------
     ValueError
         If the law predicts no stiffness.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, mindlin
+    >>> law = mindlin.law(hertz.law(1e-2, 1e11), ratio=1.2)
+    >>> round(float(hertz.law(1e-2, 1e11).predict("stiffness", 1.0) / law.predict("tangential_stiffness", 1.0)), 6)
+    1.2
     """
     if "stiffness" not in mechanical.quantities:
         raise ValueError(f"{mechanical.name} has no 'stiffness'; it has {sorted(mechanical.quantities)}")
@@ -128,6 +200,17 @@ def gross_slip(depth: float | Array, friction: float, ratio: float) -> Array:
         Coefficient of friction mu [-].
     ratio : float
         E*/G*, see `ratio` and `pair_ratio`.
+
+    Returns
+    -------
+    float or array
+        Displacement of the bodies [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import mindlin
+    >>> round(float(mindlin.gross_slip(1e-7, 0.3, mindlin.ratio(0.3))) * 1e9, 3)  # [nm]
+    36.429
     """
     mu = positive(friction, "the friction coefficient")
     return mu * positive(ratio, "the ratio E*/G*") * positive(depth, "the depth [m]", zero=True)
@@ -156,10 +239,24 @@ def slip_constant(
         and 0.086 come from another fit. They amount to a zeta of its own: 4 % above that of eq. 4.74 at H = 0.3, 7 %
         below at 0.5, 18 % below at 1 and 2.
 
+    Returns
+    -------
+    float
+        Z [m^(1/(H+1))].
+
     Raises
     ------
     ValueError
         If a number is out of range, or a prefactor comes with the printed constants, which have their own.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import mindlin, pohrt_popov
+    >>> theta = pohrt_popov.theta(0.8, 1e-6, 1e-3)
+    >>> constant = mindlin.slip_constant(float(theta), 0.8)
+    >>> depth = pohrt_popov.depth(1.0, 0.8, 1e-6, 1e-3, 1e11)
+    >>> round(constant * 1e-11 ** (0.8 / 1.8) / float(depth), 6)  # Z (F/E*)^(H/(H+1)) is the depth
+    1.0
     """
     size, alpha = float(positive(theta, "theta [m^(1-H)]")), _exponent(hurst)
     if constants == "printed":
@@ -190,6 +287,19 @@ def fractal_gross_slip(
         Z [m^(1/(H+1))], see `slip_constant`.
     friction, ratio : float
         mu and C_m = E*/G* [-].
+
+    Returns
+    -------
+    float or array
+        u_max [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import mindlin
+    >>> constant = mindlin.slip_constant(1e-3, 1.0)
+    >>> slip = mindlin.fractal_gross_slip([1.0, 4.0], 1e11, 1.0, constant, friction=0.3, ratio=1.2)
+    >>> round(float(slip[1] / slip[0]), 6)  # as F^(1/2) for H = 1
+    2.0
     """
     load = positive(force, "the force [N]", zero=True) / positive(modulus, "the modulus [Pa]")
     depth = positive(constant, "the constant Z") * load ** (1 - _exponent(hurst))

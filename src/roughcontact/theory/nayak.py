@@ -10,16 +10,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import log_ndtr
 
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import finite, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, finite, numeric, require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
-
-Array = npt.NDArray[np.float64]
 
 NARROWEST = 1.5  # Nayak's parameter of waves of one length from all directions: no isotropic surface has less
 SPREAD = 1 + 16 / math.pi - 3 * math.sqrt(3)  # 0.8968: what 1/alpha takes from the variance of summit heights
@@ -50,11 +46,28 @@ class SummitStatistics:
 def bandwidth(moments: ProfileMoments) -> float:
     """Return Nayak's parameter ``alpha = m0 m4/m2^2`` [-].
 
+    Parameters
+    ----------
+    moments : ProfileMoments
+        m0 [m^2], m2 [-], m4 [1/m^2].
+
+    Returns
+    -------
+    float
+        alpha [-].
+
     Raises
     ------
     ValueError
         If a moment is zero or infinite, or alpha below 3/2: then the moments are not those of an isotropic
         Gaussian surface (those of a line, or of a surface with a lay, may be lower).
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import nayak
+    >>> round(nayak.bandwidth(rc.Moments(1e-12, 0.005, 1e9)), 6)
+    40.0
     """
     m0, m2, m4 = moment(moments, "m0"), moment(moments, "m2"), moment(moments, "m4")
     alpha = m0 * m4 / m2**2
@@ -75,6 +88,10 @@ def summits(moments: ProfileMoments) -> SummitStatistics:
     moments : ProfileMoments
         m0 [m^2], m2 [-], m4 [1/m^2] of an isotropic Gaussian surface.
 
+    Returns
+    -------
+    SummitStatistics
+
     Raises
     ------
     ValueError
@@ -85,6 +102,14 @@ def summits(moments: ProfileMoments) -> SummitStatistics:
     ``m4/(6 sqrt(3) pi m2)``, ``(3/8) sqrt(pi/m4)``, ``(1 - 0.8968/alpha) m0`` (squared) and ``4 sqrt(m0/(pi alpha))``
     (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. All but the last two hang on the shortest
     waves: without a shortest wave a fractal has no summits to count.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import nayak
+    >>> mean = nayak.summits(rc.Moments(1e-12, 0.005, 1e9))
+    >>> round(mean.radius * 1e6, 3), round(mean.std / 1e-6, 4)  # [um], and in rms heights
+    (21.019, 0.9887)
     """
     alpha = bandwidth(moments)
     return SummitStatistics(
@@ -110,10 +135,21 @@ def summit_density(
     alpha : float
         Nayak's parameter, above 3/2, see `free_variance`.
 
+    Returns
+    -------
+    float or array
+        D [-].
+
     Notes
     -----
     ``(t^2 - r^2) N(t; 0, 2/3) N(s; 3t/(2 sqrt(alpha)), 1 - 3/(2 alpha)) 3 r exp(-3 r^2/2)``, N(x; mean, variance) the
     normal density: the determinant of the curvatures counts the points where both slopes vanish.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import nayak
+    >>> float(nayak.summit_density(1.0, 0.5, 0.6, 10.0))  # a saddle, since its curvatures differ in sign
+    0.0
     """
     s, t, r = finite(height, "height"), finite(mean, "mean"), finite(deviator, "deviator")
     variance = free_variance(alpha)
@@ -135,10 +171,24 @@ def geometric_density(height: float | Array, curvature: float | Array, alpha: fl
     alpha : float
         Nayak's parameter, above 3/2, see `free_variance`.
 
+    Returns
+    -------
+    float or array
+        D [-].
+
     Notes
     -----
     `summit_density` integrated at fixed g (Greenwood, Wear 261, 191 (2006)). In logarithms, since its two
     exponentials and the error function leave the range of floats one by one where their product does not.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import nayak
+    >>> s, g = np.meshgrid(np.linspace(-6, 8, 281), np.linspace(0, 6, 241))
+    >>> total = nayak.geometric_density(s, g, 10.0).sum() * 0.05 * 0.025
+    >>> round(float(total) * 3 * 3**0.5, 4)  # the integral over all summits is 1/(3 sqrt(3))
+    1.0
     """
     s, g = finite(height, "height"), finite(curvature, "curvature")
     rest = 2 * alpha * free_variance(alpha)  # 2 alpha - 3
@@ -153,10 +203,26 @@ def geometric_density(height: float | Array, curvature: float | Array, alpha: fl
 def free_variance(alpha: float) -> float:
     """Return the variance of a summit's height at given curvatures, ``1 - 3/(2 alpha)``, in m0.
 
+    Parameters
+    ----------
+    alpha : float
+        Nayak's parameter [-].
+
+    Returns
+    -------
+    float
+        Variance [-].
+
     Raises
     ------
     ValueError
         If it is not positive: waves of one length have summits whose curvature is a multiple of their height.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import nayak
+    >>> round(nayak.free_variance(10.0), 6)
+    0.85
     """
     require(
         alpha > NARROWEST,

@@ -7,15 +7,12 @@ from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from scipy import special
 
-from roughcontact.theory.tools.domain import number, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, require
 
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
 
-Array = npt.NDArray[np.float64]
 Distribution = Literal["gaussian", "exponential"]
 
 HIGHEST_ORDER = 20.0  # the area of a tip of height r^H asks for 2/H; beyond, digits are lost at LOW
@@ -49,6 +46,13 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     ``F_n(t) = int_t^inf (x - t)^n phi(x) dx`` with ``dF_n/dt = -n F_{n-1}`` (Greenwood and Williamson 1966); F_0
     is the upper tail of the normal distribution. It is ``Gamma(n + 1)/sqrt(2 pi) exp(-t^2/4) D_{-n-1}(t)`` with
     the parabolic cylinder function, but that of the library underflows at t = 37 and keeps nine digits at t = 6.
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.theory import partial_moments
+    >>> round(math.exp(partial_moments.log_gaussian(0.0, 0.0)), 6)  # half of all heights lie above the mean
+    0.5
     """
     n = _checked(order)
     t = np.asarray(number(plane, "plane"))
@@ -71,10 +75,22 @@ def log_exponential(order: float, plane: float | Array) -> Array:
     plane : float or array
         Height t of the plane, not negative: see Raises.
 
+    Returns
+    -------
+    float or array
+        The logarithm of F_n(t).
+
     Raises
     ------
     ValueError
         If the order lies outside, or a plane is below 0, where every height counts and the law is another.
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.theory import partial_moments
+    >>> round(float(partial_moments.log_exponential(1.0, 3.0)), 6)  # ln Gamma(2) - 3
+    -3.0
     """
     n = _checked(order)
     t = np.asarray(plane, dtype=np.float64)

@@ -23,9 +23,8 @@ from scipy.special import erf, erfc, erfinv
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.profile_moments import ProfileMoments
-from roughcontact.theory.tools.domain import Array, moderate, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, moderate, numeric, positive, require
 
 __all__ = [
     "AREA_SLOPE",
@@ -54,10 +53,23 @@ def contact_fraction(pressure: float | Array, modulus: float, surface: ProfileMo
     surface : ProfileMoments or spectrum
         Its rms slope g.
 
+    Returns
+    -------
+    float or array
+        A/A0 [-].
+
     Raises
     ------
     ValueError
         If the pressure is negative, the modulus not positive, or the slope zero or infinite.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> surface = rc.Moments(1e-12, 0.005, 1e9)  # rms slope 0.1
+    >>> round(float(persson.contact_fraction(1e7, 1e11, surface)) / 1e-3, 4)  # sqrt(8/pi) p/(E* g) at low load
+    1.5958
     """
     return np.asarray(erf(_pressure(pressure) / (math.sqrt(2) * pressure_spread(modulus, surface))))
 
@@ -67,6 +79,29 @@ def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> t
     """Return wavenumbers q [rad/m] and the contact fraction when only waves up to q are seen [-].
 
     At the last wavenumber it is not quite that of the whole surface: take `contact_fraction` for that.
+
+    Parameters
+    ----------
+    pressure : float
+        Nominal pressure p [Pa].
+    modulus : float
+        Reduced modulus E* [Pa].
+    spectrum : Waves, measured or continuous spectrum
+        Of the surface, see `Waves.of`.
+
+    Returns
+    -------
+    array, array
+        Wavenumbers [rad/m] and contact fractions [-], each of shape (n,).
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> q, fraction = persson.magnified_fraction(1e6, 1e11, spectrum)
+    >>> bool(fraction[0] > fraction[-1])  # less of it the closer one looks
+    True
     """
     waves = Waves.of(spectrum)
     spread = positive(modulus, "the modulus [Pa]") * waves.slope / 2
@@ -75,7 +110,31 @@ def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> t
 
 @numeric
 def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoments | Spectrum) -> Array:
-    """Return the nominal pressure [Pa] at which a fraction of the nominal area is in contact, from 0 to below 1."""
+    """Return the nominal pressure [Pa] at which a fraction of the nominal area is in contact, from 0 to below 1.
+
+    Parameters
+    ----------
+    fraction : float or array
+        A/A0, from 0 to below 1 [-].
+    modulus : float
+        Reduced modulus E* [Pa].
+    surface : ProfileMoments or spectrum
+        Its rms slope g enters.
+
+    Returns
+    -------
+    float or array
+        p [Pa].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> surface = rc.Moments(1e-12, 0.005, 1e9)
+    >>> pressure = persson.pressure_for(0.1, 1e11, surface)
+    >>> round(float(persson.contact_fraction(pressure, 1e11, surface)), 6)
+    0.1
+    """
     part = np.asarray(fraction, dtype=np.float64)
     within = (part >= 0) & (part < 1)
     require(within, f"a contact fraction lies from 0 to below 1, which no load reaches, not {fraction}")
@@ -84,7 +143,27 @@ def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoment
 
 @numeric
 def pressure_spread(modulus: float, surface: ProfileMoments | Spectrum) -> float:
-    """Return the standard deviation of the pressure in full contact, E* g/2 [Pa]."""
+    """Return the standard deviation of the pressure in full contact, E* g/2 [Pa].
+
+    Parameters
+    ----------
+    modulus : float
+        Reduced modulus E* [Pa].
+    surface : ProfileMoments or spectrum
+        Its rms slope g enters.
+
+    Returns
+    -------
+    float
+        Standard deviation [Pa].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> round(persson.pressure_spread(1e11, rc.Moments(1e-12, 0.005, 1e9)) / 1e9, 6)  # E* g/2 [GPa]
+    5.0
+    """
     slope = math.sqrt(2 * (surface.m2 if hasattr(surface, "m2") else Waves.of(surface).m2))
     require(slope > 0, "a surface without slope has no waves: contact is full at any load")
     finite = slope < math.inf
@@ -105,8 +184,27 @@ def pressure_density(
     ----------
     stress : float or array
         Local pressure s, not negative [Pa].
-    pressure, modulus, surface
-        See `contact_fraction`.
+    pressure : float or array
+        Nominal pressure p [Pa].
+    modulus : float
+        Reduced modulus E* [Pa].
+    surface : ProfileMoments or spectrum
+        Its rms slope g enters.
+
+    Returns
+    -------
+    float or array
+        P(s) [1/Pa].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> surface, s = rc.Moments(1e-12, 0.005, 1e9), np.linspace(0, 5e10, 5001)
+    >>> density = persson.pressure_density(s, 1e8, 1e11, surface)
+    >>> round(float((s * density).sum() * 1e7) / 1e8, 4)  # its first moment is the nominal pressure
+    1.0
     """
     s, p, spread = _pressure(stress), _pressure(pressure), pressure_spread(modulus, surface)
     # exp(-(s-p)^2/2V) - exp(-(s+p)^2/2V), without a difference of near equals
@@ -118,7 +216,33 @@ def pressure_density(
 def fraction_above(
     stress: float | Array, pressure: float | Array, modulus: float, surface: ProfileMoments | Spectrum
 ) -> Array:
-    """Return the part of the nominal area that carries a pressure above `stress` [-]; at 0 the contact fraction."""
+    """Return the part of the nominal area that carries a pressure above `stress` [-]; at 0 the contact fraction.
+
+    Parameters
+    ----------
+    stress : float or array
+        Local pressure s, not negative [Pa].
+    pressure : float or array
+        Nominal pressure p [Pa].
+    modulus : float
+        Reduced modulus E* [Pa].
+    surface : ProfileMoments or spectrum
+        Its rms slope g enters.
+
+    Returns
+    -------
+    float or array
+        Part of the nominal area [-].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> surface = rc.Moments(1e-12, 0.005, 1e9)
+    >>> above = persson.fraction_above(0.0, 1e8, 1e11, surface)
+    >>> round(float(above / persson.contact_fraction(1e8, 1e11, surface)), 6)
+    1.0
+    """
     s, p = _pressure(stress), _pressure(pressure)
     scale = math.sqrt(2) * pressure_spread(modulus, surface)
     return np.asarray((erfc((s - p) / scale) - erfc((s + p) / scale)) / 2)
@@ -139,10 +263,24 @@ def law(spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separ
     gamma : float
         See `persson_separation`.
 
+    Returns
+    -------
+    LoadingLaw
+        "contact_area", "mean_gap", "interfacial_stiffness" and "elastic_energy".
+
     Notes
     -----
     The stiffness is that against the mean gap. It holds where many contacts share the load; for the
     lowest loads of a finite surface see `finite_size`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> area = persson.law(spectrum, 1e11, 1e-6).predict("contact_area", [1.0, 2.0])
+    >>> round(float(area[1] / area[0]), 2)  # in proportion to the force while it is small
+    2.0
     """
     waves, area = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     given: dict[str, Any] = {"modulus": modulus, "spectrum": waves, "gamma": gamma}

@@ -21,9 +21,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.special import beta, erf, exp1
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = [
     "GAMMA",
@@ -54,6 +53,11 @@ def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gam
     gamma : float
         Energy of the waves in contact at small load over that of full contact, above 0 and at most 1.
 
+    Returns
+    -------
+    float or array
+        u [m].
+
     Raises
     ------
     ValueError
@@ -73,6 +77,22 @@ def stiffness(pressure: float | Array, modulus: float, spectrum: Spectrum, *, ga
 
     ``l(p) = sqrt(pi) int q^2 C2D w [gamma + 3 (1 - gamma) P^2] exp(-(w p/E*)^2) dq`` is `decay_length` at no load. Near
     full contact it vanishes, and K grows without limit. Parameters as of `mean_gap`.
+
+    Parameters
+    ----------
+    pressure : float or array
+        Nominal pressure p [Pa].
+    modulus : float
+        Reduced modulus E* [Pa].
+    spectrum : Waves, measured or continuous spectrum
+        Of the surface, see `Waves.of`.
+    gamma : float
+        See `mean_gap`.
+
+    Returns
+    -------
+    float or array
+        K/A0 [Pa/m].
     """
     share = _checked(gamma)
     length = _over_waves(pressure, modulus, spectrum, lambda x: _fall(x, share))
@@ -87,6 +107,22 @@ def elastic_energy(
     """Return the elastic energy of the interface per nominal area, U/A0 = (E*/4) sum q W(P) <h^2> [J/m^2].
 
     That of uniform compression is not in it. Parameters as of `mean_gap`.
+
+    Parameters
+    ----------
+    pressure : float or array
+        Nominal pressure p [Pa].
+    modulus : float
+        Reduced modulus E* [Pa].
+    spectrum : Waves, measured or continuous spectrum
+        Of the surface, see `Waves.of`.
+    gamma : float
+        See `mean_gap`.
+
+    Returns
+    -------
+    float or array
+        U/A0 [J/m^2].
     """
     waves, share = Waves.of(spectrum), _checked(gamma)
     # Of the common factor sqrt2 q/(2 sqrt(pi) g) only q belongs here.
@@ -105,6 +141,28 @@ def decay_length(spectrum: Spectrum, *, gamma: float = GAMMA) -> float:
 
     ``u0 = gamma sqrt(pi) int q^2 C2D w dq``, proportional to the rms height, and independent of the short waves
     for a Hurst exponent well above 0.
+
+    Parameters
+    ----------
+    spectrum : Waves, measured or continuous spectrum
+        Of the surface, see `Waves.of`.
+    gamma : float
+        See `mean_gap`.
+
+    Returns
+    -------
+    float
+        u0 [m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> u0 = separation.decay_length(spectrum)
+    >>> stiffness = separation.stiffness(1.0, 1e11, spectrum)
+    >>> round(float(stiffness) * u0, 4)  # K = A0 p/u0 at low load
+    1.0
     """
     return _checked(gamma) * float(_over_waves(0.0, 1.0, spectrum, np.ones_like))
 
@@ -115,6 +173,31 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
 
     ``ln(p_c/E*) u0 = sqrt(pi) int q^2 C2D w [gamma (-ln w - C/2) + 3 (1 - gamma) I] dq``, C = 0.5772... (Euler) and
     I = int_0^inf erf(x)^2 exp(-x^2) dx/x.
+
+    Parameters
+    ----------
+    modulus : float
+        Reduced modulus E* [Pa].
+    spectrum : Waves, measured or continuous spectrum
+        Of the surface, see `Waves.of`.
+    gamma : float
+        See `mean_gap`.
+
+    Returns
+    -------
+    float
+        p_c [Pa].
+
+    Examples
+    --------
+    >>> import math
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> scale, u0 = separation.reference_pressure(1e11, spectrum), separation.decay_length(spectrum)
+    >>> gap = float(separation.mean_gap(1.0, 1e11, spectrum))
+    >>> round(scale * math.exp(-gap / u0), 3)  # the pressure of 1 Pa
+    1.0
     """
     waves, share = Waves.of(spectrum), _checked(gamma)
     logs = np.log(waves.slope / math.sqrt(2)) - np.euler_gamma / 2
@@ -131,10 +214,26 @@ def self_affine_decay(hurst: float) -> float:
 
     H = 1/2: sqrt(pi/2); H = 1: 1; H = 2: sqrt(pi)/2. A shortest wave makes it smaller, little if H is large.
 
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H [-].
+
+    Returns
+    -------
+    float
+        u0/(gamma h) [-].
+
     Raises
     ------
     ValueError
         If H is not positive: then the short waves carry the height, and there is no such limit.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> [round(separation.self_affine_decay(hurst), 4) for hurst in (0.5, 1.0, 2.0)]
+    [1.2533, 1.0, 0.8862]
     """
     reason = f"without a shortest wave only a positive Hurst exponent has an rms height, not {hurst}"
     require(0 < hurst < np.inf, reason)

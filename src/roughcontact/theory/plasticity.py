@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import positive
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, positive
 
 __all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
 
@@ -63,10 +62,21 @@ def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> Pla
     hardness : float
         Indentation hardness of the softer body sigma_0 [Pa].
 
+    Returns
+    -------
+    PlasticityIndex
+
     Notes
     -----
     The thesis names Greenwood and Williamson, whose own index is `asperity_index`; one of slopes is Mikic's (Int. J.
     Heat Mass Transfer 17, 205 (1974)). On a Gaussian surface their ratio is a function of Nayak's parameter.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import plasticity
+    >>> plasticity.slope_index(rc.Moments(1e-12, 0.005, 1e9), 1e11, 2e9)
+    PlasticityIndex(5, mixed: elastic below 0.667)
     """
     slope = math.sqrt(2 * moment(moments, "m2", " (it is infinite without a shortest wave)"))
     return PlasticityIndex(slope * _ratio(modulus, hardness), 2 / 3, math.inf)
@@ -78,13 +88,28 @@ def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> 
 
     Parameters
     ----------
-    moments, modulus, hardness
-        See `slope_index`. The summits' standard deviation s and mean radius R are those of `nayak.summits`.
+    moments : ProfileMoments
+        Those of `nayak.summits`, which gives their standard deviation s and mean radius R.
+    modulus : float
+        Reduced modulus E* [Pa].
+    hardness : float
+        Indentation hardness of the softer body sigma_0 [Pa].
+
+    Returns
+    -------
+    PlasticityIndex
 
     Notes
     -----
     Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966): with it the nominal pressure at which a fiftieth of
     the contact area has begun to yield falls from above any usual one to next to nothing.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import plasticity
+    >>> plasticity.asperity_index(rc.Moments(1e-12, 0.005, 1e9), 1e11, 2e10).regime
+    'plastic'
     """
     mean = summits(moments)
     return PlasticityIndex(math.sqrt(mean.std / mean.radius) * _ratio(modulus, hardness), 0.6, 1.0)

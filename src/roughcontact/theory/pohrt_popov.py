@@ -14,8 +14,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
-from roughcontact.theory.tools.domain import Array, number, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = [
     "FORCE_LIMIT",
@@ -45,11 +44,22 @@ def exponent(hurst: npt.ArrayLike) -> Array:
     hurst : float or array
         Hurst exponent H, above 0 and at most 3.
 
+    Returns
+    -------
+    float or array
+        alpha [-].
+
     Raises
     ------
     ValueError
         If H is not above 0: the shortest waves then decide, and the exponent depends on the forces between which
         it is fitted; `height_distribution` and `gaussian_heights` say how. If H exceeds 3: nothing was compared.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> pohrt_popov.exponent([1.0, 2.0, 3.0]).round(4).tolist()
+    [0.5, 0.3333, 0.3333]
     """
     return 1 / (np.minimum(_hurst(hurst), SMOOTH) + 1)
 
@@ -65,11 +75,22 @@ def prefactor(hurst: npt.ArrayLike) -> Array:
     hurst : float or array
         Hurst exponent H, above 0 and at most 3.
 
+    Returns
+    -------
+    float or array
+        zeta [-].
+
     Notes
     -----
     A fit. At F/(E* h L) = 0.07 the law lies between 3 % below and 11 % above curves computed by boundary elements
     on 513 x 513 cells for H from 0.4 to 2, and a third below for H near 0. The exponent and the prefactor of
     one fit are strongly correlated: compare curves, not prefactors.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> round(float(pohrt_popov.prefactor(1.0)), 6)
+    0.85
     """
     return 1.7 * exponent(hurst)
 
@@ -97,14 +118,26 @@ def stiffness(
     modulus : float or array
         Reduced modulus E* [Pa].
 
+    Returns
+    -------
+    float or array
+        k [N/m].
+
     Raises
     ------
     ValueError
-        If H is out of range, or the force so large that the law passes the saturation 1.1523 E* L.
+        If H is out of range, or the force so large that the law passes the full-contact stiffness 1.1523 E* L.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> k = pohrt_popov.stiffness([1.0, 2.0**1.8], 0.8, 1e-6, 1e-3, 1e11)
+    >>> round(float(k[1] / k[0]), 6)  # as F^(1/(H+1))
+    2.0
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
-    return stiffness_scale * _below_saturation(zeta * f**alpha)
+    return stiffness_scale * _below_full_contact(zeta * f**alpha)
 
 
 @numeric
@@ -120,12 +153,24 @@ def force(
     Parameters
     ----------
     stiffness : float or array
-        Contact stiffness k, at most the saturation 1.1523 E* L [N/m].
+        Contact stiffness k, at most the full-contact stiffness 1.1523 E* L [N/m].
     hurst, rms, length, modulus : float or array
         See `stiffness`.
+
+    Returns
+    -------
+    float or array
+        F [N].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> k = pohrt_popov.stiffness(1.0, 0.8, 1e-6, 1e-3, 1e11)
+    >>> round(float(pohrt_popov.force(k, 0.8, 1e-6, 1e-3, 1e11)), 9)
+    1.0
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
-    k = _below_saturation(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
+    k = _below_full_contact(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
     value: Array = force_scale * (k / zeta) ** (1 / alpha)
     return value
 
@@ -144,10 +189,23 @@ def depth(
     ----------
     force, hurst, rms, length, modulus : float or array
         See `stiffness`.
+
+    Returns
+    -------
+    float or array
+        d [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> d = pohrt_popov.depth(1.0, 0.8, 1e-6, 1e-3, 1e11)
+    >>> k = pohrt_popov.stiffness(1.0, 0.8, 1e-6, 1e-3, 1e11)
+    >>> round(float(k * d / 1.0), 6)  # k d/F = (H + 1)/H
+    2.25
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
-    _below_saturation(zeta * f**alpha)
+    _below_full_contact(zeta * f**alpha)
     value: Array = force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
     return value
 
@@ -170,11 +228,23 @@ def force_at_depth(
         Indentation depth d from first touch [m].
     hurst, rms, length, modulus : float or array
         See `stiffness`.
+
+    Returns
+    -------
+    float or array
+        F [N].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> d = pohrt_popov.depth(1.0, 0.8, 1e-6, 1e-3, 1e11)
+    >>> round(float(pohrt_popov.force_at_depth(d, 0.8, 1e-6, 1e-3, 1e11)), 9)
+    1.0
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     d = positive(depth, "depth [m]", zero=True) * stiffness_scale / force_scale
     f: Array = (zeta * (1 - alpha) * d) ** (1 / (1 - alpha))
-    _below_saturation(zeta * f**alpha)
+    _below_full_contact(zeta * f**alpha)
     return force_scale * f
 
 
@@ -186,6 +256,18 @@ def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Ar
     ----------
     hurst, rms, length : float or array
         See `stiffness`.
+
+    Returns
+    -------
+    float or array
+        Theta [m^(1-H)].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> whole, half = pohrt_popov.theta(0.8, [1e-6, 1e-6 * 0.5**0.8], [1e-3, 0.5e-3])
+    >>> round(float(whole / half), 6)  # half of a self-affine surface is lower by 2^-H
+    1.0
     """
     h, size = positive(rms, "rms [m]"), positive(length, "length [m]")
     value: Array = h * size ** -_hurst(hurst)
@@ -209,10 +291,23 @@ def scale_free_stiffness(
     modulus : float or array
         Reduced modulus E* [Pa].
 
+    Returns
+    -------
+    float or array
+        k [N/m].
+
     Raises
     ------
     ValueError
         If H exceeds 2: the exponent is then 1/3, and the size does not cancel.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> theta = pohrt_popov.theta(0.8, 1e-6, 1e-3)
+    >>> k = pohrt_popov.scale_free_stiffness(1.0, 0.8, theta, 1e11)
+    >>> round(float(k / pohrt_popov.stiffness(1.0, 0.8, 1e-6, 1e-3, 1e11)), 6)
+    1.0
     """
     scale, e = positive(theta, "theta [m^(1-H)]"), positive(modulus, "modulus [Pa]")
     alpha, zeta = exponent(hurst), prefactor(hurst)
@@ -238,6 +333,13 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     -------
     LoadingLaw
         Up to a force of 0.07 E* h L, where the thesis' fits end.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import pohrt_popov
+    >>> law = pohrt_popov.law(0.8, 1e-6, 1e-3, 1e11)
+    >>> round(law.domain[1], 6)  # 0.07 E* h L [N]
+    7.0
     """
     surface = {"hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
     _, _, force_scale, _ = _scales(**surface)
@@ -271,12 +373,12 @@ def _hurst(hurst: npt.ArrayLike) -> Array:
     return h
 
 
-def _below_saturation(dimensionless_stiffness: Array) -> Array:
+def _below_full_contact(dimensionless_stiffness: Array) -> Array:
     """Return k/(E* L), unless it is more than the whole square has."""
     require(
         dimensionless_stiffness <= SQUARE.value,
-        f"the stiffness passes the saturation {SQUARE.value:.4f} E* L, which no contact inside the square exceeds; "
-        f"the law claims to hold up to a force of {FORCE_LIMIT} E* h L",
+        f"the stiffness passes the full-contact stiffness {SQUARE.value:.4f} E* L, which no contact inside the "
+        f"square exceeds; the law claims to hold up to a force of {FORCE_LIMIT} E* h L",
     )
     return dimensionless_stiffness
 

@@ -11,9 +11,8 @@ import numpy.typing as npt
 from scipy.special import gammaln, hyp2f1
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["PowerLawContact", "contact", "kappa", "law"]
 
@@ -30,6 +29,17 @@ def kappa(exponent: npt.ArrayLike) -> Array:
     ----------
     exponent : float or array
         n, not negative.
+
+    Returns
+    -------
+    float or array
+        kappa [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import power_law_indenter
+    >>> power_law_indenter.kappa([0.0, 1.0, 2.0]).round(6).tolist()  # disc, cone, paraboloid
+    [1.0, 1.570796, 2.0]
     """
     n = positive(exponent, "exponent", zero=True)
     value: Array = np.sqrt(np.pi) * np.exp(gammaln(n / 2 + 1) - gammaln((n + 1) / 2))
@@ -77,7 +87,18 @@ class PowerLawContact:
         return self.exponent / (2 * self.exponent + 1) * self.force * self.depth
 
     def pressure(self, distance: npt.ArrayLike) -> Array:
-        """Return the pressure [Pa] at a `distance` from the centre [m]; infinite there for n <= 1, 0 outside."""
+        """Return the pressure [Pa] at a `distance` from the centre [m]; infinite there for n <= 1, 0 outside.
+
+        Parameters
+        ----------
+        distance : float or array
+            Distance r from the axis [m].
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
         r, n, a = positive(distance, "distance [m]", zero=True), self.exponent, self.contact_radius
         # (E*/pi) int_r^a g'(x)/sqrt(x^2 - r^2) dx with g = kappa Q x^n (thesis, eq. A.63).
         t = np.maximum(a**2 - r**2, 0.0) / np.maximum(a**2, TINY)
@@ -86,7 +107,18 @@ class PowerLawContact:
         return value
 
     def displacement(self, distance: npt.ArrayLike) -> Array:
-        """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside."""
+        """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
+
+        Parameters
+        ----------
+        distance : float or array
+            Distance r from the axis [m].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
         r, n, a = positive(distance, "distance [m]", zero=True), self.exponent, self.contact_radius
         # (2/pi) int_0^a (d - g(x))/sqrt(r^2 - x^2) dx (thesis, eq. A.64).
         e = a / np.maximum(np.maximum(r, a), TINY)
@@ -113,17 +145,30 @@ def contact(
 
     Parameters
     ----------
-    modulus, coefficient, contact_radius, depth, force, stiffness : float or array, optional
-        Three of them, see `PowerLawContact`; arrays are broadcast. With `modulus` and `coefficient` the third
-        may be 0.
+    modulus : float or array, optional
+        Reduced modulus E* [Pa].
     exponent : float
         n, positive: the Hurst exponent of the thesis; 2 is a paraboloid of radius 1/(2Q).
+    coefficient, contact_radius, depth, force, stiffness : float or array, optional
+        Three of them, see `PowerLawContact`; arrays are broadcast. With `modulus` and `coefficient` the third
+        may be 0.
+
+    Returns
+    -------
+    PowerLawContact
 
     Raises
     ------
     ValueError
         If not three are given, if they depend on each other (as F = n/(n + 1) k d), if one is not positive, or
         if n is 0: the depth of a flat punch does not follow from its radius, see `punch.disc`.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, power_law_indenter
+    >>> ball = power_law_indenter.contact(1e11, exponent=2, coefficient=1 / (2 * 1e-2), force=1.0)
+    >>> round(float(ball.depth / hertz.point(1e11, radius=1e-2, force=1.0).depth), 6)  # n = 2 is Hertz' sphere
+    1.0
     """
     n = float(positive(exponent, "exponent"))
     factor = float(kappa(n))
@@ -160,6 +205,17 @@ def law(exponent: float, coefficient: float, modulus: float) -> LoadingLaw:
         Q [m^(1-n)].
     modulus : float
         Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    LoadingLaw
+
+    Examples
+    --------
+    >>> from roughcontact.theory import power_law_indenter
+    >>> k = power_law_indenter.law(1.0, 0.1, 1e11).predict("stiffness", [1.0, 4.0])  # a cone
+    >>> round(float(k[1] / k[0]), 6)  # as F^(n/(n+1))
+    2.0
     """
     # A wrong body is refused now, not at the first force.
     contact(modulus, exponent=exponent, coefficient=coefficient, force=0.0)

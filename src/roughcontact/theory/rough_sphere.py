@@ -16,8 +16,7 @@ import numpy.typing as npt
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.power_law_indenter import kappa
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 
@@ -44,10 +43,23 @@ def coefficient(
     prefactor : float or array, optional
         zeta of the power law; by default 1.7/(H+1).
 
+    Returns
+    -------
+    float or array
+        Q [m^(1-H)].
+
     Raises
     ------
     ValueError
         If H lies outside the range in which the stiffness of the roughness goes as F^(1/(H+1)).
+
+    Examples
+    --------
+    >>> from roughcontact.theory import power_law_indenter, pohrt_popov, rough_sphere
+    >>> Q = rough_sphere.coefficient(0.8, 1e-6, 1e-3)
+    >>> k = power_law_indenter.contact(1e11, exponent=0.8, coefficient=Q, force=1.0).stiffness
+    >>> round(float(k / pohrt_popov.stiffness(1.0, 0.8, 1e-6, 1e-3, 1e11)), 6)
+    1.0
     """
     h, zeta = _roughness(hurst, prefactor)
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
@@ -76,15 +88,33 @@ def force(
         Contact stiffness k [N/m].
     radius : float or array
         Radius R of the sphere [m].
-    hurst, rms, length, prefactor : float or array
-        Of the roughness, see `coefficient`.
+    hurst : float or array
+        Hurst exponent H of the roughness, above 0 and at most 2.
+    rms : float or array
+        Root mean square height h of the roughness [m].
+    length : float or array
+        Side L of the square over which it was measured; also its longest wavelength [m].
     modulus : float or array
         Reduced modulus E* [Pa].
+    prefactor : float or array
+        zeta of the power law; by default 1.7/(H+1).
+
+    Returns
+    -------
+    float or array
+        F [N].
 
     Raises
     ------
     ValueError
         If H lies outside its range, or a number is not positive.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import rough_sphere
+    >>> body = {"radius": 1e-2, "hurst": 0.8, "rms": 1e-8, "length": 1e-3, "modulus": 1e11}
+    >>> round(float(rough_sphere.force(rough_sphere.stiffness(1.0, **body), **body)), 9)
+    1.0
     """
     e, sphere, rough, h = _terms(radius, hurst, rms, length, modulus, prefactor)
     x = positive(stiffness, "stiffness [N/m]", zero=True) / e
@@ -113,6 +143,19 @@ def stiffness(
         Normal force F [N].
     radius, hurst, rms, length, modulus, prefactor : float or array
         See `force`.
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, rough_sphere
+    >>> smooth = hertz.point(1e11, radius=1e-2, force=100.0).stiffness
+    >>> rough = rough_sphere.stiffness(100.0, radius=1e-2, hurst=0.8, rms=1e-8, length=1e-3, modulus=1e11)
+    >>> round(float(rough / smooth), 3)  # at high load that of the smooth sphere
+    0.999
     """
     e, sphere, rough, h = _terms(radius, hurst, rms, length, modulus, prefactor)
     f = positive(force, "force [N]", zero=True) / e
@@ -145,10 +188,23 @@ def crossover_force(
     radius, hurst, rms, length, modulus, prefactor : float or array
         See `force`; H must be below 2.
 
+    Returns
+    -------
+    float or array
+        F [N].
+
     Raises
     ------
     ValueError
         If H is 2: both laws then have the exponent 1/3 and never cross.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz, pohrt_popov, rough_sphere
+    >>> force = rough_sphere.crossover_force(1e-2, 0.8, 1e-8, 1e-3, 1e11)
+    >>> smooth = hertz.point(1e11, radius=1e-2, force=force).stiffness
+    >>> round(float(smooth / pohrt_popov.stiffness(force, 0.8, 1e-8, 1e-3, 1e11)), 6)
+    1.0
     """
     h, zeta = _roughness(hurst, prefactor)
     require(
@@ -177,6 +233,13 @@ def law(radius: float, hurst: float, rms: float, length: float, modulus: float) 
     -------
     LoadingLaw
         Up to the force at which the disc of contact is as wide as the roughness' square, k = E* L.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import rough_sphere
+    >>> law = rough_sphere.law(1e-2, 0.8, 1e-8, 1e-3, 1e11)
+    >>> round(float(law.predict("stiffness", law.domain[1])) / 1e8, 6)  # its domain ends at k = E* L
+    1.0
     """
     body = {"radius": radius, "hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
     highest = float(force(positive(modulus, "modulus [Pa]") * positive(length, "length [m]"), **body))

@@ -6,15 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import expit
 
 from roughcontact.theory.nayak import free_variance
 from roughcontact.theory.partial_moments import log_gaussian
+from roughcontact.validation import Array
 
 __all__ = ["log_integrals"]
-
-Array = npt.NDArray[np.float64]
 
 NODES = 64  # in each of two panels: rounding is reached for all planes and all alpha
 REACH = 9.0  # standard deviations of curvature beyond which nothing is left at double precision

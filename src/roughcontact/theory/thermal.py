@@ -12,6 +12,7 @@ Moments are those of the sum of both surfaces, and k_s is the harmonic mean of b
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
 from typing import Literal
 
@@ -20,8 +21,7 @@ import numpy as np
 from roughcontact.theory.conductance import Pair, harmonic_mean
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require
 
 __all__ = [
     "cell_resistance",
@@ -48,6 +48,17 @@ def constriction(ratio: float | Array, form: Literal["power", "tube"] = "power")
     form : {"power", "tube"}
         ``(1 - eps)^1.5`` of Cooper, Mikic and Yovanovich, or the series for a coaxial tube, which is within 1 % of
         spots in a square array up to eps = 0.3.
+
+    Returns
+    -------
+    float or array
+        psi [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import thermal
+    >>> round(float(thermal.constriction(0.1)), 4), round(float(thermal.constriction(0.1, "tube")), 4)
+    (0.8538, 0.8594)
     """
     eps = positive(ratio, "the ratio of radii", zero=True)
     require(eps <= 1, f"a spot is no larger than its cell: the ratio of radii is at most 1, not {ratio}")
@@ -75,8 +86,19 @@ def cell_resistance(
         a and b [m].
     conductivities : tuple of float
         Of both bodies [W/(m K)].
-    form
+    form : {"power", "tube"}
         See `constriction`.
+
+    Returns
+    -------
+    float or array
+        Resistance [K/W].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import thermal
+    >>> round(float(thermal.cell_resistance(1e-6, 1.0, (400.0, 400.0))), 3)  # of a lone spot 1/(2 k_s a)
+    1249.998
     """
     a = positive(radius, "the radius [m]", zero=True)
     psi = constriction(a / np.asarray(cell_radius, dtype=np.float64), form)
@@ -85,7 +107,25 @@ def cell_resistance(
 
 
 def mean_absolute_slope(moments: ProfileMoments) -> float:
-    """Return m, the mean of |dz/dx| of a profile of a Gaussian surface [-]: ``sqrt(2 m2/pi)``."""
+    """Return m, the mean of |dz/dx| of a profile of a Gaussian surface [-]: ``sqrt(2 m2/pi)``.
+
+    Parameters
+    ----------
+    moments : ProfileMoments
+        Profile moments of an isotropic Gaussian surface.
+
+    Returns
+    -------
+    float
+        m [-].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import thermal
+    >>> round(thermal.mean_absolute_slope(rc.Moments(1e-12, 0.005, 1e9)), 6)
+    0.056419
+    """
     return math.sqrt(2 * moment(moments, "m2", ", the mean square slope") / math.pi)
 
 
@@ -106,11 +146,24 @@ def plastic_conductance(
     moments : ProfileMoments
         sigma = sqrt(m0), m = sqrt(2 m2/pi), of the sum of both surfaces.
 
+    Returns
+    -------
+    float or array
+        h [W/(m^2 K)].
+
     Raises
     ------
     ValueError
         If a number is out of range, or the pressure beyond 5 % of the hardness: the fit is one of small
         fractions.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import thermal
+    >>> joint = rc.Moments(1e-12, 0.005, 1e9)
+    >>> round(float(thermal.plastic_conductance(1e6, 1e9, (400.0, 400.0), joint)))
+    39847
     """
     fraction = positive(pressure, "the pressure [Pa]", zero=True) / positive(hardness, "the hardness [Pa]")
     return 1.25 * _scale(conductivities, moments) * _small(fraction, "the hardness") ** 0.95
@@ -124,11 +177,29 @@ def elastic_conductance(
 
     Parameters
     ----------
+    pressure : float or array
+        Nominal pressure P [Pa].
     modulus : float
         Reduced modulus E* [Pa]. E* m/sqrt2 stands for the hardness: it is the mean pressure of asperity
         theory at small loads, `E* g/sqrt(2 pi)`.
-    pressure, conductivities, moments
-        See `plastic_conductance`.
+    conductivities : tuple of float
+        Of both bodies [W/(m K)].
+    moments : ProfileMoments
+        sigma = sqrt(m0), m = sqrt(2 m2/pi), of the sum of both surfaces.
+
+    Returns
+    -------
+    float or array
+        h [W/(m^2 K)].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import thermal
+    >>> joint = rc.Moments(1e-12, 0.005, 1e9)
+    >>> h = thermal.elastic_conductance([1e6, 2e6], 1e11, (400.0, 400.0), joint)
+    >>> round(float(h[1] / h[0]), 4)  # 2^0.94
+    1.9185
     """
     soft = _asperity_pressure(modulus, moments)
     fraction = positive(pressure, "the pressure [Pa]", zero=True) / soft
@@ -137,35 +208,83 @@ def elastic_conductance(
 
 @numeric
 def plastic_law(moments: ProfileMoments, hardness: float, conductivities: Pair, area: float) -> LoadingLaw:
-    """Return `plastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K]."""
-    top = float(
-        FIT_LIMIT * positive(hardness, "the hardness [Pa]") * positive(area, "the nominal area [m^2]")
-    )
+    """Return `plastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K].
+
+    Parameters
+    ----------
+    moments : ProfileMoments
+        Of the sum of both surfaces.
+    hardness : float
+        H_c of the softer body at the size of the spots [Pa].
+    conductivities : tuple of float
+        Thermal conductivity lambda of both bodies [W/(m K)].
+    area : float
+        Nominal area A0 [m^2].
+
+    Returns
+    -------
+    LoadingLaw
+        "thermal_conductance", up to a pressure of 5 % of the hardness.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import thermal
+    >>> law = thermal.plastic_law(rc.Moments(1e-12, 0.005, 1e9), 1e9, (400.0, 400.0), 1e-4)
+    >>> round(law.domain[1], 6)
+    5000.0
+    """
     conductance = partial(
         plastic_conductance, hardness=hardness, conductivities=conductivities, moments=moments
     )
-    conductance(0.0)  # bad numbers show themselves here
-    return LoadingLaw(
-        "Cooper-Mikic-Yovanovich",
-        "Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969); Yovanovich (1982)",
-        {"thermal_conductance": partial(over_area, conductance, area)},
-        (0.0, top),
-    )
+    source = "Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969); Yovanovich (1982)"
+    return _law("Cooper-Mikic-Yovanovich", source, conductance, area, hardness)
 
 
 @numeric
 def elastic_law(moments: ProfileMoments, modulus: float, conductivities: Pair, area: float) -> LoadingLaw:
-    """Return `elastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K]."""
-    top = float(FIT_LIMIT * _asperity_pressure(modulus, moments) * positive(area, "the nominal area [m^2]"))
+    """Return `elastic_conductance` over the nominal area [m^2] as a law of the force: a conductance [W/K].
+
+    Parameters
+    ----------
+    moments : ProfileMoments
+        Of the sum of both surfaces.
+    modulus : float
+        Reduced modulus E* [Pa].
+    conductivities : tuple of float
+        Thermal conductivity lambda of both bodies [W/(m K)].
+    area : float
+        Nominal area A0 [m^2].
+
+    Returns
+    -------
+    LoadingLaw
+        "thermal_conductance", up to a pressure of 5 % of E* m/sqrt2.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import thermal
+    >>> law = thermal.elastic_law(rc.Moments(1e-12, 0.005, 1e9), 1e11, (400.0, 400.0), 1e-4)
+    >>> k = law.predict("thermal_conductance", [100.0, 200.0])
+    >>> round(float(k[1] / k[0]), 4)  # 2^0.94
+    1.9185
+    """
     conductance = partial(
         elastic_conductance, modulus=modulus, conductivities=conductivities, moments=moments
     )
-    conductance(0.0)
+    source = "Mikic, Int. J. Heat Mass Transfer 17, 205 (1974)"
+    return _law("Mikic", source, conductance, area, _asperity_pressure(modulus, moments))
+
+
+def _law(
+    name: str, source: str, conductance: Callable[[Array], Array], area: float, hardness: float
+) -> LoadingLaw:
+    """Return the law of a conductance per area, up to the pressure at which its fit ends."""
+    conductance(np.zeros(()))  # bad numbers show themselves here
+    top = FIT_LIMIT * hardness * positive_scalar(area, "the nominal area [m^2]")
     return LoadingLaw(
-        "Mikic",
-        "Mikic, Int. J. Heat Mass Transfer 17, 205 (1974)",
-        {"thermal_conductance": partial(over_area, conductance, area)},
-        (0.0, top),
+        name, source, {"thermal_conductance": partial(over_area, conductance, area)}, (0.0, top)
     )
 
 

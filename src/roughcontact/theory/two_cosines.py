@@ -13,9 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1
 
-from roughcontact.theory.tools.domain import Array, pair, positive, require
-from roughcontact.theory.tools.domain import count as whole
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import Array, numeric, pair, positive, require, require_numbers, whole
 
 __all__ = ["FLAT_FORCE", "FLAT_STIFFNESS", "Hierarchy", "flat", "force", "stiffness"]
 
@@ -45,6 +43,11 @@ def force(
     modulus : float or array
         Reduced modulus E* [Pa].
 
+    Returns
+    -------
+    float or array
+        F [N].
+
     Raises
     ------
     ValueError
@@ -54,6 +57,13 @@ def force(
     Notes
     -----
     The integral over the crest is F = 2 E* h2^(3/2)/(q1 h1^(1/2)) s^2 2F1(1/2, 1/2; 3; s), s = d/(2 h2).
+
+    Examples
+    --------
+    >>> from roughcontact.theory import two_cosines
+    >>> at_flat, _ = two_cosines.flat((1e-5, 1e3), 1e-7, 1e11)
+    >>> round(float(two_cosines.force(2e-7, (1e-5, 1e3), 1e-7, 1e11) / at_flat), 6)
+    1.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
     value: Array = 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
@@ -71,8 +81,26 @@ def stiffness(
 
     Parameters
     ----------
-    depth, long_wave, short_amplitude, modulus
-        See `force`.
+    depth : float or array
+        Indentation depth d from first touch, at most 2 h2 [m].
+    long_wave : tuple of (float or array)
+        Its amplitude h1 [m] and wavenumber q1 [rad/m].
+    short_amplitude : float or array
+        h2 of the short wave [m].
+    modulus : float or array
+        Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import two_cosines
+    >>> k = two_cosines.stiffness(2e-7, (1e-5, 1e3), 1e-7, 1e11)
+    >>> round(float(k) / (1e11 * 1e-1 / 1e3) * 3.141592653589793, 6)  # 8/pi E* (h2/h1)^(1/2)/q1
+    8.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
     value: Array = 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
@@ -89,8 +117,24 @@ def flat(
 
     Parameters
     ----------
-    long_wave, short_amplitude, modulus
-        See `force`.
+    long_wave : tuple of (float or array)
+        Its amplitude h1 [m] and wavenumber q1 [rad/m].
+    short_amplitude : float or array
+        h2 of the short wave [m].
+    modulus : float or array
+        Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    array, array
+        Force [N] and stiffness [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import two_cosines
+    >>> force, stiffness = two_cosines.flat((1e-5, 1e3), 1e-7, 1e11)
+    >>> round(float(force), 4), round(float(stiffness) / 1e7, 4)
+    (2.2635, 2.5465)
     """
     depth = 2 * positive(short_amplitude, "short_amplitude [m]")
     return (
@@ -117,6 +161,15 @@ class Hierarchy:
     ValueError
         If C is not above 1; if H is 0 or less: shorter waves would be as high as longer ones (eq. 4.48); if H is
         2 or more: they would be too flat to matter on the crest below them (eqs 4.50 and 4.51).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import two_cosines
+    >>> waves = two_cosines.Hierarchy(amplitude=1e-6, wavenumber=1e3, ratio=10.0, hurst=1.0)
+    >>> force, stiffness = waves.corners(2, 1e11)
+    >>> round(float(np.diff(np.log(stiffness))[0] / np.diff(np.log(force))[0]), 6)  # k ~ F^(1/(H+1))
+    0.5
     """
 
     amplitude: float
@@ -143,25 +196,59 @@ class Hierarchy:
         )
 
     def amplitudes(self, count: int) -> Array:
-        """Return h_n of the first `count` waves [m] (thesis, eq. 4.44)."""
+        """Return h_n of the first `count` waves [m] (thesis, eq. 4.44).
+
+        Parameters
+        ----------
+        count : int
+            Number of waves.
+
+        Returns
+        -------
+        array
+            h_n [m], shape (count,).
+        """
         value: Array = self.amplitude * self.ratio ** (
-            -self.hurst * np.arange(whole("count", count), dtype=np.float64)
+            -self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
         )
         return value
 
     def wavenumbers(self, count: int) -> Array:
-        """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43)."""
-        value: Array = self.wavenumber * self.ratio ** np.arange(whole("count", count), dtype=np.float64)
+        """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43).
+
+        Parameters
+        ----------
+        count : int
+            Number of waves.
+
+        Returns
+        -------
+        array
+            q_n [rad/m], shape (count,).
+        """
+        value: Array = self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
         return value
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
         """Return force [N] and stiffness [N/m] where wave n + 1 is flat on wave n, for n below `count`.
 
         Thesis, eqs 4.45 and 4.46, corrected. The points lie on a line of slope 1/(H+1) (eq. 4.47).
+
+        Parameters
+        ----------
+        count : int
+            Number of corners.
+        modulus : float or array
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        array, array
+            Force [N] and stiffness [N/m], each of shape (count,).
         """
         e, h, q = (
             positive(modulus, "modulus [Pa]"),
-            self.amplitudes(whole("count", count) + 1),
+            self.amplitudes(whole(count, "count") + 1),
             self.wavenumbers(count),
         )
         scale = e / q * np.sqrt(h[1:] / h[:-1])

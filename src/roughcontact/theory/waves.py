@@ -5,19 +5,65 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TypeAlias, cast
+from typing import Protocol, TypeAlias, cast
 
 import numpy as np
 import scipy.fft
 
-from roughcontact.theory.spectrum_protocol import MeasuredSpectrum, RadialSpectrum
-from roughcontact.theory.tools.domain import Array, number, pair, shown
-from roughcontact.theory.tools.graded_quadrature import gauss, graded, running
+from roughcontact.theory.tools.quadrature import gauss, graded, running
+from roughcontact.validation import Array, number, pair, shown
 
-__all__ = ["Spectrum", "Waves"]
+__all__ = ["ContinuousSpectrum", "MeasuredSpectrum", "Spectrum", "Waves"]
 
 START = 1e-9  # where the graded panels begin, in parts of the first wave: what lies before weighs as much
 MERGED = 1e-3  # waves of a grid whose wavenumbers differ by less than this part count as one band
+
+
+class ContinuousSpectrum(Protocol):
+    """A continuous isotropic spectrum; `roughcontact.SelfAffineSpectrum` is one."""
+
+    @property
+    def q_min(self) -> float:
+        """Smallest wavenumber [rad/m]."""
+        ...
+
+    @property
+    def q_max(self) -> float:
+        """Largest wavenumber [rad/m]."""
+        ...
+
+    def __call__(self, wavenumber: Array, /) -> Array:
+        """Return C2D [m^4] at the wavenumbers [rad/m]."""
+        ...
+
+
+class MeasuredSpectrum(Protocol):
+    """A spectrum in bins; `roughcontact.PowerSpectrum` is one."""
+
+    @property
+    def wavenumber(self) -> Array:
+        """Wavenumbers of the bins [rad/m], increasing."""
+        ...
+
+    @property
+    def density(self) -> Array:
+        """C2D of the bins [m^4]."""
+        ...
+
+    @property
+    def kind(self) -> str:
+        """``"C2D"`` of a surface or ``"C1D"`` of its profiles."""
+        ...
+
+    @property
+    def q_min(self) -> float:
+        """Lower end of the band that is to be relied upon [rad/m]."""
+        ...
+
+    @property
+    def q_max(self) -> float:
+        """Upper end of that band [rad/m]."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +95,14 @@ class Waves:
 
     A single wave of the surface that stands for itself is the limit of a narrow band: in it q is one number, and
     g grows from the slope of all longer waves to that with the wave, over several nodes.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory.waves import Waves
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> round(Waves.of_spectrum(spectrum).m0 / spectrum.moments().m0, 6)
+    1.0
     """
 
     wavenumber: Array
@@ -89,7 +143,17 @@ class Waves:
 
     @classmethod
     def of(cls, spectrum: Spectrum) -> Waves:
-        """Return the waves of any description of a surface: waves, a measured spectrum or a continuous one."""
+        """Return the waves of any description of a surface: waves, a measured spectrum or a continuous one.
+
+        Parameters
+        ----------
+        spectrum : Waves, measured or continuous spectrum
+            Waves themselves, a measured spectrum or a continuous one.
+
+        Returns
+        -------
+        Waves
+        """
         if isinstance(spectrum, Waves):
             return spectrum
         if hasattr(spectrum, "wavenumber") and hasattr(spectrum, "density"):
@@ -104,7 +168,7 @@ class Waves:
     @classmethod
     def of_spectrum(
         cls,
-        spectrum: RadialSpectrum,
+        spectrum: ContinuousSpectrum,
         q_min: float | None = None,
         q_max: float | None = None,
         breaks: Iterable[float] = (),
@@ -119,6 +183,10 @@ class Waves:
             The band [rad/m], within that of the spectrum. A smaller `q_max` is a smaller magnification.
         breaks : iterable of float
             Wavenumbers at which the spectrum has a corner [rad/m]; `q_rolloff` of the spectrum is taken by itself.
+
+        Returns
+        -------
+        Waves
 
         Raises
         ------
@@ -155,6 +223,10 @@ class Waves:
         q_min, q_max : float, optional
             The band [rad/m]; by default the one to be relied upon. The area hangs on `q_max`: state it.
 
+        Returns
+        -------
+        Waves
+
         Raises
         ------
         ValueError
@@ -186,6 +258,10 @@ class Waves:
         spacing : tuple of float
             Size of a cell ``(dy, dx)`` [m].
 
+        Returns
+        -------
+        Waves
+
         Raises
         ------
         ValueError
@@ -214,6 +290,17 @@ class Waves:
     def of_bands(cls, wavenumber: Array, power: Array) -> Waves:
         """Return the waves of narrow bands: wavenumbers [rad/m], increasing, and the mean square height of each [m^2].
 
+        Parameters
+        ----------
+        wavenumber : array, shape (n,)
+            Of each band, increasing [rad/m].
+        power : array, shape (n,)
+            Mean square height of each band [m^2].
+
+        Returns
+        -------
+        Waves
+
         Raises
         ------
         ValueError
@@ -241,7 +328,7 @@ class Waves:
         )
 
 
-Spectrum: TypeAlias = Waves | MeasuredSpectrum | RadialSpectrum
+Spectrum: TypeAlias = Waves | MeasuredSpectrum | ContinuousSpectrum
 
 
 def _of_density(density: Callable[[Array], Array], low: float, high: float, breaks: Array) -> Waves:

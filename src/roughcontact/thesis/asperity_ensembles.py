@@ -98,7 +98,7 @@ def asperity_averages(exported: xarray.Dataset) -> xarray.Dataset:
 def greenwood_williamson_stiffness(force: Array, hurst: float, points: int) -> Array:
     """Return k/(E* L) of independent spheres with the moments of the surfaces (McCool) at forces F/(E* h L)."""
     grid = rc.Grid((points, points), 1 / points, periodic=True)
-    moments = rc.grid_moments(rc.SelfAffineSpectrum(hurst).scaled(1.0, grid), grid)
+    moments = rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst).scaled(1.0, grid))
     law = greenwood_williamson.law(moments, 1.0, 1.0)
     return np.asarray(law.quantities["interfacial_stiffness"](force))
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from roughcontact.contact.stiffness import CELLS, SATURATED
+from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.ensemble_mean import Mean
 from roughcontact.study.fit import fit_power_laws
 from roughcontact.study.fit_window import Window, window_of
@@ -29,7 +29,7 @@ __all__ = [
     "curve_fits",
     "laws",
     "resolution_studies",
-    "saturation_study",
+    "full_contact_study",
     "sphere_study",
     "square_study",
 ]
@@ -60,7 +60,7 @@ def coarse_square_study(scale: Scale) -> Study:
     return _study("squares-small-129", 10, {"points": 129, "loads": 50}, {"hurst": _FEW_HURST})
 
 
-def saturation_study(scale: Scale) -> Study:
+def full_contact_study(scale: Scale) -> Study:
     """Return the study of figure 21: from the first cells to full contact, fractal dimensions 2 to 3."""
     table = {"hurst": Range(start=0.0, stop=1.0, step=0.2)}
     forces = {"lowest_force": 1e-4, "highest_force": 300.0, "loads": 27, "tolerance": 1e-6}
@@ -103,7 +103,8 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     """Return the mean stiffness of surfaces, its standard error and its scatter, along what varies and the load.
 
     Loads that missed their tolerance have no part in it. ``resolved`` says where the mean stiffness is above 20 cells
-    and below 90 % of saturation. The attributes ``cells`` and ``surfaces`` count cells a side and samples.
+    and below 90 % of the full-contact stiffness. The attributes ``cells`` and ``surfaces`` count cells a side and
+    samples.
     """
     stiffness = converged(exported)["dimensionless_stiffness"]
     low, high = window_of(exported, ("sample",), "load").stiffness
@@ -111,7 +112,7 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     found["resolved"] = (found["stiffness"] > low) & (found["stiffness"] < high)
     for name, values, words in (
         ("cell_stiffness", low / CELLS, "k/(E* L) of one cell"),
-        ("saturation", high / SATURATED, "k/(E* L) of all cells"),
+        ("full_contact_stiffness", high / FULL_CONTACT_SHARE, "k/(E* L) of all cells"),
     ):
         found[name] = values.assign_attrs(long_name=words, units="1")
     return found.assign_attrs(cells=int(exported["points"]), surfaces=int(found["samples"].max()))

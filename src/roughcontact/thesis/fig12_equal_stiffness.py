@@ -161,7 +161,7 @@ def _region(
     for n in CELLS:
         grid = rc.Grid((n, n), FIELD / n)
         inside = mask(grid)
-        punched = rc.prescribed_displacement(rc.half_space(grid, 1.0), inside, 1.0)
+        punched = rc.prescribed_displacement(inside, 1.0, operator=rc.half_space(grid, 1.0))
         # The cells cover a little more or less than the region; a stiffness is a length.
         stiffness.append(punched.force * math.sqrt(area / (inside.sum() * grid.cell_area)))
     coarse, fine = stiffness

@@ -1,4 +1,4 @@
-"""Figure 21: stiffness of rough surfaces against force, from the power law to saturation."""
+"""Figure 21: stiffness of rough surfaces against force, from the power law to full contact."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 from roughcontact.contact.stiffness import CELLS
 from roughcontact.theory.punch.polygon import SQUARE
 from roughcontact.thesis import drawing
-from roughcontact.thesis.ensembles import curve_averages, curve_fits, saturation_study
+from roughcontact.thesis.ensembles import curve_averages, curve_fits, full_contact_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
-TITLE = "stiffness of rough surfaces against force up to saturation"
+TITLE = "stiffness of rough surfaces against force up to full contact"
 PLATEAU = 1.1419  # thesis, eq. 4.14: 1.012 times 2/sqrt(pi)
 CHOSEN = (
     "free squares of 1025 x 1025 cells, 3 samples (small: 129 x 129, 6); the thesis gives neither samples nor forces",
@@ -29,7 +29,7 @@ SIZE = (6.4, 4.4)
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: six Hurst exponents to full contact."""
-    return (saturation_study(scale),)
+    return (full_contact_study(scale),)
 
 
 def averages(squares: xarray.Dataset) -> xarray.Dataset:
@@ -87,7 +87,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         judged(law, error, 0.1) if alpha.size else None,
     )
     yield Verdict(
-        "where saturation sets in",
+        "where full contact sets in",
         "about the force at which the power law reaches it",
         f"half of the plateau at forces of {_half(averages)}",
         None,

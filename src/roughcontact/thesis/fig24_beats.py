@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
-__all__ = ["Beats", "Heights", "beat", "case", "draw", "verdicts"]
+__all__ = ["BeatLines", "Heights", "beat", "case", "draw", "verdicts"]
 
 TITLE = "one, two, four and eight modes of similar frequency, and the heights below their peak"
 MODES = (1, 2, 4, 8)
@@ -71,7 +71,7 @@ class Heights:
 
 
 @dataclass(frozen=True, slots=True)
-class Beats:
+class BeatLines:
     """What the figure shows: the waves, and the heights of each."""
 
     x: Array
@@ -84,12 +84,12 @@ def beat(x: Array, frequencies: tuple[int, ...]) -> Array:
     return np.asarray(np.prod([np.cos(2 * math.pi * f * x) for f in frequencies], axis=0))
 
 
-def case(seed: int = SEED, places: int = PLACES) -> Beats:
+def case(seed: int = SEED, places: int = PLACES) -> BeatLines:
     """Return lines of one, two, four and eight modes, and the distribution of heights about their peaks."""
     x = np.linspace(-0.5, 0.5, 4001)
     lines = tuple(beat(x, SHOWN[: stage + 1]) for stage in range(len(MODES)))
     rng = np.random.default_rng(seed)
-    return Beats(x, lines, tuple(_heights(stage, rng, places) for stage in range(len(MODES))))
+    return BeatLines(x, lines, tuple(_heights(stage, rng, places) for stage in range(len(MODES))))
 
 
 def _heights(stage: int, rng: np.random.Generator, places: int) -> Heights:
@@ -121,7 +121,7 @@ def _above(line: Array, peak: float, depth: Array) -> Array:
     return np.asarray(np.searchsorted(np.sort(1 - line / peak), depth) / line.size)
 
 
-def draw(figure: Figure, data: Beats) -> None:
+def draw(figure: Figure, data: BeatLines) -> None:
     """Draw the waves (a) to (d), and the heights below the peak (e)."""
     table = figure.add_gridspec(len(MODES), 2, width_ratios=(1.5, 1))
     rows = zip("abcd", data.lines, data.heights, _COLOURS, strict=True)
@@ -153,7 +153,7 @@ def _distribution(axes: Axes, data: tuple[Heights, ...]) -> None:
     drawing.key(axes, "--", "eq. 4.72", color="0.1")
 
 
-def verdicts(data: Beats) -> Verdicts:
+def verdicts(data: BeatLines) -> Verdicts:
     """Compare the powers of the densities with eq. 4.72."""
     law = [-0.5 + 0.5 * math.log2(each.modes) for each in data.heights]
     nested = [each.exponent(each.nested) for each in data.heights]

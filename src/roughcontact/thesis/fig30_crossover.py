@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from roughcontact.study.ranges import Range
 from roughcontact.thesis import drawing
-from roughcontact.thesis.ensembles import curve_averages, saturation_study
+from roughcontact.thesis.ensembles import curve_averages, full_contact_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import each_line, line_study
 from roughcontact.thesis.line_match import match, pairs
@@ -37,7 +37,7 @@ def studies(scale: Scale) -> Studies:
         table={"hurst": Range(start=0.0, stop=1.0, step=0.2)},
         parameters={"points": POINTS, "lowest_force": 7e-6, "highest_force": 70.0, "loads": 85},
     )
-    return lines, saturation_study(scale)
+    return lines, full_contact_study(scale)
 
 
 def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:

@@ -55,9 +55,9 @@ def verdicts(data: Array) -> Verdicts:
     limit = data[-1]
     points = 129
     surface, own = rc.SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
-    variance = rc.grid_moments(surface, rc.Grid((points, points), 1 / points)).m0
+    variance = rc.grid_moments(rc.Grid((points, points), 1 / points), surface).m0
     shares = [
-        rc.grid_moments(line_spectrum(surface, factor), rc.Grid(points, 1 / points)).m0 / variance
+        rc.grid_moments(rc.Grid(points, 1 / points), line_spectrum(surface, factor)).m0 / variance
         for factor in (own, own / 2)
     ]
     yield Verdict(

@@ -58,7 +58,7 @@ def cutoff_study(scale: Scale) -> Study:
         seed=SEED,
         samples=_SAMPLES[scale],
         table={"hurst": HURST},
-        rows=[{"points": points, "shortest": 1 / count} for points, count in pairs],
+        rows=[{"points": points, "short_cutoff": 1 / count} for points, count in pairs],
     )
 
 
@@ -87,9 +87,9 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     found["slope"] = slope.assign_attrs(long_name="rms slope", units="1")
     found["cell_stiffness"] = samples.same_for_all(given["cell_stiffness"])
     found["persson"] = _persson(found["force"] * float(given["rms"].mean()), slope)
-    waves = (1 / given["shortest"]).round().astype(int)
+    waves = (1 / given["short_cutoff"]).round().astype(int)
     indexed = (
-        samples.without_parameters(found).drop_vars("shortest").assign_coords(waves=("row", waves.values))
+        samples.without_parameters(found).drop_vars("short_cutoff").assign_coords(waves=("row", waves.values))
     )
     rows = indexed.set_index(row=["points", "waves"])
     return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])
@@ -101,11 +101,11 @@ def _whole(exported: xarray.Dataset) -> xarray.DataArray:
     grid = rc.Grid((points, points), 1 / points)
 
     def height(hurst: float, shortest: float) -> float:
-        return rc.grid_moments(rc.SelfAffineSpectrum(hurst, short_cutoff=shortest), grid).rms_height
+        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
 
     rows = [
         [height(hurst, shortest) for hurst in exported["hurst"].values]
-        for shortest in exported["shortest"].values
+        for shortest in exported["short_cutoff"].values
     ]
     heights = xarray.DataArray(rows, dims=("row", "hurst"))
     return heights / heights.isel(row=-1)

@@ -42,7 +42,7 @@ def studies(scale: Scale) -> Studies:
     study = samples.outlook_study(
         "energy",
         scale,
-        {"points": points, "hurst": HURST, "shortest": 4 / points} | forces,
+        {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="curve",
         seed=SEED,
         samples=_SAMPLES[scale],

@@ -61,12 +61,12 @@ def studies(scale: Scale) -> Studies:
     study = samples.outlook_study(
         "flat",
         scale,
-        {"points": points, "hurst": HURST, "shortest": 4 / points} | forces,
+        {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="cells",
         seed=SEED,
         samples=_SAMPLES[scale],
         table={"periodic": (False, True)},
-        rows=[*({"cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
+        rows=[*({"long_cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
     )
     return (study,)
 
@@ -87,7 +87,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     given = samples.without_parameters(samples.converged(exported))
     force = given["dimensionless_force"]
     interfacial, area = given["interfacial_stiffness"], given["contact_area"]
-    cutoff, rolloff = given["cutoff"], given["rolloff"]
+    cutoff, rolloff = given["long_cutoff"], given["rolloff"]
     length = cutoff.fillna(rolloff)
     model = _of_cells(given["below"].isel(periodic=1, drop=True) / RMS, length, force)
     cells, decay = model["cells"], model["decay"]
@@ -119,7 +119,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     found["long"] = "row", (1 / length.values).round().astype(int)
     found["kind"] = "row", np.where(np.isnan(cutoff.values), "roll-off", "cut-off")
     told = {"surfaces": exported.sizes["sample"], "points": int(exported["points"])}
-    return found.drop_vars(["cutoff", "rolloff"]).assign_attrs(told)
+    return found.drop_vars(["long_cutoff", "rolloff"]).assign_attrs(told)
 
 
 def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray) -> xarray.Dataset:
@@ -151,8 +151,8 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
     found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
     for row in range(shape[0]):
         longest = {
-            keyword: float(value)
-            for keyword, name in (("long_cutoff", "cutoff"), ("rolloff", "rolloff"))
+            name: float(value)
+            for name in ("long_cutoff", "rolloff")
             if np.isfinite(value := exported[name].values[row])
         }
         surface = rc.self_affine(
@@ -160,7 +160,7 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
             HURST,
             RMS,
             np.random.default_rng(0),
-            short_cutoff=float(exported["shortest"]),
+            short_cutoff=float(exported["short_cutoff"]),
             **longest,  # type: ignore[arg-type]
         )
         for name, law in zip(_THEORIES, rc.loading_laws(surface, 1.0, _THEORIES), strict=True):

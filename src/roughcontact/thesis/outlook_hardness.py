@@ -45,15 +45,15 @@ def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the ceilings with all waves, then the waves without and with a ceiling."""
     points = _POINTS[scale]
     last = points // _CELLS
-    rows: list[dict[str, Any]] = [{"shortest": 1 / last}]
-    rows += [{"shortest": 1 / last, "relative_hardness": each} for each in CEILINGS]
+    rows: list[dict[str, Any]] = [{"short_cutoff": 1 / last}]
+    rows += [{"short_cutoff": 1 / last, "relative_hardness": each} for each in CEILINGS]
     waves = [8 * 2**i for i in range(10) if 8 * 2**i < last]
-    rows += [{"shortest": 1 / each} for each in waves]
+    rows += [{"short_cutoff": 1 / each} for each in waves]
     # The ceiling in the units of a surface whose rms height is that with all waves.
     slope = _moments(points, 1 / last).rms_slope
     for each in waves:
         part = _moments(points, 1 / each)
-        rows.append({"shortest": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
+        rows.append({"short_cutoff": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
     depths = {"lowest_depth": 0.2, "highest_depth": 2.8, "loads": 16}
     parameters = {"points": points, "hurst": HURST} | depths
     study = samples.outlook_study(
@@ -77,8 +77,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     """
     given = samples.converged(exported)
     points = int(given["points"])
-    heights = {each: _moments(points, each).rms_height for each in np.unique(given["shortest"].values)}
-    whole = given["shortest"].copy(data=[heights[each] for each in given["shortest"].values])
+    heights = {each: _moments(points, each).rms_height for each in np.unique(given["short_cutoff"].values)}
+    whole = given["short_cutoff"].copy(data=[heights[each] for each in given["short_cutoff"].values])
     whole = whole / whole.isel(row=0)
     scale = float(given["modulus"] * given["size"])
     curves = xarray.Dataset(
@@ -91,7 +91,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
             "yielded": given["yielded"],
         }
     )
-    common = on_common(curves.drop_vars(["shortest", "relative_hardness"]), FORCES, at="force")
+    common = on_common(curves.drop_vars(["short_cutoff", "relative_hardness"]), FORCES, at="force")
     values = {name: common[name] for name in (*_NAMES, "yielded")}
     values |= {f"{name}_change": common[name] / common[name].isel(row=0) for name in _NAMES}
     elastic, hard = _rows_of_waves(given.sizes["row"])
@@ -102,7 +102,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     every = samples.without_parameters(samples.means(values))
     ceilings = [np.inf, *CEILINGS]
     found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
-    waves = (1 / given["shortest"].values).round().astype(int)
+    waves = (1 / given["short_cutoff"].values).round().astype(int)
     along_rows = every[[name for name, each in every.data_vars.items() if "row" in each.dims]]
     along = xarray.concat(
         [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)], "kind"
@@ -123,9 +123,8 @@ def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:
 
 def _moments(points: int, shortest: float) -> rc.Moments:
     """Return the moments of a surface with waves down to a shortest one; the scale is that of the spectrum."""
-    return rc.grid_moments(
-        rc.SelfAffineSpectrum(HURST, short_cutoff=shortest), rc.Grid((points, points), 1 / points)
-    )
+    spectrum = rc.SelfAffineSpectrum(HURST, short_cutoff=shortest)
+    return rc.grid_moments(rc.Grid((points, points), 1 / points), spectrum)
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

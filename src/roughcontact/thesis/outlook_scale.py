@@ -53,8 +53,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     """
     given = samples.without_parameters(samples.converged(exported))
     fine = given.isel(row=np.flatnonzero(given["points"] == given["points"].max()))
-    fine = fine.assign_coords(row=(1 / fine["shortest"]).round().astype(int).values).rename(row="waves")
-    fine = fine.drop_vars(["points", "shortest"])
+    fine = fine.assign_coords(row=(1 / fine["short_cutoff"]).round().astype(int).values).rename(row="waves")
+    fine = fine.drop_vars(["points", "short_cutoff"])
     loads, hurst, waves = fine["dimensionless_force"], fine["hurst"], fine["waves"]
     # The side cancels: k/(E* L) over (F/(E* h L))^(1/(H+1)).
     zeta = fine["dimensionless_stiffness"] * loads ** (-1 / (hurst + 1))
@@ -97,9 +97,9 @@ def _octave(exported: xarray.Dataset) -> xarray.DataArray:
     grid = rc.Grid((points, points), 1 / points)
 
     def height(hurst: float, shortest: float) -> float:
-        return rc.grid_moments(rc.SelfAffineSpectrum(hurst, short_cutoff=shortest), grid).rms_height
+        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
 
-    waves = np.unique((1 / exported["shortest"].values).round().astype(int))
+    waves = np.unique((1 / exported["short_cutoff"].values).round().astype(int))
     every = exported["hurst"].values
     rows = [[height(hurst, OCTAVE) / height(hurst, 1 / each) for each in waves] for hurst in every]
     found = xarray.DataArray(rows, {"hurst": every, "waves": waves}, ("hurst", "waves"))

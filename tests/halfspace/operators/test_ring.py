@@ -238,7 +238,7 @@ def test_edges_that_are_none_are_refused(edges):
 
 def test_what_is_no_profile_is_refused():
     grid = rc.RadialGrid.uniform(4, 1.0)
-    with pytest.raises(ValueError, match="do not fit 4 rings"):
+    with pytest.raises(ValueError, match=r"do not fit the grid of shape \(4,\)"):
         rc.RadialProfile(np.zeros(5), grid)
     with pytest.raises(ValueError, match="RadialGrid"):
         rc.RadialProfile(np.zeros(5), rc.Grid(5, 1.0))

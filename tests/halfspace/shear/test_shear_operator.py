@@ -20,7 +20,7 @@ FIRST, SECOND = rc.Solid(2.0, 0.3), rc.Solid(3.0, -0.4)
 @pytest.fixture(params=CASES, ids=str)
 def operator(request):
     shape, periodic, method = request.param
-    return shear_half_space(rc.Grid(shape, SPACING, periodic), FIRST, SECOND, method=method)
+    return shear_half_space(rc.Grid(shape, SPACING, periodic), (FIRST, SECOND), method=method)
 
 
 def fields(operator, count=2, seed=0):
@@ -116,7 +116,7 @@ def test_the_approximate_inverse_is_symmetric_and_definite(operator):
 @pytest.mark.parametrize("shape", SHAPES)
 def test_free_bodies_add_up(shape):
     """The relative displacement of two bodies is the sum of that of each: one sinks in this way, the other in that."""
-    operator = shear_half_space(rc.Grid(shape, SPACING), FIRST, SECOND)
+    operator = shear_half_space(rc.Grid(shape, SPACING), (FIRST, SECOND))
     q = fields(operator)[0]
     truth = one_body(operator.grid, FIRST, q) + one_body(operator.grid, SECOND, q)
     close(operator.apply(q), truth, 10)
@@ -126,7 +126,7 @@ def test_free_bodies_add_up(shape):
 def test_periodic_waves_answer_by_themselves(waves):
     """Along the wave vector as under pressure, 2/(E* q); across it as antiplane shear, sum 1/(G q)."""
     grid = rc.Grid((16, 24), (0.5, 0.25), True)
-    operator = shear_half_space(grid, FIRST, SECOND)
+    operator = shear_half_space(grid, (FIRST, SECOND))
     y, x = np.meshgrid(*grid.coordinates, indexing="ij")
     qy, qx = (2 * np.pi * n / side for n, side in zip(waves, grid.lengths, strict=True))
     q = np.hypot(qy, qx)
@@ -199,16 +199,16 @@ def test_dundurs_parameter():
 @pytest.mark.parametrize(
     ("grid", "bodies", "message"),
     [
-        (rc.Grid(8, 1.0), (FIRST,), "two axes"),
-        (rc.RadialGrid.uniform(3, 1.0), (FIRST,), "rings are not offered"),
-        (rc.Grid((8, 8), 1.0, (True, False)), (FIRST,), "both axes"),
-        (rc.Grid((8, 8), 1.0), (1e9,), "a Solid is wanted"),
+        (rc.Grid(8, 1.0), FIRST, "two axes"),
+        (rc.RadialGrid.uniform(3, 1.0), FIRST, "rings are not offered"),
+        (rc.Grid((8, 8), 1.0, (True, False)), FIRST, "both axes"),
+        (rc.Grid((8, 8), 1.0), 1e9, "a Solid or a pair of Solids is wanted"),
         (rc.Grid((8, 8), 1.0), (rc.Solid(np.inf, 0.3), rc.Solid(np.inf, 0.3)), "two rigid bodies"),
     ],
 )
 def test_nonsense_is_refused(grid, bodies, message):
     with pytest.raises(ValueError, match=message):
-        shear_half_space(grid, *bodies)
+        shear_half_space(grid, bodies)
 
 
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])

@@ -9,7 +9,7 @@ import roughcontact as rc
 from roughcontact.halfspace.sums import local_inverse
 from roughcontact.halfspace.sums.local_inverse import BLOCK, LARGE, RELIEF, LocalInverse
 from roughcontact.kernels import loader
-from roughcontact.kernels.active_cells import Region, with_margins
+from roughcontact.kernels.active_cells import ActiveCells, with_margins
 from roughcontact.kernels.constants import REACH
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
@@ -47,7 +47,7 @@ def regions(shape):
 
 def matrix(inverse, inside, precision="float64"):
     """Return the matrix between the cells of a region, column by column."""
-    region, cells = Region(inside.astype(precision)), np.flatnonzero(inside)
+    region, cells = ActiveCells(inside.astype(precision)), np.flatnonzero(inside)
     columns = []
     for cell in cells:
         field = np.zeros(inside.shape, precision)
@@ -60,7 +60,7 @@ def response(inverse, shape, spacing, rows, columns):
     """Return the response to waves along a plane, so many on each axis, over E* q/2."""
     y, x = np.indices(shape)
     wave = np.cos(2 * np.pi * (rows * y / shape[0] + columns * x / shape[1]))
-    found = inverse.on(Region(np.ones(shape)), with_margins(wave))
+    found = inverse.on(ActiveCells(np.ones(shape)), with_margins(wave))
     q = 2 * np.pi * np.hypot(rows / shape[0] / spacing[0], columns / shape[1] / spacing[1])
     inner = np.s_[2 * REACH : -2 * REACH, 2 * REACH : -2 * REACH]
     return np.vdot(found[inner], wave[inner]) / np.vdot(wave[inner], wave[inner]) / (MODULUS / 2 * q)
@@ -184,7 +184,7 @@ def test_blocks_at_the_edges_are_cut_off():
 def test_scale_laws(spacing, far, shape):
     """A stiffer body takes more pressure, larger cells take less."""
     field = with_margins(np.random.default_rng(0).standard_normal(shape))
-    region = Region(np.ones(shape))
+    region = ActiveCells(np.ones(shape))
 
     def pressure(modulus, factor):
         return LocalInverse.of(modulus, shape, tuple(factor * d for d in spacing)).on(region, field)
@@ -200,7 +200,7 @@ def test_the_far_part_is_added_to_the_near_one(spacing, monkeypatch):
     monkeypatch.setattr(local_inverse, "LARGE", 1)
     shape = (4 * BLOCK, 6 * BLOCK)
     inverse = LocalInverse.of(MODULUS, shape, spacing)
-    region = Region(np.ones(shape))
+    region = ActiveCells(np.ones(shape))
     blocks = np.random.default_rng(1).standard_normal((4, 6))
     bumps = np.zeros((BLOCK, BLOCK))
     bumps[0, 0], bumps[-1, -1] = 1.0, -1.0
@@ -220,4 +220,4 @@ def test_half_spaces_have_one_and_other_bodies_none(periodic):
     )
     assert rc.half_space(rc.Grid((1, 30), 1e-3, periodic), MODULUS).local_inverse is None
     layer = rc.layer(rc.Grid((20, 30), 1e-3, periodic), rc.Solid(1e9, 0.3), 0.01, base="bonded")
-    assert getattr(layer, "local_inverse", None) is None
+    assert layer.capabilities.local_inverse() is None

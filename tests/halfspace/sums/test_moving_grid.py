@@ -23,7 +23,9 @@ def test_equal_to_the_transforms(shape):
     """Pressures of either sign, on all edges, on a grid that is not square."""
     grid = rc.Grid(shape, (0.3, 0.5))
     p = np.random.default_rng(0).standard_normal(shape)
-    moved, transformed = (rc.half_space(grid, 2.0, method).apply(p) for method in ("moving-grid", "fft"))
+    moved, transformed = (
+        rc.half_space(grid, 2.0, method=method).apply(p) for method in ("moving-grid", "fft")
+    )
     np.testing.assert_allclose(moved, transformed, rtol=0, atol=1e-14 * np.abs(transformed).max())
 
 
@@ -36,7 +38,9 @@ def test_any_solver_runs_on_it():
     grid = rc.Grid((16, 16), 1.0)
     surface = rc.self_affine(grid, hurst=0.8, rms=0.1, rng=np.random.default_rng(1))
     pressures = [
-        rc.press(surface, 1.0, force=3.0, operator=rc.half_space(grid, 1.0, method), solver=solver).pressure
+        rc.press(
+            surface, 1.0, force=3.0, operator=rc.half_space(grid, 1.0, method=method), solver=solver
+        ).pressure
         for method in ("dense", "moving-grid")
         for solver in (rc.ActiveSet(), rc.PolonskyKeer())
     ]

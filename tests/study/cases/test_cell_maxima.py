@@ -25,10 +25,10 @@ def test_it_comes_with_the_package():
 @pytest.mark.parametrize(
     ("limit", "edges"),
     [
-        ({"cutoff": 0.25}, [0, 8, 16, 24, 32]),
+        ({"long_cutoff": 0.25}, [0, 8, 16, 24, 32]),
         ({"rolloff": 0.25}, [0, 8, 16, 24, 32]),
-        ({"cutoff": 0.3}, [0, 11, 21, 32]),
-        ({"cutoff": 2.0}, [0, 32]),
+        ({"long_cutoff": 0.3}, [0, 11, 21, 32]),
+        ({"long_cutoff": 2.0}, [0, 32]),
         ({}, [0, 32]),
     ],
 )
@@ -36,7 +36,7 @@ def test_the_curve_is_that_of_the_surface_and_tops_are_those_of_its_cells(limit,
     record = run(seed=5, **limit)
     plain = CURVE.run(CurveParameters(**(GIVEN | limit)), np.random.default_rng(5))
     assert record.drop_vars(["below", "peak"]).identical(plain)
-    lengths = {f"{name}_wavelength": part * 2e-3 for name, part in limit.items()}
+    lengths = {name: part * 2e-3 for name, part in limit.items()}
     grid = rc.Grid((32, 32), 2e-3 / 32)
     heights = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(5), **lengths).heights
     sides = list(pairwise(edges))

@@ -17,7 +17,7 @@ GIVEN = {
     "modulus": 1e11,
     "hurst": 0.7,
     "rms": 1e-6,
-    "shortest": 0.25,
+    "short_cutoff": 0.25,
 }
 
 
@@ -40,12 +40,12 @@ def test_a_surface_is_the_same_on_all_grids():
         np.testing.assert_array_equal(coarse.heights, whole.heights[:: 64 // points, :: 64 // points])
         # Waves longer than two cells lose nothing: mean squares are those of the waves.
         assert coarse.rms == pytest.approx(1e-6, rel=1e-12)
-        slopes = [rc.surface_moments(each, "spectral").rms_slope for each in (coarse, whole)]
+        slopes = [rc.surface_moments(each, derivative="spectral").rms_slope for each in (coarse, whole)]
         assert slopes[0] == pytest.approx(slopes[1], rel=1e-12)
 
 
 def test_longer_waves_are_the_same_whatever_the_shortest():
-    few, many = (np.fft.fft2(roughness(points=64, shortest=each).heights) for each in (0.5, 0.125))
+    few, many = (np.fft.fft2(roughness(points=64, short_cutoff=each).heights) for each in (0.5, 0.125))
     long = np.abs(few) > 1e-9 * np.abs(few).max()
     ratio = many[long] / few[long]
     assert 0 < long.sum() < (np.abs(many) > 1e-9 * np.abs(many).max()).sum()
@@ -65,7 +65,7 @@ def test_a_record_is_that_of_the_curve():
     ("wrong", "says"),
     [
         ({"drawn_on": 60}, "multiple of points, not 60 with 16"),
-        ({"shortest": 0.125}, r"above two cells, 0.125 on 16 points, not 0.125"),
+        ({"short_cutoff": 0.125}, r"above two cells, 0.125 on 16 points, not 0.125"),
         ({"drawn_on": 8}, "multiple of points"),
     ],
 )

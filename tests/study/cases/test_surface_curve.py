@@ -35,7 +35,7 @@ def test_a_record_is_the_loading_curve_of_the_surface(periodic):
     curve = rc.loading_curve(surface, 1e11, forces=forces).to_dataset()
     assert set(record["force"].dims) == {"load"}
     for name in set(record.data_vars) - {
-        "saturation",
+        "full_contact_stiffness",
         "dimensionless_force",
         "rms",
         "rms_slope",
@@ -44,9 +44,9 @@ def test_a_record_is_the_loading_curve_of_the_surface(periodic):
         np.testing.assert_array_equal(record[name], curve[name], err_msg=name)
         assert record[name].attrs == curve[name].attrs
     # Found on a square of another size: equal but for rounding.
-    np.testing.assert_allclose(record["saturation"], curve["saturation"], rtol=1e-12)
+    np.testing.assert_allclose(record["full_contact_stiffness"], curve["full_contact_stiffness"], rtol=1e-12)
     np.testing.assert_allclose(record["dimensionless_force"], curve["dimensionless_force"], rtol=1e-12)
-    moments = rc.surface_moments(surface, "spectral")
+    moments = rc.surface_moments(surface, derivative="spectral")
     assert float(record["rms_slope"]) == moments.rms_slope
     assert float(record["rms_curvature"]) == moments.rms_curvature
     assert residual_of(record) < 1e-8
@@ -71,7 +71,7 @@ def test_a_record_is_pure_is_paired_and_survives_as_text():
 
 def test_limits_of_the_spectrum_are_parts_of_the_side():
     given = {"rolloff": 1e-3, "long_cutoff": 1.5e-3, "short_cutoff": 2e-4}
-    record = run(rolloff=0.5, cutoff=0.75, shortest=0.1, amplitudes="gaussian")
+    record = run(rolloff=0.5, long_cutoff=0.75, short_cutoff=0.1, amplitudes="gaussian")
     surface = roughness(amplitudes="gaussian", **given)
     curve = rc.loading_curve(surface, 1e11, forces=record["force"].to_numpy())
     np.testing.assert_array_equal(record["stiffness"], curve.stiffness)
@@ -92,7 +92,7 @@ def test_a_paraboloid_may_lie_under_the_roughness():
 
 def test_a_hardness_is_a_pressure_or_a_part_of_the_slope():
     part = run(relative_hardness=0.2)
-    hardness = 0.2 * 1e11 * rc.surface_moments(roughness(), "spectral").rms_slope
+    hardness = 0.2 * 1e11 * rc.surface_moments(roughness(), derivative="spectral").rms_slope
     assert float(part["hardness"]) == hardness
     assert part.identical(run(hardness=hardness))
     assert float(part["contact_area"][-1]) > float(run()["contact_area"][-1])
@@ -131,4 +131,4 @@ def test_what_makes_no_sense_is_refused(wrong, says):
 
 def test_limits_that_leave_no_wave_are_refused():
     with pytest.raises(ValueError, match="no wave is left"):
-        run(cutoff=0.1, shortest=0.5)
+        run(long_cutoff=0.1, short_cutoff=0.5)

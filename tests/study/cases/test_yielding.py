@@ -43,7 +43,7 @@ def test_under_a_ceiling_the_area_bears_no_more_than_it():
     elastic, hard = run(), run(relative_hardness=0.2)
     hardness = float(hard["hardness"])
     assert hardness == pytest.approx(
-        0.2 * 1e11 * rc.surface_moments(surface(), "spectral").rms_slope, rel=1e-14
+        0.2 * 1e11 * rc.surface_moments(surface(), derivative="spectral").rms_slope, rel=1e-14
     )
     assert hard.identical(run(hardness=hardness))
     # At one depth: a lower pressure on a larger region.

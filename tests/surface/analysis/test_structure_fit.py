@@ -100,13 +100,13 @@ def test_a_misfit_beyond_chance_raises_the_error(noise, holds):
     assert noisy.standard_error == pytest.approx(factor * clean.standard_error, rel=0.02)
 
 
-@pytest.mark.parametrize("limit", ["rolloff", "cutoff"])
+@pytest.mark.parametrize("limit", ["rolloff", "long_cutoff"])
 @pytest.mark.parametrize("crop", [False, True])
 def test_long_waves_may_end(limit, crop):
     """The level of S beyond the limit is an average over some (256/40)^2 pi/2 = 64 waves, known to 1/8."""
-    surface = gaussian(256, 0.6, 4, crop, **{f"{limit}_wavelength": 40e-6})
+    surface = gaussian(256, 0.6, 4, crop, **{limit: 40e-6})
     fit = fit_structure(surface, limit=limit)
-    assert getattr(fit, f"{limit}_wavelength") == pytest.approx(40e-6, rel=4 / 8 / (2 * 0.6))
+    assert getattr(fit, limit) == pytest.approx(40e-6, rel=4 / 8 / (2 * 0.6))
     assert fit.hurst == pytest.approx(0.6, abs=4 * fit.standard_error)
 
 

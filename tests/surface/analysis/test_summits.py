@@ -66,7 +66,7 @@ def test_summits_of_a_random_surface_are_those_of_nayak():
     law = {"short_cutoff": 16e-6, "rolloff": 40e-6}
     surface = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(2), amplitudes="gaussian", **law)
     shape = SelfAffineSpectrum(0.8, **law)
-    moments = grid_moments(shape, grid)
+    moments = grid_moments(grid, shape)
     scale = 1e-12 / moments.m0
     m0, m2, m4 = (scale * m for m in (moments.m0, moments.m2, moments.m4))
     alpha = m0 * m4 / m2**2

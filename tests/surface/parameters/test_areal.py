@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.parameters.areal import areal_parameters
-from roughcontact.surface.parameters.facets import gradient_and_area
+from roughcontact.surface.parameters.areal import areal_parameters, gradient_and_area
 
 
 def wave(n=64, amplitude=2.0, length=10.0, periods=4, periodic=True):

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory.tools.inverse import bisect
 from roughcontact.theory.tools.products import Product, solve
 
 BOX = {
@@ -49,11 +48,3 @@ def test_too_few_too_many_or_dependent():
     twice = {**BOX, "double": Product((2, 0))}
     with pytest.raises(ValueError, match="width, double depend on each other"):
         solve(twice, {"width": one, "double": one})
-
-
-def test_bisection():
-    wanted = np.array([0.0, 1e-9, 0.5, 1.0])
-    # A bracket of the size of the root, so the error is relative.
-    root = bisect(lambda x: x**3, wanted, np.cbrt(wanted) / 2, 2 * np.cbrt(wanted))
-    np.testing.assert_allclose(root, np.cbrt(wanted), rtol=4e-16)
-    assert np.ndim(bisect(np.exp, 2.0, 0.0, 1.0)) == 0

@@ -13,7 +13,7 @@ from roughcontact.halfspace.shear.shear_moving_grid import MovingGridShear
 from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
 from roughcontact.halfspace.shear.shear_sums import DenseShear, FreeShear, PeriodicShear
 from roughcontact.halfspace.sums.methods import Sum
-from roughcontact.material import Solid, reduced_modulus
+from roughcontact.material import Bodies, Solid, pair_of, reduced_modulus
 
 __all__ = ["ShearOperator", "dundurs_parameter", "shear_compliance", "shear_half_space"]
 
@@ -27,7 +27,8 @@ class ShearOperator(Protocol):
 
     Fields have shape ``(2, ny, nx)``: the component along x, then that along y. Traction is what body 2 exerts on
     body 1. The map is symmetric; on a free grid positive definite, on a periodic one semidefinite, since a constant
-    traction moves nothing. One whose sum is not exact has the ``exact`` one, by which answers are certified.
+    traction moves nothing. One whose sum is not
+    exact states the exact one in its `Capabilities`, by which answers are certified.
     """
 
     @property
@@ -62,8 +63,7 @@ class ShearOperator(Protocol):
 
 def shear_half_space(
     grid: AnyGrid,
-    first: Solid,
-    second: Solid | None = None,
+    bodies: Bodies,
     *,
     method: Literal["dense"] | Sum = "fft",
 ) -> ShearOperator:
@@ -77,8 +77,8 @@ def shear_half_space(
     ----------
     grid : Grid
         Free or periodic along both axes.
-    first, second : Solid
-        The bodies; without a second one the partner is rigid.
+    bodies : Solid or pair of Solids
+        One solid: against a rigid body.
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done, as for `half_space`: by fast Fourier transforms; with the full matrix (32
         n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
@@ -94,7 +94,7 @@ def shear_half_space(
         raise ValueError("tangential traction needs a grid of two axes; lines and rings are not offered")
     if any(grid.periodic) != all(grid.periodic):
         raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
-    compliance = shear_compliance(first, second)
+    compliance = shear_compliance(*pair_of(bodies))
     operator: FreeShear | PeriodicShear
     if all(grid.periodic):
         operator = PeriodicShear(grid, ShearWaves(grid, compliance))

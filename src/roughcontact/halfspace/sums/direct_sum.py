@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.halfspace.influence.tables import Tables
 from roughcontact.halfspace.sums.tiles import Tiles, list_loaded
 from roughcontact.kernels.constants import APART
-from roughcontact.kernels.loader import address, functions
+from roughcontact.kernels.loader import functions
 from roughcontact.threads import join_in, threads
 
 __all__ = ["DirectSum"]
@@ -52,14 +52,11 @@ class DirectSum:
         given = np.ascontiguousarray(pressure, dtype=precision)
         starts, shifts, loaded = list_loaded(given)
         sums, counters = np.empty(given.shape, precision), np.zeros(2 * APART, np.int64)
-        sum_all = functions("tile_kernels", precision)["sum_all"]
+        sum_pairs = functions("tile_kernels", precision)["sum_pairs"]
+        where, sources = (self.rows, self.columns), (starts, shifts, loaded)
 
         def join(_: int) -> None:
-            sum_all(
-                address(counters), size, address(self.rows), address(self.columns),
-                address(starts), address(shifts), address(loaded),
-                address(self.kernel), self.kernel.shape[1], address(sums),
-            )  # fmt: skip
+            sum_pairs(counters, size, *where, *sources, self.kernel, self.kernel.shape[1], sums)
 
         join_in(join, threads() if starts[-1] * size >= SEVERAL else 1)
         return sums

@@ -24,7 +24,7 @@ from roughcontact.arrays import fast_even_length
 from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import definite, wavenumbers
-from roughcontact.kernels.active_cells import Region, add_blocks, near, sum_blocks
+from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
 
 __all__ = ["RELIEF", "LocalInverse", "local_inverse"]
@@ -76,9 +76,9 @@ class LocalInverse:
         q = definite(wavenumbers(box, tuple(BLOCK * d for d in spacing)))
         return cls(near, Convolution(modulus / 2 / BLOCK**2 * q * np.outer(*damping), box))
 
-    def on(self, region: Region, field: Field) -> Field:
+    def on(self, region: ActiveCells, field: Field) -> Field:
         """Return the pressure [Pa] on a region under a displacement [m] that is zero elsewhere, and has margins."""
-        pressure = near(region, field, self.near.astype(field.dtype))
+        pressure = sum_stencil(region, field, self.near.astype(field.dtype))
         if self.far is not None:
             add_blocks(region, pressure, self.far.apply(sum_blocks(region, field, BLOCK)), BLOCK)
         return pressure

@@ -27,7 +27,7 @@ from roughcontact.halfspace.sums.mesh import ORDER, Nodes, node_shape, sharpened
 from roughcontact.halfspace.sums.tile_inverse import TileInverse
 from roughcontact.halfspace.sums.tiles import SIDE, TileMap, Tiles, count, list_loaded
 from roughcontact.kernels import loader
-from roughcontact.kernels.loader import address, functions
+from roughcontact.kernels.loader import functions
 from roughcontact.threads import spread
 
 __all__ = ["ListPatches", "PatchOperator", "Patches", "patches_of"]
@@ -89,15 +89,12 @@ class TileSum:
         given = np.ascontiguousarray(values, dtype=np.float32)
         waves: Single = self.parts.far.apply(self.nodes.spread(given))
         sums = np.ascontiguousarray(self.nodes.gather(waves))
-        starts, shifts, some = list_loaded(given)
+        sources, add_near_sources = list_loaded(given), code["add_near_sources"]
         numbers, places = self.map.numbers, self.map.places
 
         def add_near(start: int) -> None:
-            # With arrays, not their addresses: they live as long as anyone works on them.
-            code["add_near"](
-                start, min(start + GROUP, size), address(numbers), numbers.shape[1], address(places), size, REACH,
-                address(starts), address(shifts), address(some), address(self.parts.near), address(sums),
-            )  # fmt: skip
+            some = start, min(start + GROUP, size), numbers, numbers.shape[1], places, size, REACH
+            add_near_sources(*some, *sources, self.parts.near, sums)
 
         spread(add_near, range(0, size, GROUP))
         return sums
@@ -116,7 +113,7 @@ class PatchOperator:
         Area of a cell [m^2].
     forward : TileSum or DirectSum
     inverse : TileInverse
-    gain : float
+    contraction : float
         How far a round of a solve takes an error down; exact products find what it gets wrong.
     """
 
@@ -124,8 +121,8 @@ class PatchOperator:
     weights: float
     forward: TileSum | DirectSum
     inverse: TileInverse
-    gain: float = 3e-5
-    relief: ClassVar[float] = RELIEF
+    contraction: float = 3e-5
+    diagonal_correction: ClassVar[float] = RELIEF
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return a field of the plane on the tiles, another value beyond the edge."""
@@ -135,7 +132,7 @@ class PatchOperator:
         """Return the field of the plane that has `values` on the tiles and is zero elsewhere."""
         return self.tiles.scatter(values)
 
-    def narrow(self, values: Any, unit: float = 1.0) -> Any:
+    def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return numbers over a unit, in single precision."""
         return over(values, unit, "float32")
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.halfspace.sums.local_inverse import BLOCK, LocalInverse
 from roughcontact.halfspace.sums.tiles import SIDE, TileMap, Tiles, count
 from roughcontact.kernels.constants import WIDTH
-from roughcontact.kernels.loader import address, functions
+from roughcontact.kernels.loader import functions
 from roughcontact.threads import spread
 
 __all__ = ["TileInverse"]
@@ -59,21 +59,18 @@ class TileInverse:
         pressure = np.empty(displacement.shape, dtype=np.float32)
         weights = self.local.near.astype(np.float32)
         numbers, places = self.map.numbers, self.map.places
+        sum_near = code["sum_stencil_on_tiles"]
 
         def near(start: int) -> None:
-            room = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
-            end = min(start + GROUP, size)
-            # With arrays, not their addresses: they live as long as anyone works on them.
-            code["near_on_tiles"](
-                start, end, address(numbers), numbers.shape[1], address(places),
-                address(field), address(pressure), address(weights), address(room),
-            )  # fmt: skip
+            scratch = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
+            some = start, min(start + GROUP, size), numbers, numbers.shape[1], places
+            sum_near(*some, field, pressure, weights, scratch)
 
         spread(near, range(0, size, GROUP))
         if self.local.far is not None:
             blocks: Single = np.zeros(self.shape, dtype=np.float32)
-            all_ = size, address(self.places), self.shape[1], BLOCK
-            code["sum_blocks_of_tiles"](*all_, address(field), address(blocks))
+            all_ = size, self.places, self.shape[1], BLOCK
+            code["sum_blocks_of_tiles"](*all_, field, blocks)
             far = np.ascontiguousarray(self.local.far.apply(blocks))
-            code["add_blocks_to_tiles"](*all_, address(pressure), address(far))
+            code["add_blocks_to_tiles"](*all_, pressure, far)
         return pressure

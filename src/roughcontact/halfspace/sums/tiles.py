@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.kernels.constants import SIDE
-from roughcontact.kernels.loader import address, functions
+from roughcontact.kernels.loader import functions
 
 __all__ = ["SIDE", "TileMap", "Tiles", "count", "list_loaded"]
 
@@ -144,8 +144,7 @@ def list_loaded(values: Field) -> tuple[Indices, Indices, Field]:
     precision, room = values.dtype.name, values.size + 1
     starts, shifts = np.empty(len(values) + 1, np.int64), np.empty(room, np.int64)
     loaded = np.empty(room, precision)
-    list_cells = functions("tile_kernels", precision)["list_cells"]
-    list_cells(len(values), address(values), address(starts), address(shifts), address(loaded))
+    functions("tile_kernels", precision)["list_nonzero"](len(values), values, starts, shifts, loaded)
     return starts, shifts, loaded
 
 

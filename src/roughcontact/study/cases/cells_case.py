@@ -21,14 +21,14 @@ __all__ = ["CASE", "CellsParameters", "run"]
 class CellsParameters(CurveParameters):
     """Those of the case ``curve``.
 
-    The surface is divided into square cells as long as its longest waves: `cutoff`, else `rolloff`, else the side; if
-    that is no whole part of the side, the next one.
+    The surface is divided into square cells as long as its longest waves: `long_cutoff`, else `rolloff`, else the
+    side; if that is no whole part of the side, the next one.
     """
 
     @property
     def cells(self) -> int:
         """Cells along a side."""
-        longest = min(self.cutoff or self.rolloff or 1.0, 1.0)
+        longest = min(self.long_cutoff or self.rolloff or 1.0, 1.0)
         return max(1, round(1 / longest))
 
 

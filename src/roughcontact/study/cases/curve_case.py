@@ -41,8 +41,8 @@ _POINTS = (
     "resolved",
     "status",
 )
-_SCALES = ("cell_stiffness", "saturation")
-_LIMIT = 1e-3  # of the displacement: enough for a saturation, of which nine tenths are a limit
+_SCALES = ("cell_stiffness", "full_contact_stiffness")
+_LIMIT = 1e-3  # of the displacement: enough for a full-contact stiffness, of which nine tenths are a limit
 
 
 class CurveParameters(RoughSquare, ForceRange):
@@ -50,7 +50,7 @@ class CurveParameters(RoughSquare, ForceRange):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus : float
         Reduced modulus E* [Pa].
@@ -87,11 +87,11 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
     xarray.Dataset
         Along ``load`` the points of a `roughcontact.Curve`, with ``dimensionless_force``, F/(E* h L), where h is the
         rms height of the parameters. A load that missed its tolerance says so in ``status``. Without a dimension:
-        ``cell_stiffness`` and ``saturation``, between which a curve is resolved; ``rms``, ``rms_slope`` and
+        ``cell_stiffness`` and ``full_contact_stiffness``, between which a curve is resolved; ``rms``, ``rms_slope`` and
         ``rms_curvature`` of the roughness, without the body under it; ``hardness`` where there is one.
     """
     roughness = parameters.roughness(rng)
-    moments = surface_moments(roughness, "spectral")  # made of waves: exact
+    moments = surface_moments(roughness, derivative="spectral")  # made of waves: exact
     forces = parameters.forces
     hardness = parameters.hardness
     if parameters.relative_hardness is not None:
@@ -123,17 +123,18 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
 
 
 def _saturated(path: Iterator[Solution], parameters: CurveParameters) -> Iterator[Solution]:
-    """Yield a path whose saturation is known: where few cells touch, finding it takes half of the time."""
+    """Yield a path whose full-contact stiffness is known: where few cells touch, finding it takes half of the time."""
     unit = parameters.modulus * parameters.size
     for solution in path:
         solution.problem.once(
-            "saturation", lambda: unit * _saturation(parameters.points, parameters.periodic)
+            "full_contact_stiffness",
+            lambda: unit * _full_contact_stiffness(parameters.points, parameters.periodic),
         )
         yield solution
 
 
 @lru_cache(maxsize=16)
-def _saturation(points: int, periodic: bool) -> float:
+def _full_contact_stiffness(points: int, periodic: bool) -> float:
     """Return k/(E* L) of a square in full contact; it depends on the number of cells alone."""
     grid = Grid((points, points), 1 / points, periodic)
     return contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0, tolerance=_LIMIT)

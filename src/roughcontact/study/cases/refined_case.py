@@ -26,7 +26,7 @@ class RefinedParameters(CurveParameters):
     """
 
     drawn_on: int = Field(ge=4)
-    shortest: float = Field(gt=0)
+    short_cutoff: float = Field(gt=0)
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:
@@ -34,9 +34,10 @@ class RefinedParameters(CurveParameters):
             raise ValueError(
                 f"drawn_on must be a multiple of points, not {self.drawn_on} with {self.points} points"
             )
-        if not self.shortest * self.points > 2:
+        if not self.short_cutoff * self.points > 2:
             raise ValueError(
-                f"shortest must be above two cells, {2 / self.points:g} on {self.points} points, not {self.shortest:g}"
+                f"short_cutoff must be above two cells, {2 / self.points:g} on {self.points} points, not "
+                f"{self.short_cutoff:g}"
             )
         return self
 

@@ -33,7 +33,7 @@ class SlipParameters(RoughSquare, ForceRange):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus : float
         Reduced modulus E* of both bodies together [Pa].

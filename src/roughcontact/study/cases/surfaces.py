@@ -33,9 +33,9 @@ class RoughSquare(Parameters):
         Hurst exponent H, from -1 to 3.
     rms : float
         Root mean square height h of the roughness [m].
-    rolloff, cutoff, shortest : float, optional
-        Limits of the power law, as wavelengths over the side: longer waves have the amplitude of the roll-off, are
-        absent beyond the cut-off; shorter ones than the shortest are absent. Without: all waves of the grid.
+    rolloff, long_cutoff, short_cutoff : float, optional
+        Limits of the power law, as wavelengths over the side: waves longer than the roll-off have its amplitude, and
+        those beyond the long or the short cut-off are absent. Without: all waves of the grid.
     amplitudes : {"exact", "gaussian"}
         The spectrum exactly in every sample, or on the average over a Gaussian process.
     periodic : bool
@@ -49,8 +49,8 @@ class RoughSquare(Parameters):
     hurst: float = Field(ge=-1, le=3)
     rms: Positive[Length]
     rolloff: float | None = Field(default=None, gt=0)
-    cutoff: float | None = Field(default=None, gt=0)
-    shortest: float | None = Field(default=None, gt=0)
+    long_cutoff: float | None = Field(default=None, gt=0)
+    short_cutoff: float | None = Field(default=None, gt=0)
     amplitudes: Literal["exact", "gaussian"] = "exact"
     periodic: bool = False
     radius: Positive[Length] | None = None
@@ -68,8 +68,8 @@ class RoughSquare(Parameters):
             self.rms,
             rng,
             rolloff=self._length(self.rolloff),
-            long_cutoff=self._length(self.cutoff),
-            short_cutoff=self._length(self.shortest),
+            long_cutoff=self._length(self.long_cutoff),
+            short_cutoff=self._length(self.short_cutoff),
             amplitudes=self.amplitudes,
         )
 

@@ -34,7 +34,7 @@ class YieldingParameters(RoughSquare):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, cutoff, shortest, amplitudes, periodic, radius
+    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus : float
         Reduced modulus E* [Pa].
@@ -83,7 +83,7 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Data
         ``rms_slope`` and, where there is one, ``hardness``.
     """
     roughness = parameters.roughness(rng)
-    slope = surface_moments(roughness, "spectral").rms_slope
+    slope = surface_moments(roughness, derivative="spectral").rms_slope
     hardness = parameters.hardness
     if parameters.relative_hardness is not None:
         hardness = parameters.relative_hardness * parameters.modulus * slope

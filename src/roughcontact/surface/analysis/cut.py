@@ -12,7 +12,7 @@ from scipy.special import gammaln
 
 from roughcontact.surface.analysis.hurst import fit_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
 
@@ -23,7 +23,28 @@ Array = npt.NDArray[np.float64]
 def cut_factor(hurst: float) -> float:
     """Return C1D/(q C2D) of straight cuts through an unlimited self-affine surface.
 
-    ``sqrt(pi) Gamma(H + 1/2)/Gamma(H + 1)``, for H above -1/2.
+    ``sqrt(pi) Gamma(H + 1/2)/Gamma(H + 1)`` (beside thesis, eq. 2.10, whose C1D is that of a line of its own).
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, above -1/2.
+
+    Returns
+    -------
+    float
+        The factor [-].
+
+    Raises
+    ------
+    ValueError
+        If H is not above -1/2, where the spectrum of a cut diverges.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> f"{rc.cut_factor(1.0):.6f}"  # pi/2
+    '1.570796'
     """
     if not -0.5 < hurst < math.inf:
         raise ValueError(f"a cut has a finite spectrum for a Hurst exponent above -1/2, not {hurst}")
@@ -33,13 +54,32 @@ def cut_factor(hurst: float) -> float:
 def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     """Return C1D of straight cuts through an isotropic surface of the spectrum C2D.
 
-    ``C1D(k) = 2 int_0^inf C2D(sqrt(k^2 + u^2)) du``. Between its bins C2D counts as a power law, beyond the
-    last one as absent.
+    ``C1D(k) = 2 int_0^inf C2D(sqrt(k^2 + u^2)) du``.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        Of kind C2D. Between its bins it counts as a power law, beyond the last one as absent.
+
+    Returns
+    -------
+    PowerSpectrum
+        Of kind C1D, in the bins that hold power.
 
     Raises
     ------
     ValueError
         If the spectrum is not a C2D, or has fewer than two bins with power.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> q = np.geomspace(1e3, 1e8, 101)
+    >>> one = np.ones(q.size)
+    >>> profile = rc.profile_spectrum(rc.PowerSpectrum(q, q**-4.0, "C2D", one, one, 1e3, 1e8))
+    >>> f"{profile.density[0] / q[0] ** -3:.4f} = {rc.cut_factor(1.0):.4f}"
+    '1.5708 = 1.5708'
     """
     if spectrum.kind != "C2D":
         raise ValueError("the spectrum is that of profiles already: C1D")
@@ -59,12 +99,12 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
 def surface_spectrum(
     profile: PowerSpectrum, *, method: Literal["law", "abel"] = "law", hurst: float | None = None
 ) -> PowerSpectrum:
-    """Return C2D of an isotropic surface from the spectrum C1D of its profiles, such as one line scan.
+    """Return C2D of an isotropic surface from the spectrum C1D of its profiles.
 
     Parameters
     ----------
     profile : PowerSpectrum
-        Of kind C1D.
+        Of kind C1D; a single measured profile is enough for "law".
     method : {"law", "abel"}
         "law" divides by the factor of a self-affine cut, ``C2D = C1D/(q cut_factor(H))``: exact inside the band of
         a self-affine surface and never noisier than the profile, but up to a factor of two too large near the
@@ -73,17 +113,28 @@ def surface_spectrum(
         spectrum, but it differentiates, so that it asks for the average of many profiles in bins of a
         tenth of a decade or so (`PowerSpectrum.rebinned`). Beyond the last bin C1D goes on as between the last two.
     hurst : float, optional
-        For "law"; by default fitted to the profile.
+        Hurst exponent for "law"; by default fitted to the profile.
 
     Returns
     -------
     PowerSpectrum
-        The freedom is that of the profile; what the inversion adds is not counted.
+        Of kind C2D. The freedom is that of the profile; what the inversion adds is not counted.
 
     Raises
     ------
     ValueError
         If the spectrum is not a C1D, or an inverted density is not positive (coarser bins help).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> profile = rc.power_spectrum(surface, "x")
+    >>> areal = rc.surface_spectrum(profile, hurst=0.8)
+    >>> f"{profile.density[0] / (areal.density[0] * areal.wavenumber[0]):.4f} = {rc.cut_factor(0.8):.4f}"
+    '1.7079 = 1.7079'
     """
     if profile.kind != "C1D":
         raise ValueError("the spectrum is that of a surface already: C2D")

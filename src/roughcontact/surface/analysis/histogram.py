@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["HeightHistogram", "height_histogram"]
 
@@ -19,7 +19,7 @@ Array = npt.NDArray[np.float64]
 class HeightHistogram:
     """The distribution of measured heights about their mean.
 
-    Parameters
+    Attributes
     ----------
     edges : array, shape (n + 1,)
         Edges of the bins [m].
@@ -44,7 +44,23 @@ class HeightHistogram:
         return np.asarray((self.edges[1:] + self.edges[:-1]) / 2)
 
     def gaussian(self, height: npt.ArrayLike) -> Array:
-        """Return the density [1/m] of a normal distribution of the same rms at the `height` [m]."""
+        """Return the density of a normal distribution of the same rms height.
+
+        Parameters
+        ----------
+        height : array
+            Heights above the mean [m].
+
+        Returns
+        -------
+        array, the same shape
+            Probability density [1/m].
+
+        Raises
+        ------
+        ValueError
+            If all heights are equal.
+        """
         if self.rms == 0:
             raise ValueError("all heights are equal: there is no normal distribution of rms 0")
         z = np.asarray(height, dtype=np.float64) / self.rms
@@ -52,13 +68,35 @@ class HeightHistogram:
 
 
 @numeric
-def height_histogram(surface: Surface, bins: int = 100) -> HeightHistogram:
-    """Return the histogram of the heights above their mean, missing points ignored.
+def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
+    """Return the histogram of the heights above their mean.
+
+    Parameters
+    ----------
+    surface : Surface
+        Missing points are ignored.
+    bins : int
+        Number of bins between the lowest and the highest point.
+
+    Returns
+    -------
+    HeightHistogram
+        Edges of the bins and points in each.
 
     Raises
     ------
     ValueError
         If the number of bins is not a positive whole number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> histogram = rc.height_histogram(surface, bins=20)
+    >>> int(histogram.count.sum()), histogram.edges.size
+    (4096, 21)
     """
     if int(bins) != bins or bins < 1:
         raise ValueError(f"bins must be a positive whole number, not {bins}")

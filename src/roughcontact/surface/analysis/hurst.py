@@ -11,11 +11,11 @@ import numpy.typing as npt
 
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
-from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
@@ -28,7 +28,7 @@ FINE = 200.0
 class HurstFit:
     """A self-affine law fitted to a surface.
 
-    Parameters
+    Attributes
     ----------
     hurst : float
         Hurst exponent H.
@@ -73,7 +73,18 @@ class HurstFit:
 
     @numeric
     def __call__(self, wavenumber: npt.ArrayLike) -> Array:
-        """Return the density of the law at the `wavenumber` [rad/m], zero outside its limits."""
+        """Return the density of the law, zero outside its limits.
+
+        Parameters
+        ----------
+        wavenumber : array
+            Wavenumbers [rad/m].
+
+        Returns
+        -------
+        array, the same shape
+            C2D [m^4] or C1D [m^3].
+        """
         q = np.asarray(wavenumber, dtype=np.float64)
         bent = q if self.rolloff is None else np.maximum(q, 2 * np.pi / self.rolloff)
         law = self.density * (bent / self.wavenumber) ** -self.exponent
@@ -91,7 +102,7 @@ def hurst_exponent(
     limit: Limit = "auto",
     q_min: float | None = None,
     q_max: float | None = None,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
 ) -> HurstFit:
     """Return the Hurst exponent of a surface or line from its power spectrum, with its standard error.
 
@@ -99,22 +110,33 @@ def hurst_exponent(
     ----------
     surface : Surface
         Without missing points. On a grid of two axes the surface counts as isotropic.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law may end, see `fit_spectrum`.
     q_min, q_max : float, optional
         The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
         should be cut where its instrument no longer follows, see `PowerSpectrum`.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `power_spectrum`.
 
     Returns
     -------
     HurstFit
+        The exponent, its standard error and the law.
 
     Raises
     ------
     ValueError
         If points are missing or the band holds too few waves.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> fit = rc.hurst_exponent(surface)
+    >>> f"H = {fit.hurst:.1f}, {fit.kind}"
+    'H = 0.8, C2D'
     """
     spectrum = power_spectrum(surface, "auto", window=window, per_decade=FINE)
     return fit_spectrum(spectrum, limit=limit, q_min=q_min, q_max=q_max)
@@ -139,7 +161,7 @@ def fit_spectrum(
     spectrum : PowerSpectrum
         In bins narrow against the law: ``power_spectrum(..., per_decade=200)``. In rings one wave wide the
         first few are not.
-    limit : {"auto", "none", "rolloff", "cutoff"}
+    limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level;
         and, but for "none", whether it ends in another level toward short waves. With "auto" each end
         is there only if the likelihood gains more by it than by chance.
@@ -149,14 +171,25 @@ def fit_spectrum(
     Returns
     -------
     HurstFit
+        The exponent, its standard error and the law.
 
     Raises
     ------
     ValueError
         If the band holds fewer than four bins, or no power.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> spectrum = rc.power_spectrum(surface, per_decade=200)
+    >>> f"H = {rc.fit_spectrum(spectrum, limit='none').hurst:.1f}"
+    'H = 0.8'
     """
-    if limit not in ("auto", "none", "rolloff", "cutoff"):
-        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'cutoff', not {limit!r}")
+    if limit not in ("auto", "none", "rolloff", "long_cutoff"):
+        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
         raise ValueError(

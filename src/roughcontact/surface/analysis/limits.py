@@ -18,7 +18,7 @@ from roughcontact.surface.analysis.whittle import Slope, likeliest, mean_level
 __all__ = ["Limit", "Limits", "clear_bins", "find_limits", "sharpened", "step_at"]
 
 Array = npt.NDArray[np.float64]
-Limit = Literal["auto", "none", "rolloff", "cutoff"]
+Limit = Literal["auto", "none", "rolloff", "long_cutoff"]
 # Fewer bins than these cannot tell a law from its ends.
 LEAST = 12
 _End = Literal["bend", "first", "last"]
@@ -42,7 +42,7 @@ def find_limits(band: PowerSpectrum, limit: Limit) -> Limits:
     longs: dict[Limit, tuple[_End, ...]] = {
         "auto": ("bend", "first"),
         "rolloff": ("bend",),
-        "cutoff": ("first",),
+        "long_cutoff": ("first",),
     }
     cost = cache(lambda limits: _cost(band, limits))
     # Which end is found first matters where both are there: the better of the two ways is taken.

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["merge_spectra", "spectra_ratio"]
 
@@ -36,6 +36,16 @@ def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -
     ------
     ValueError
         If there is no spectrum, or kinds differ.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rng = np.random.default_rng(1)
+    >>> wide, near = (rc.Grid((64, 64), spacing, periodic=True) for spacing in (4e-6, 1e-6))
+    >>> merged = rc.merge_spectra([rc.power_spectrum(rc.self_affine(g, 0.8, 1e-6, rng)) for g in (wide, near)])
+    >>> f"{2e6 * np.pi / merged.q_min:.0f} um to {2e6 * np.pi / merged.q_max:.0f} um"
+    '256 um to 2 um'
     """
     parts = _of_one_kind(spectra)
     arrays = [
@@ -59,14 +69,36 @@ def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -
 
 
 def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, float]:
-    """Return the mean ratio of two densities, `one` to the `other`, where both are reliable, and its standard error.
+    """Return the mean ratio of two densities in the band that they share, and its standard error.
 
-    A ratio that lies many standard errors from 1 says that the instruments have not seen the same surface.
+    A ratio many standard errors from 1 says that the instruments have not measured the same surface.
+
+    Parameters
+    ----------
+    one, other : PowerSpectrum
+        Of one kind, each with its reliable band.
+
+    Returns
+    -------
+    ratio : float
+        Density of `one` over that of the `other` [-], the geometric mean over bins of a tenth of a decade.
+    standard_error : float
+        Of the ratio [-], for Gaussian surfaces.
 
     Raises
     ------
     ValueError
         If kinds differ or the bands share less than two bins of a tenth of a decade.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> ratio, error = rc.spectra_ratio(rc.power_spectrum(surface), rc.power_spectrum(2 * surface))
+    >>> f"{ratio:.3f}"
+    '0.250'
     """
     _of_one_kind((one, other))
     low, high = max(one.q_min, other.q_min), min(one.q_max, other.q_max)

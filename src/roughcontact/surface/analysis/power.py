@@ -9,8 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import number, numeric, require_numbers
 
 __all__ = ["PowerSpectrum"]
 
@@ -43,6 +42,16 @@ class PowerSpectrum:
     ------
     ValueError
         If the arrays do not fit together, or the wavenumbers do not increase from above zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> q = np.geomspace(1e4, 1e6, 21)
+    >>> waves = np.full(q.size, 100.0)
+    >>> spectrum = rc.PowerSpectrum(q, 1e-4 * q**-3.6, "C2D", count=2 * waves, freedom=waves, q_min=1e4, q_max=1e6)
+    >>> f"{spectrum.wavelength[0] * 1e6:.0f} um, to {spectrum.standard_error[0] / spectrum.density[0]:.0%}"
+    '628 um, to 10%'
     """
 
     wavenumber: Array
@@ -83,7 +92,17 @@ class PowerSpectrum:
 
     @numeric
     def within(self, q_min: float | None = None, q_max: float | None = None) -> PowerSpectrum:
-        """Return the bins from `q_min` to `q_max` [rad/m]; by default those to be relied upon.
+        """Return the spectrum in a narrower band.
+
+        Parameters
+        ----------
+        q_min, q_max : float, optional
+            The band [rad/m]; by default the one in which the spectrum is to be relied upon.
+
+        Returns
+        -------
+        PowerSpectrum
+            The bins from `q_min` to `q_max`, which become its band.
 
         Raises
         ------
@@ -110,9 +129,24 @@ class PowerSpectrum:
 
     @numeric
     def rebinned(self, per_decade: float) -> PowerSpectrum:
-        """Return the spectrum in coarser bins, `per_decade` of them to a factor of ten in wavenumber.
+        """Return the spectrum in coarser bins.
 
-        Densities are averaged by their freedom, logarithms of wavenumbers likewise.
+        The densities and the logarithms of the wavenumbers are averaged with the freedom of each bin as weight.
+
+        Parameters
+        ----------
+        per_decade : float
+            Bins to a factor of ten in wavenumber.
+
+        Returns
+        -------
+        PowerSpectrum
+            Bins without a wave are left out.
+
+        Raises
+        ------
+        ValueError
+            If `per_decade` is not positive.
         """
         if not per_decade > 0:
             raise ValueError(f"per_decade must be positive, not {per_decade}")

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.surface.analysis.preprocess import Level, power_left, tapered, tapers
-from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
 from roughcontact.surface.surface import Surface
+from roughcontact.surface.wave_grid import wave_vectors
 
 __all__ = ["PowerMap", "power_map"]
 
@@ -22,7 +22,7 @@ Array = npt.NDArray[np.float64]
 class PowerMap:
     """C2D of every wave of a real surface: half a plane, since opposite waves have the same power.
 
-    Parameters
+    Attributes
     ----------
     density : array, shape (ny, nx//2 + 1)
         C2D [m^4].
@@ -48,7 +48,17 @@ class PowerMap:
         return float(once * cell)
 
     def centred(self) -> tuple[Array, Array, Array]:
-        """Return ``(qy, qx, density)`` of the whole plane, wavenumbers increasing, zero in the middle."""
+        """Return the whole plane of waves, zero in the middle.
+
+        Returns
+        -------
+        qy : array, shape (ny,)
+            Wavenumbers along y [rad/m], increasing.
+        qx : array, shape (nx,)
+            Wavenumbers along x [rad/m], increasing.
+        density : array, shape (ny, nx)
+            C2D [m^4].
+        """
         # The wave -q has the power of q.
         ny, rest = self.density.shape[0], range(self.qx.size, self.columns)
         mirrored = self.density[np.ix_((-np.arange(ny)) % ny, [self.columns - i for i in rest])]
@@ -58,14 +68,14 @@ class PowerMap:
         return np.fft.fftshift(self.qy), qx, whole
 
 
-def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto") -> PowerMap:
+def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level = "auto") -> PowerMap:
     """Return the two-dimensional power spectrum C2D of a surface (thesis, eqs 2.13 and 2.14).
 
     Parameters
     ----------
     surface : Surface
         On a grid of two axes, without missing points.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         Along both axes; "auto" is none along periodic and Hann along free axes.
         The power that a window takes away is put back on the average.
     level : {"auto", "none", "mean", "plane"}
@@ -74,22 +84,31 @@ def power_map(surface: Surface, *, window: Window = "auto", level: Level = "auto
     Returns
     -------
     PowerMap
+        C2D of every wave.
 
     Raises
     ------
     ValueError
         If the surface is a line or too small, has missing points, or an option is unknown.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> waves = rc.power_map(surface)
+    >>> waves.density.shape, f"rms {waves.variance**0.5:.3g} m"
+    ((64, 33), 'rms 1e-06 m')
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 2:
         raise ValueError(f"a spectrum map needs a surface of at least 2 x 2 points, not shape {grid.shape}")
     windows = tapers(surface, window)
-    density = _power(tapered(surface, windows, level, "a power spectrum"))
-    (ny, nx), (dy, dx) = grid.shape, grid.spacing
+    density = _power(prepared(surface, windows, level, "a power spectrum"))
     density *= grid.area / (2 * math.pi * grid.size) ** 2 / power_left(windows)
-    qy = 2 * np.pi * scipy.fft.fftfreq(ny, dy)
-    qx = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)
-    return PowerMap(density, qy, qx, nx)
+    qy, qx = (component.ravel() for component in wave_vectors(grid.shape, grid.spacing))
+    return PowerMap(density, qy, qx, grid.shape[1])
 
 
 def _power(work: Array) -> Array:

@@ -1,20 +1,64 @@
-"""Heights made ready for a Fourier transform: complete, levelled, tapered."""
+"""Heights made ready for a Fourier transform: complete, without tilt, under a window."""
 
 from __future__ import annotations
 
 import math
-from typing import Literal
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.surface.analysis.windows import Taper, Window, window_along
 from roughcontact.surface.surface import Surface
+from roughcontact.surface.windows import window_values
 
-__all__ = ["Level", "complete", "power_left", "tapered", "tapers"]
+__all__ = ["Level", "SpectralWindow", "Taper", "complete", "power_left", "prepared", "taper", "tapers"]
 
 Array = npt.NDArray[np.float64]
-Level = Literal["auto", "none", "mean", "plane"]
+Level: TypeAlias = Literal["auto", "none", "mean", "plane"]
+SpectralWindow: TypeAlias = Literal["auto", "none", "hann", "hamming", "blackman", "welch", "tukey"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Taper:
+    """A window along one axis, with its corrections.
+
+    Parameters
+    ----------
+    values : array, shape (n,)
+        Factors of the heights at the cell centres.
+    power : float
+        Mean square factor: the share of the power that is left.
+    overlap : float
+        How many neighbouring waves share their information, ``<w^4>/<w^2>^2``: 1 without a window.
+        An average over waves is as good as one over that many times fewer independent waves.
+    smear : float
+        Second moment of the window's kernel in units of ``(2 pi/L)^2``, ``<w'^2>/<w^2>``: 0 without a window.
+        To first order the mean estimate is the true density plus half of this times its second derivative.
+    """
+
+    values: Array
+    power: float
+    overlap: float
+    smear: float
+
+
+def taper(name: str, size: int, periodic: bool = False) -> Taper:
+    """Return the window `name` along an axis of `size` cells; "auto" is none if it is periodic, else Hann.
+
+    Raises
+    ------
+    ValueError
+        If there is no such window.
+    """
+    if name == "auto":
+        name = "none" if periodic else "hann"
+    values = np.ones(size) if name == "none" else window_values(name, size)
+    power = float(np.mean(values**2))
+    # A step at the edges has no second moment: only the inside of the window counts.
+    slope = np.diff(values) * size
+    smear = float(slope @ slope) / size / power / (2 * math.pi) ** 2
+    return Taper(values, power, float(np.mean(values**4)) / power**2, smear)
 
 
 def complete(surface: Surface, what: str) -> Array:
@@ -27,14 +71,14 @@ def complete(surface: Surface, what: str) -> Array:
     return surface.heights
 
 
-def tapers(surface: Surface, window: Window) -> tuple[Taper, ...]:
+def tapers(surface: Surface, window: SpectralWindow) -> tuple[Taper, ...]:
     """Return the window of every axis."""
     grid = surface.grid
-    return tuple(window_along(window, n, p) for n, p in zip(grid.shape, grid.periodic, strict=True))
+    return tuple(taper(window, n, p) for n, p in zip(grid.shape, grid.periodic, strict=True))
 
 
-def tapered(surface: Surface, windows: tuple[Taper, ...], level: Level, what: str) -> Array:
-    """Return a new array of levelled heights [m] times the `windows`, whose sum is zero."""
+def prepared(surface: Surface, windows: tuple[Taper, ...], level: Level, what: str) -> Array:
+    """Return a new array of the heights [m] without their trend, times the `windows`; its sum is zero."""
     heights = complete(surface, what)
     if level not in ("auto", "none", "mean", "plane"):
         raise ValueError(f"level must be 'auto', 'none', 'mean' or 'plane', not {level!r}")

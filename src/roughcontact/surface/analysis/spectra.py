@@ -11,10 +11,9 @@ import scipy.fft
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
-from roughcontact.surface.analysis.preprocess import Level, tapered, tapers
-from roughcontact.surface.analysis.windows import Window
+from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, prepared, tapers
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["power_spectrum"]
 
@@ -30,7 +29,7 @@ def power_spectrum(
     surface: Surface,
     direction: Literal["auto", "ring", "x", "y"] = "auto",
     *,
-    window: Window = "auto",
+    window: SpectralWindow = "auto",
     level: Level = "auto",
     per_decade: float | None = None,
 ) -> PowerSpectrum:
@@ -43,7 +42,7 @@ def power_spectrum(
     direction : {"auto", "ring", "x", "y"}
         "ring": C2D averaged over all directions, up to the smaller of the Nyquist wavenumbers; "x", "y":
         C1D of the profiles along that axis, averaged over them. "auto": rings of a surface, C1D of a line.
-    window : {"auto", "none", "hann", "hamming", "blackman", "welch"}
+    window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         "auto" is none along periodic and Hann along free axes. The power that a window
         takes away is put back on the average.
     level : {"auto", "none", "mean", "plane"}
@@ -61,6 +60,22 @@ def power_spectrum(
     ------
     ValueError
         If points are missing, an option is unknown, or a line is asked for its rings.
+
+    Notes
+    -----
+    Rings: thesis, eqs 2.13 and 2.14; profiles: eqs 2.10 and 2.11.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> spectrum = rc.power_spectrum(surface)
+    >>> spectrum.kind, spectrum.wavenumber.size
+    ('C2D', 32)
+    >>> f"{rc.fit_spectrum(spectrum).hurst:.1f}"
+    '0.8'
     """
     ndim = surface.grid.ndim
     if direction == "auto":
@@ -72,36 +87,50 @@ def power_spectrum(
     if per_decade is not None and not 0 < per_decade <= FINEST:
         raise ValueError(f"per_decade must be positive and at most {FINEST:g}, not {per_decade}")
     if direction == "ring":
-        windows = tapers(surface, window)
-        spectrum = _rings(power_map(surface, window=window, level=level), surface, per_decade)
-        overlap = math.prod(w.overlap for w in windows)
-        moments = [
-            w.smear * (2 * math.pi / L) ** 2 for w, L in zip(windows, surface.grid.lengths, strict=True)
-        ]
-        return _as_spectrum(spectrum, "C2D", overlap, sum(moments) / 2, surface)
+        return _rings(surface, window, level, per_decade)
     return _profiles(surface, 0 if direction == "y" else ndim - 1, window, level, per_decade)
 
 
-def _rings(waves: PowerMap, surface: Surface, per_decade: float | None) -> tuple[Array, Array, Array]:
-    """Return the wavenumber, the density and the number of waves of each ring."""
-    step = min(2 * math.pi / length for length in surface.grid.lengths)
-    limit = math.pi / max(surface.grid.spacing) * (1 - 1e-12)
-    least = min(2 * math.pi / length for length in surface.grid.lengths)
+def _rings(surface: Surface, window: SpectralWindow, level: Level, per_decade: float | None) -> PowerSpectrum:
+    """Return C2D averaged over rings."""
+    grid, windows = surface.grid, tapers(surface, window)
+    first = [2 * math.pi / length for length in grid.lengths]
+    waves = power_map(surface, window=window, level=level)
+    limit = math.pi / max(grid.spacing)
+    q, density, count = _ring_means(waves, min(first), limit * (1 - 1e-12), per_decade)
+    return PowerSpectrum(
+        wavenumber=q,
+        density=density,
+        kind="C2D",
+        count=count,
+        freedom=count / 2 / math.prod(along.overlap for along in windows),
+        q_min=max(
+            (1.0 if periodic else LONGEST) * step for periodic, step in zip(grid.periodic, first, strict=True)
+        ),
+        q_max=limit,
+        smear=sum(along.smear * step**2 for along, step in zip(windows, first, strict=True)) / 2,
+    )
+
+
+def _ring_means(
+    waves: PowerMap, least: float, limit: float, per_decade: float | None
+) -> tuple[Array, Array, Array]:
+    """Return the wavenumber, the density and the number of waves of each ring, `least` wide or many to a decade."""
     size = (
-        int(limit / step + 0.5) + 1 if per_decade is None else int(per_decade * math.log10(limit / least)) + 1
+        int(limit / least + 0.5) + 1
+        if per_decade is None
+        else int(per_decade * math.log10(limit / least)) + 1
     )
     total, logs, number = (np.zeros(size) for _ in range(3))
     # Every column but the first (and the Nyquist one, which is left out) stands for two waves.
     weights = np.where(np.arange(waves.qx.size) == 0, 1.0, 2.0)
     for qy, row in zip(waves.qy, waves.density, strict=True):
-        if abs(qy) > limit:
-            continue
         q = np.hypot(qy, waves.qx)
         keep = (q <= limit) & (q > 0)
         q, weight = q[keep], weights[keep]
         ln_q = np.log(q)
         if per_decade is None:
-            index = (q / step + 0.5).astype(np.int64)
+            index = (q / least + 0.5).astype(np.int64)
         else:
             # The tiny shift keeps the longest waves, which lie on the first edge, inside the first bin.
             index = (per_decade / math.log(10) * (ln_q - math.log(least)) + 1e-9).astype(np.int64)
@@ -113,7 +142,7 @@ def _rings(waves: PowerMap, surface: Surface, per_decade: float | None) -> tuple
 
 
 def _profiles(
-    surface: Surface, axis: int, window: Window, level: Level, per_decade: float | None
+    surface: Surface, axis: int, window: SpectralWindow, level: Level, per_decade: float | None
 ) -> PowerSpectrum:
     """Return C1D of the profiles along `axis`."""
     grid = surface.grid
@@ -122,7 +151,7 @@ def _profiles(
         raise ValueError(f"a spectrum of profiles needs at least 3 points along them, not {n}")
     along = tapers(surface, window)[axis]
     none = tapers(surface, "none")
-    work = tapered(surface, none, level, "a power spectrum")
+    work = prepared(surface, none, level, "a power spectrum")
     work = np.ascontiguousarray(np.atleast_2d(np.moveaxis(work, axis, -1)))
     if level != "none":
         # What is left of a profile's mean after the window would leak into its longest waves.
@@ -160,28 +189,3 @@ def _independent(waves: npt.NDArray[np.complex128]) -> Array:
     square = (power**2).sum(axis=0)
     ratio = np.divide(power.sum(axis=0) ** 2, square, out=np.ones(square.shape), where=square > 0)
     return np.asarray(np.clip(2 * ratio - 1, 1, waves.shape[0]))
-
-
-def _as_spectrum(
-    rings: tuple[Array, Array, Array],
-    kind: Literal["C2D"],
-    overlap: float,
-    smear: float,
-    surface: Surface,
-) -> PowerSpectrum:
-    """Return the ring averages with what is known about them."""
-    q, density, number = rings
-    longest = max(
-        (1.0 if periodic else LONGEST) * 2 * math.pi / length
-        for periodic, length in zip(surface.grid.periodic, surface.grid.lengths, strict=True)
-    )
-    return PowerSpectrum(
-        wavenumber=q,
-        density=density,
-        kind=kind,
-        count=number,
-        freedom=number / 2 / overlap,
-        q_min=longest,
-        q_max=math.pi / max(surface.grid.spacing),
-        smear=smear,
-    )

@@ -8,23 +8,23 @@ import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["spectrum_moments"]
 
 
 @numeric
 def spectrum_moments(
-    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
+    spectrum: PowerSpectrum, *, q_min: float | None = None, q_max: float | None = None
 ) -> Moments:
     """Return the profile moments m0, m2 and m4 that the waves between `q_min` and `q_max` contribute.
 
     Parameters
     ----------
     spectrum : PowerSpectrum
-        A surface's (taken for isotropic) or its profiles'. Between its bins the density counts as a power law.
+        Of a surface (taken for isotropic) or of its profiles. Between its bins the density counts as a power law.
     q_min, q_max : float, optional
-        The band [rad/m]; by default the one to be relied upon. On a fractal m2 and m4 hang on `q_max`: state it.
+        The band [rad/m]; by default the one to be relied upon. On a fractal m2 and m4 depend on `q_max`: state it.
 
     Returns
     -------
@@ -36,6 +36,16 @@ def spectrum_moments(
     ------
     ValueError
         If fewer than two bins with power lie in the band.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> q = np.geomspace(1e5, 1e6, 101)
+    >>> one = np.ones(q.size)
+    >>> moments = rc.spectrum_moments(rc.PowerSpectrum(q, 1 / q, "C1D", one, one, 1e5, 1e6))
+    >>> f"m0 = {moments.m0:.4f} = 2 ln(10)"
+    'm0 = 4.6052 = 2 ln(10)'
     """
     band = spectrum.within(q_min, q_max)
     keep = band.density > 0

@@ -13,15 +13,15 @@ import numpy.typing as npt
 from scipy.optimize import least_squares
 from scipy.special import chdtri
 
+from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
-from roughcontact.surface.analysis.tapered_structure import tapered_structure
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 
 __all__ = ["fit_structure"]
 
 Array = npt.NDArray[np.float64]
-Limit = Literal["none", "rolloff", "cutoff"]
+Limit = Literal["none", "rolloff", "long_cutoff"]
 # Quadrature over the waves: directions to a quarter turn (twice this many), and wavenumbers on each.
 ANGLES, WAVES = 12, 1500
 # Longer lags than this many cells are not resolved by that quadrature.
@@ -60,7 +60,7 @@ class _Band:
         """Return C2D of each wave: exp(level) at ln q = 0, a power law above `ln_low`."""
         bent = np.maximum(self.ln_q, ln_low) if limit == "rolloff" else self.ln_q
         density = np.exp(level - 2 * (hurst + 1) * bent)
-        if limit == "cutoff":
+        if limit == "long_cutoff":
             # A node that the limit cuts counts in part, so that S is continuous in the limit.
             density *= np.clip((self.ln_q - ln_low) / self.step + 0.5, 0, 1)
         return np.asarray(density)
@@ -82,7 +82,7 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     surface : Surface
         On a grid of two axes, isotropic, with Nyquist waves that the instrument still shows:
         start at longer lags otherwise.
-    limit : {"none", "rolloff", "cutoff"}
+    limit : {"none", "rolloff", "long_cutoff"}
         How the law ends toward long waves.
     lags : array of int, optional
         Lags in whole cells, up to half of a free side; by default from 1 to an eighth of the shorter side, or
@@ -97,12 +97,22 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     ------
     ValueError
         If the surface is a line, too small, or flat, an option is unknown, or a lag too long.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> fit = rc.fit_structure(surface)
+    >>> f"H = {fit.hurst:.1f}"
+    'H = 0.8'
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 32:
         raise ValueError(f"this fit needs a surface of at least 32 x 32 points, not shape {grid.shape}")
-    if limit not in ("none", "rolloff", "cutoff"):
-        raise ValueError(f"limit must be 'none', 'rolloff' or 'cutoff', not {limit!r}")
+    if limit not in ("none", "rolloff", "long_cutoff"):
+        raise ValueError(f"limit must be 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     steps = _default(min(grid.shape), limit) if lags is None else np.asarray(lags)
     if steps.size < 5:
         raise ValueError(f"a fit needs five lags at least, not {steps.size}")
@@ -131,7 +141,7 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
         wavenumber=math.exp(reference),
         kind="C2D",
         rolloff=low if limit == "rolloff" else None,
-        long_cutoff=low if limit == "cutoff" else None,
+        long_cutoff=low if limit == "long_cutoff" else None,
         short_cutoff=None,
         misfit=misfit,
         band=(2 * math.pi / float(distance.max()), 2 * math.pi / float(distance.min())),

@@ -10,17 +10,17 @@ import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
 
-__all__ = ["Summits", "find_summits"]
+__all__ = ["MeasuredSummits", "find_summits"]
 
 Array = npt.NDArray[np.float64]
 _Heights = Callable[[int, int], Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Summits:
+class MeasuredSummits:
     """The points of a surface that stand above their eight neighbours.
 
-    Parameters
+    Attributes
     ----------
     rows, columns : array of int, shape (n,)
         Where they are.
@@ -59,7 +59,7 @@ class Summits:
         return np.asarray(1 / np.sqrt(self.curvature.prod(axis=1)))
 
 
-def find_summits(surface: Surface) -> Summits:
+def find_summits(surface: Surface) -> MeasuredSummits:
     """Return the summits of a surface: points higher than all eight neighbours.
 
     Parameters
@@ -69,7 +69,7 @@ def find_summits(surface: Surface) -> Summits:
 
     Returns
     -------
-    Summits
+    MeasuredSummits
         With curvatures from central differences. The few whose smaller curvature is not positive by these
         (saddles between grid lines) are left out.
 
@@ -82,6 +82,14 @@ def find_summits(surface: Surface) -> Summits:
     -----
     Number and curvature depend on the spacing D of the points. They are those of the surface itself only if its
     shortest waves are well resolved (q D below pi/8 or so); on a fractal they belong to the instrument.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> summits = rc.find_summits(rc.shapes.wave(grid, 1e-6, wavelength=32e-6, axis="both", centre=(0.5e-6, 0.5e-6)))
+    >>> summits.count, f"{summits.density * grid.area:.0f}"
+    (4, '4')
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 3:
@@ -108,7 +116,7 @@ def find_summits(surface: Surface) -> Summits:
     curvature = _principal(lambda i, j: at(i, j)[rows, columns], grid.spacing)
     dome = curvature[:, 1] > 0
     shift = [0 if p else 1 for p in grid.periodic]
-    return Summits(
+    return MeasuredSummits(
         rows=rows[dome] + shift[0],
         columns=columns[dome] + shift[1],
         height=centre[rows, columns][dome] - float(np.nanmean(surface.heights)),

@@ -5,20 +5,26 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.surface.parameters.decay import decay_lengths
-from roughcontact.surface.parameters.facets import gradient_and_area
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import map_coordinates, spline_filter
+
+from roughcontact.surface.analysis.correlation import autocorrelation
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
-__all__ = ["ArealParameters", "areal_parameters"]
+__all__ = ["ArealParameters", "areal_parameters", "gradient_and_area"]
+
+Array = npt.NDArray[np.float64]
+_HALVINGS = 30  # of half a cell: to a billionth of it
 
 
 @dataclass(frozen=True, slots=True)
 class ArealParameters:
     """Field parameters of a scale-limited surface (clauses of ISO 25178-2:2021).
 
-    Parameters
+    Attributes
     ----------
     Sq : float
         Root mean square height [m], 4.2.2.
@@ -39,7 +45,7 @@ class ArealParameters:
         Infinite if it does not within half the length of the surface.
     Str : float
         Texture aspect ratio [-], 4.3.3: Sal over the longest such distance. NaN where that distance exceeds half the
-        length of the surface: the aspect ratio cannot be told then, only that it is small.
+        length of the surface: the aspect ratio is small then, and no more is known of it.
     Sdq : float
         Root mean square gradient [-], 4.4.2.
     Sdr : float
@@ -63,8 +69,8 @@ class ArealParameters:
 def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters:
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 
-    Heights count above their mean. The standard wants a scale-limited surface: level and filter it first, since
-    nothing is removed here but the mean. Missing points are left out, as are pairs and triangles that hold one.
+    Heights count above their mean. The standard wants a scale-limited surface: remove its tilt and filter it first,
+    since nothing is removed here but the mean. Missing points are left out, as are pairs and triangles that hold one.
 
     Parameters
     ----------
@@ -72,6 +78,11 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
         On a grid of two axes.
     decay : float
         The level of the autocorrelation for Sal and Str.
+
+    Returns
+    -------
+    ArealParameters
+        Heights [m], lengths [m] and ratios [-] by the names of the standard.
 
     Raises
     ------
@@ -81,7 +92,15 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
     Notes
     -----
     Sdq and Sdr are those of the triangles between neighbouring points, cut along both diagonals: an edge along
-    x sees of a wave q the share ``sin(q D/2)/(q D/2)``. Sdq of a rough surface hangs on the spacing.
+    x keeps of a wave q the fraction ``sin(q D/2)/(q D/2)``. Sdq of a rough surface depends on the spacing.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid((64, 64), 1e-6, periodic=True), amplitude=1e-6, wavelength=32e-6)
+    >>> parameters = rc.areal_parameters(wave)
+    >>> f"Sq = {parameters.Sq:.3g} m, Sz = {parameters.Sz:.2g} m, Sku = {parameters.Sku:.2f}"
+    'Sq = 7.07e-07 m, Sz = 2e-06 m, Sku = 1.50'
     """
     if surface.grid.ndim != 2 or min(surface.grid.shape) < 2:
         raise ValueError(f"areal parameters need a surface of 2 x 2 points, not shape {surface.grid.shape}")
@@ -108,3 +127,73 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
         Sdq=gradient,
         Sdr=area,
     )
+
+
+def gradient_and_area(surface: Surface) -> tuple[float, float]:
+    """Return the root mean square gradient and the relative excess of area of the surface through its points.
+
+    Sdq and Sdr (ISO 25178-2:2021, 4.4.2 and 4.4.3). Between four points the surface is cut into triangles along both
+    diagonals, and the two ways averaged. Triangles with a missing corner are left out. Along a periodic axis the last
+    points are joined to the first.
+
+    Raises
+    ------
+    ValueError
+        If no triangle is complete.
+    """
+    z, (dy, dx) = surface.heights, surface.grid.spacing
+    z = np.pad(z, [(0, 1) if periodic else (0, 0) for periodic in surface.grid.periodic], mode="wrap")
+    along_x, along_y = np.diff(z, axis=1) / dx, np.diff(z, axis=0) / dy
+    squares = area = 0.0
+    number = 0
+    # Each triangle has one edge along x, above or below, and one along y, left or right.
+    for x in (along_x[:-1], along_x[1:]):
+        for y in (along_y[:, :-1], along_y[:, 1:]):
+            steepness = x**2 + y**2
+            steepness = steepness[~np.isnan(steepness)]
+            number += steepness.size
+            squares += float(steepness.sum())
+            # sqrt(1 + s) - 1 without loss for small slopes.
+            area += float((steepness / (np.sqrt(1 + steepness) + 1)).sum())
+    if not number:
+        raise ValueError("no three neighbouring points are measured: there is no gradient")
+    return float(np.sqrt(squares / number)), area / number
+
+
+def decay_lengths(surface: Surface, level: float) -> tuple[float, float]:
+    """Return the shortest and the longest distance over which the autocorrelation falls to `level` of its maximum [m].
+
+    Sal and the length that Str compares it with (ISO 25178-2:2021, 4.3.2 and 4.3.3).
+    Looked for along rays at every degree, where the autocorrelation first falls to the level; a cubic spline goes
+    through the lags. The longest is infinite if along some ray the level is not reached within half the length of the
+    surface.
+    """
+    lags = autocorrelation(surface)
+    middle = [axis.size // 2 for axis in lags.lags]
+    share = np.where(lags.pairs > 0, lags.value, 0.0) / lags.value[tuple(middle)]
+    smooth = spline_filter(share, order=3, mode="mirror")
+    steps = surface.grid.spacing
+
+    def values(radius: Array, angle: Array | float) -> Array:
+        rows = middle[0] + radius * np.sin(angle) / steps[0]
+        columns = middle[1] + radius * np.cos(angle) / steps[1]
+        # Beyond the largest lags nothing is known.
+        known = (rows <= share.shape[0] - 1) & (columns <= share.shape[1] - 1) & (columns >= 0)
+        found = map_coordinates(smooth, [rows, columns], order=3, prefilter=False, mode="mirror")
+        return np.where(known, found, np.nan)
+
+    reach = math.hypot(*(axis[-1] for axis in lags.lags))
+    radius = np.arange(0.0, reach + min(steps), min(steps) / 2)
+    angles = np.radians(np.arange(0, 180))  # the other half is the same
+    first = [int(np.argmax(values(radius, angle) <= level)) for angle in angles]
+    if not any(first):
+        return math.inf, math.inf
+    # Zero lag is above the level: a first place of 0 says that there is none.
+    falls = np.array([place > 0 for place in first])
+    outer = radius[np.array(first)[falls]]
+    inner = outer - min(steps) / 2
+    for _ in range(_HALVINGS):
+        half = (inner + outer) / 2
+        below = values(half, angles[falls]) <= level
+        inner, outer = np.where(below, inner, half), np.where(below, half, outer)
+    return float(outer.min()), float(outer.max()) if falls.all() else math.inf

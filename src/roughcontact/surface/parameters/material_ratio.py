@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["MaterialRatio", "StratifiedParameters", "material_ratio", "stratified_parameters"]
 
@@ -24,7 +24,7 @@ class MaterialRatio:
     ISO 25178-2:2021, 4.5.1; of profiles ISO 21920-2:2021, 4.5.1. Straight between the sorted points, the i-th highest
     of n at the ratio (i - 1/2)/n, and level beyond the first and the last.
 
-    Parameters
+    Attributes
     ----------
     ratio : array, shape (n,)
         Material ratios, increasing, from 0 to 1.
@@ -36,19 +36,52 @@ class MaterialRatio:
     height: Array
 
     def height_at(self, ratio: npt.ArrayLike) -> Array:
-        """Return the height [m] above which the share `ratio` of the points lies (ISO 25178-2:2021, 4.5.2)."""
+        """Return the height above which a share of the points lies (ISO 25178-2:2021, 4.5.2).
+
+        Parameters
+        ----------
+        ratio : array
+            Material ratios [-], from 0 to 1.
+
+        Returns
+        -------
+        array, the same shape
+            Heights above the mean [m].
+        """
         at = np.asarray(ratio, dtype=np.float64)
         return np.asarray(np.interp(at, self.ratio, self.height))
 
     def ratio_at(self, height: npt.ArrayLike) -> Array:
-        """Return the share of the points above the `height` [m]."""
+        """Return the share of the points above a height.
+
+        Parameters
+        ----------
+        height : array
+            Heights above the mean [m].
+
+        Returns
+        -------
+        array, the same shape
+            Material ratios [-], from 0 to 1.
+        """
         at = np.asarray(height, dtype=np.float64)
         share = np.interp(at, self.height[::-1], self.ratio[::-1])
         share = np.where(at > self.height[0], 0.0, share)
         return np.asarray(np.where(at < self.height[-1], 1.0, share))
 
     def integral(self, start: float, stop: float) -> float:
-        """Return the integral of the height over material ratios from `start` to `stop` [m]."""
+        """Return the integral of the height over the material ratio.
+
+        Parameters
+        ----------
+        start, stop : float
+            Material ratios [-] between which is integrated.
+
+        Returns
+        -------
+        float
+            [m]
+        """
         inside = (self.ratio > start) & (self.ratio < stop)
         ratio = np.concatenate([[start], self.ratio[inside], [stop]])
         return float(np.trapezoid(self.height_at(ratio), ratio))
@@ -60,7 +93,7 @@ class StratifiedParameters:
 
     Of profiles they are those of ISO 21920-2:2021, 4.5.3 (Rk, Rpk, Rvk, ...) and 4.5.5.
 
-    Parameters
+    Attributes
     ----------
     Sk : float
         Core height [m], 4.5.4: the height that the equivalent straight line spans.
@@ -87,7 +120,27 @@ class StratifiedParameters:
 
 
 def material_ratio(surface: Surface) -> MaterialRatio:
-    """Return the material ratio curve of the measured heights of a surface or line (ISO 25178-2:2021, 4.5.1)."""
+    """Return the material ratio curve of a surface or a line (ISO 25178-2:2021, 4.5.1).
+
+    Parameters
+    ----------
+    surface : Surface
+        Missing points are ignored.
+
+    Returns
+    -------
+    MaterialRatio
+        Heights above the mean over the share of the points that lie above them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> line = rc.Surface(np.arange(100) * 1e-8, rc.Grid(100, 1e-6))
+    >>> curve = rc.material_ratio(line)
+    >>> f"{curve.height_at(0.25) * 1e6:.3f} um, {curve.ratio_at(0.0):.2f}"
+    '0.250 um, 0.50'
+    """
     heights = np.sort(surface.heights[surface.measured])[::-1]
     heights -= heights.mean()
     ratio = (np.arange(heights.size) + 0.5) / heights.size
@@ -113,10 +166,23 @@ def stratified_parameters(
     peak_ratio, dale_ratio : float
         Material ratios that part peaks from core and core from dales, for the volumes.
 
+    Returns
+    -------
+    StratifiedParameters
+        Heights [m], ratios [-] and volumes per area [m] by the names of the standard.
+
     Raises
     ------
     ValueError
         If fewer than ten heights are measured, all are equal, or the ratios are not in order within 0 and 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> line = rc.Surface(np.linspace(0, 1e-6, 100), rc.Grid(100, 1e-6))
+    >>> f"Sk = {rc.stratified_parameters(line).Sk * 1e6:.2f} um"
+    'Sk = 1.01 um'
     """
     if not 0 < peak_ratio < dale_ratio < 1:
         raise ValueError(f"ratios must increase between 0 and 1, not {peak_ratio} and {dale_ratio}")

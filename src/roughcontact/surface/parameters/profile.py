@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["ProfileParameters", "profile_parameters"]
 
@@ -23,7 +23,7 @@ GRADIENT = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0])
 class ProfileParameters:
     """Height and gradient parameters of a profile (clauses of ISO 21920-2:2021).
 
-    Parameters
+    Attributes
     ----------
     Ra : float
         Arithmetic mean height [m], 4.2.2, over the evaluation length.
@@ -84,11 +84,24 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
         Length of a section [m], rounded to whole cells. By default a fifth of the profile, since five sections
         are the standard's default.
 
+    Returns
+    -------
+    ProfileParameters
+        Heights [m] and the gradient [-] by the names of the standard.
+
     Raises
     ------
     ValueError
         If the grid has two axes, points are missing, the profile is flat or shorter than seven points, or a section
         does not fit in it.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> wave = rc.shapes.wave(rc.Grid(640, 1e-6, periodic=True), amplitude=1e-6, wavelength=64e-6)
+    >>> parameters = rc.profile_parameters(wave)
+    >>> f"Rq = {parameters.Rq:.3g} m, Rz = {parameters.Rz:.2g} m"
+    'Rq = 7.07e-07 m, Rz = 2e-06 m'
     """
     grid = line.grid
     if grid.ndim != 1:

@@ -8,9 +8,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
-from roughcontact.theory.tools.domain import Array, finite, number, pair
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, finite, number, numeric, pair
 
 __all__ = ["EllipticContact", "elliptic"]
 
@@ -62,7 +61,20 @@ class EllipticContact:
 
     @numeric
     def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
-        """Return the pressure [Pa] at a point [m]; 0 outside the contact."""
+        """Return the pressure [Pa] at a point [m]; 0 outside the contact.
+
+        Parameters
+        ----------
+        x : float or array
+            Place along the first principal direction, from the centre [m].
+        y : float or array
+            Place along the second [m].
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
         a, b = self.semi_axes
         u, v = number(x, "x [m]") / a, number(y, "y [m]") / b
         value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
@@ -70,7 +82,20 @@ class EllipticContact:
 
     @numeric
     def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
-        """Return the displacement of the surface [m] at a point [m], inside and outside."""
+        """Return the displacement of the surface [m] at a point [m], inside and outside.
+
+        Parameters
+        ----------
+        x : float or array
+            Place along the first principal direction, from the centre [m].
+        y : float or array
+            Place along the second [m].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
         xx, yy = finite(x, "x [m]") ** 2, finite(y, "y [m]") ** 2
         aa, bb = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
         # The ellipse through the point that has the foci of the contact: x^2/(a^2+s) + y^2/(b^2+s) = 1.
@@ -98,11 +123,17 @@ def elliptic(
 
     Parameters
     ----------
-    modulus, force, depth, max_pressure, stiffness : float or array, optional
-        Two of them, see `EllipticContact`; arrays are broadcast.
+    modulus : float or array, optional
+        Reduced modulus E* [Pa].
     radii : tuple of (float or array)
         Radii of curvature (Rx, Ry) at the apex [m], those of the gap between two bodies whose axes agree. They
         may be equal.
+    force, depth, max_pressure, stiffness : float or array, optional
+        Two of them, see `EllipticContact`; arrays are broadcast.
+
+    Returns
+    -------
+    EllipticContact
 
     Raises
     ------
@@ -117,6 +148,14 @@ def elliptic(
         d = p0 a b R_F(0, a^2, b^2)/E*,    F = (2/3) pi a b p0,    k = pi E*/R_F(0, a^2, b^2).
 
     No difference of complete elliptic integrals is taken, so nothing is lost near a circle or near a line.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> crossed = hertz.elliptic(1e11, radii=(1e-2, 1e-2), force=1.0)
+    >>> sphere = hertz.point(1e11, radius=1e-2, force=1.0)
+    >>> round(float(crossed.depth / sphere.depth), 6)  # crossed cylinders of one radius touch like a sphere
+    1.0
     """
     rx, ry = pair(radii, "radii [m]")
     # The squares of the semi-axes over their product, which is that of the third base quantity.

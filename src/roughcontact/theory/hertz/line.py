@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import lambertw
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["LineContact", "line"]
 
@@ -66,7 +65,18 @@ class LineContact:
 
     @numeric
     def pressure(self, position: npt.ArrayLike) -> Array:
-        """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact."""
+        """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact.
+
+        Parameters
+        ----------
+        position : float or array
+            Distance x from the middle, of either sign [m].
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
         x = np.asarray(position, dtype=np.float64)
         half_chord = np.sqrt(np.maximum(self.half_width**2 - x**2, 0.0))
         value: Array = self.modulus / (2 * self.radius) * half_chord
@@ -74,7 +84,18 @@ class LineContact:
 
     @numeric
     def displacement(self, position: npt.ArrayLike) -> Array:
-        """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside."""
+        """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside.
+
+        Parameters
+        ----------
+        position : float or array
+            Distance x from the middle, of either sign [m].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
         x = np.abs(np.asarray(position, dtype=np.float64))
         theta = np.arccosh(np.maximum(x / self.half_width, 1.0))
         sagitta = self.half_width**2 / (4 * self.radius)
@@ -117,11 +138,22 @@ def line(
         Needed for depths, stiffness and displacements [m]. At least the size of the body; a displacement far
         away that is not zero shifts the depth by 2 F' ln(L2/L1)/(pi E*).
 
+    Returns
+    -------
+    LineContact
+
     Raises
     ------
     ValueError
         If not three are given, if they depend on each other, if one is not positive, or if the reference length
         is below a quarter of the width: more force would then mean less depth.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> roller = hertz.line(1e11, radius=1e-2, force=1e5)
+    >>> round(float(roller.half_width) * 1e6, 2), round(float(roller.max_pressure) / 1e9, 4)  # [um], [GPa]
+    (112.84, 0.5642)
     """
     given = {
         "modulus": modulus,

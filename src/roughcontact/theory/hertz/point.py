@@ -10,9 +10,8 @@ import numpy.typing as npt
 from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["PointContact", "law", "point"]
 
@@ -70,14 +69,36 @@ class PointContact:
         return 2 / 5 * self.force * self.depth
 
     def pressure(self, distance: npt.ArrayLike) -> Array:
-        """Return the pressure [Pa] at a `distance` from the centre [m]; 0 outside the contact."""
+        """Return the pressure [Pa] at a `distance` from the centre [m]; 0 outside the contact.
+
+        Parameters
+        ----------
+        distance : float or array
+            Distance r from the axis [m].
+
+        Returns
+        -------
+        float or array
+            p [Pa].
+        """
         r = positive(distance, "distance [m]", zero=True)
         half_chord = np.sqrt(np.maximum(self.contact_radius**2 - r**2, 0.0))
         value: Array = 2 * self.modulus / (np.pi * self.radius) * half_chord
         return value
 
     def displacement(self, distance: npt.ArrayLike) -> Array:
-        """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside."""
+        """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
+
+        Parameters
+        ----------
+        distance : float or array
+            Distance r from the axis [m].
+
+        Returns
+        -------
+        float or array
+            u [m].
+        """
         r = positive(distance, "distance [m]", zero=True)
         a = self.contact_radius
         # The usual form, (a^2/pi R) ((2 - r^2/a^2) asin(a/r) + sqrt(r^2/a^2 - 1)), cancels far away. With
@@ -107,6 +128,10 @@ def point(
     modulus, radius, contact_radius, depth, force, max_pressure, stiffness : float or array, optional
         Three of them, see `PointContact`; arrays are broadcast. With `modulus` and `radius`, the third may be 0.
 
+    Returns
+    -------
+    PointContact
+
     Raises
     ------
     ValueError
@@ -116,6 +141,13 @@ def point(
     -----
     Exact for a paraboloid on a half-space of small strains, which nothing here checks: for a sphere it wants
     ``contact_radius`` much smaller than ``radius``, and a contact radius beyond R is a number without a body.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> ball = hertz.point(1e11, radius=1e-2, force=1.0)
+    >>> round(float(ball.contact_radius) * 1e6, 2), round(float(ball.depth) * 1e9, 1)  # [um], [nm]
+    (42.17, 177.8)
     """
     given = {
         "modulus": modulus,
@@ -140,6 +172,18 @@ def law(radius: float, modulus: float) -> LoadingLaw:
         Radius of curvature R at the apex [m].
     modulus : float
         Reduced modulus E* [Pa].
+
+    Returns
+    -------
+    LoadingLaw
+        "stiffness", "depth", "contact_area" and "elastic_energy".
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> law = hertz.law(radius=1e-2, modulus=1e11)
+    >>> round(float(law.predict("stiffness", 8.0) / law.predict("stiffness", 1.0)), 6)  # as F^(1/3)
+    2.0
     """
     # A wrong body is refused now, not at the first force.
     point(modulus, radius=radius, force=0.0)

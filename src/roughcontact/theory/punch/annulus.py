@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["annulus"]
 
@@ -27,10 +26,21 @@ def annulus(modulus: npt.ArrayLike, outer_radius: npt.ArrayLike, inner_radius: n
     outer_radius, inner_radius : float or array
         Radii a and b of its edges [m]; b = 0 is the disc.
 
+    Returns
+    -------
+    float or array
+        k [N/m].
+
     Raises
     ------
     ValueError
         If the inner radius is not below the outer one.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.annulus(1e11, 1e-3, 0.5e-3) / punch.disc(1e11, 1e-3)), 4)  # hardly softer than the disc
+    0.981
     """
     a = positive(outer_radius, "outer_radius [m]")
     b = positive(inner_radius, "inner_radius [m]", zero=True)

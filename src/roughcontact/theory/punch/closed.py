@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprf
 
-from roughcontact.theory.tools.domain import Array, number, pair, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, pair, positive, require
 
 __all__ = [
     "disc",
@@ -32,6 +31,17 @@ def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     radius : float or array
         Contact radius a [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.disc(1e11, 1e-3)), 3)
+    200000000.0
     """
     return 2 * positive(modulus, "modulus [Pa]") * positive(radius, "radius [m]")
 
@@ -50,6 +60,17 @@ def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.Arr
         Radius a [m].
     distance : float or array
         Distance r from the centre [m].
+
+    Returns
+    -------
+    float or array
+        p [Pa].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.disc_pressure(1.0, 1e-3, 0.0)), 2)  # half of the mean, F/(2 pi a^2)
+    159154.94
     """
     r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
     f = positive(force, "force [N]", zero=True)
@@ -68,6 +89,17 @@ def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt
         Radius a [m].
     distance : float or array
         Distance r from the centre [m].
+
+    Returns
+    -------
+    float or array
+        u [m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.disc_displacement(1e-6, 1e-3, 2e-3)) * 1e6, 4)  # d/3 at twice the radius
+    0.3333
     """
     r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
     value: Array = 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
@@ -84,9 +116,20 @@ def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLik
     semi_axes : tuple of (float or array)
         Semi-axes a and b in any order [m].
 
+    Returns
+    -------
+    float or array
+        k [N/m].
+
     Notes
     -----
     Written as pi E*/R_F(0, a^2, b^2) with Carlson's integral, which is accurate for any a and b.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.ellipse(1e11, (1e-3, 1e-3)) / punch.disc(1e11, 1e-3)), 6)
+    1.0
     """
     a, b = pair(semi_axes, "semi_axes [m]")
     value: Array = np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
@@ -112,6 +155,17 @@ def ellipse_pressure(
         Semi-axes a along x and b along y [m].
     x, y : float or array
         Where, from the centre [m].
+
+    Returns
+    -------
+    float or array
+        p [Pa].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.ellipse_pressure(1.0, (2e-3, 0.5e-3), 0.0, 0.0)), 2)
+    159154.94
     """
     a, b = pair(semi_axes, "semi_axes [m]")
     f = positive(force, "force [N]", zero=True)
@@ -132,10 +186,21 @@ def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: n
     reference_length : float or array
         Distance L from a line load at which its displacement is zero [m]; at least the size of the body.
 
+    Returns
+    -------
+    float or array
+        k' [N/m^2].
+
     Raises
     ------
     ValueError
         If the reference length is at most a quarter of the width: the stiffness would not be positive.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.strip(1e11, 1e-3, 1.0)) / 1e10, 4)  # the larger the body, the softer
+    2.0666
     """
     a, length = positive(half_width, "half_width [m]"), positive(reference_length, "reference_length [m]")
     require(
@@ -159,6 +224,17 @@ def strip_pressure(force: npt.ArrayLike, half_width: npt.ArrayLike, position: np
         Half the width, a [m].
     position : float or array
         Distance x from the middle, of either sign [m].
+
+    Returns
+    -------
+    float or array
+        p [Pa].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> punch.strip_pressure(1.0, 1e-3, [0.0, 1e-3, 2e-3]).round(2).tolist()
+    [318.31, inf, 0.0]
     """
     x, a = number(position, "position [m]"), positive(half_width, "half_width [m]")
     f = positive(force, "force [N/m]", zero=True)

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["SQUARE", "TRIANGLE", "Computed", "shape_factor", "square", "triangle"]
 
@@ -54,6 +53,17 @@ def square(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     side : float or array
         Side L [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.square(1e11, 1e-3)))
+    115229800
     """
     return SQUARE.value * positive(modulus, "modulus [Pa]") * positive(side, "side [m]")
 
@@ -68,6 +78,17 @@ def triangle(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
         Reduced modulus E* [Pa].
     side : float or array
         Side L [m].
+
+    Returns
+    -------
+    float or array
+        k [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.triangle(1e11, 1e-3)))
+    78811000
     """
     return TRIANGLE.value * positive(modulus, "modulus [Pa]") * positive(side, "side [m]")
 
@@ -84,6 +105,17 @@ def shape_factor(stiffness: npt.ArrayLike, modulus: npt.ArrayLike, area: npt.Arr
         Reduced modulus E* [Pa].
     area : float or array
         Contact area A [m^2].
+
+    Returns
+    -------
+    float or array
+        Shape factor [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.shape_factor(punch.square(1e11, 1e-3), 1e11, 1e-6)), 4)
+    1.0212
     """
     k, a = positive(stiffness, "stiffness [N/m]"), positive(area, "area [m^2]")
     value: Array = k / (2 * positive(modulus, "modulus [Pa]") * np.sqrt(a / np.pi))

@@ -8,8 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import eval_jacobi, gammaln
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["two_discs"]
 
@@ -29,6 +28,11 @@ def two_discs(modulus: npt.ArrayLike, radius: npt.ArrayLike, spacing: npt.ArrayL
     spacing : float or array
         Distance s of their centres [m], at least 3 a.
 
+    Returns
+    -------
+    float or array
+        k [N/m].
+
     Raises
     ------
     ValueError
@@ -40,6 +44,12 @@ def two_discs(modulus: npt.ArrayLike, radius: npt.ArrayLike, spacing: npt.ArrayL
     them causes a displacement in proportion to itself (W. D. Collins, Proc. Roy. Soc. A 274, 1963); on the other it
     causes a smooth one, which Gauss' quadrature projects. The relative error is below 1e-12. Far apart the depth under
     the force F is F/(4 E* a) (1 + (2/pi) a/s).
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> round(float(punch.two_discs(1e11, 1e-3, 1.0) / punch.disc(1e11, 1e-3)), 3)  # nearly two, far apart
+    1.999
     """
     a, s = positive(radius, "radius [m]"), positive(spacing, "spacing [m]")
     require(

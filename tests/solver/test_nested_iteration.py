@@ -7,11 +7,14 @@ import pytest
 
 import roughcontact as rc
 from libraries import Strict
-from roughcontact.solver import nested_iteration as cascade
-from roughcontact.solver import restriction as pooling
+from roughcontact.solver import nested_iteration, tuning
 from roughcontact.solver.control import Depth
-from roughcontact.solver.nested_iteration import coarse_guess, coarse_operator
-from roughcontact.solver.restriction import lowest, raised
+from roughcontact.solver.nested_iteration import (
+    block_minimum,
+    block_separation,
+    coarse_operator,
+    nested_start,
+)
 from roughcontact.solver.state import State
 from roughcontact.solver.status import Status
 
@@ -22,7 +25,7 @@ SHAPES = [(8, 6), (7, 6), (8, 5), (9, 7), (1, 8), (2, 2)]
 @pytest.mark.parametrize("factors", [(2, 2), (1, 2), (2, 1)])
 def test_lowest(shape, factors):
     field = np.random.default_rng(0).random(shape)
-    found = lowest(field, factors)
+    found = block_minimum(field, factors)
     assert found.shape == tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
     for (i, j), value in np.ndenumerate(found):
         block = field[i * factors[0] : (i + 1) * factors[0], j * factors[1] : (j + 1) * factors[1]]
@@ -32,7 +35,7 @@ def test_lowest(shape, factors):
 @pytest.mark.parametrize("shape", SHAPES)
 def test_a_block_lies_between_its_mean_and_its_lowest_separation(shape):
     field = np.random.default_rng(1).random(shape)
-    found, low = raised(field, (2, 2)), lowest(field, (2, 2))
+    found, low = block_separation(field, (2, 2)), block_minimum(field, (2, 2))
     assert (found >= low).all()
     whole = field[: shape[0] // 2 * 2, : shape[1] // 2 * 2]
     mean = whole.reshape(shape[0] // 2, 2, shape[1] // 2, 2).mean(axis=(1, 3))
@@ -42,7 +45,9 @@ def test_a_block_lies_between_its_mean_and_its_lowest_separation(shape):
 def test_a_plane_has_its_mean():
     y, x = np.indices((8, 6)).astype(float)
     field = 3.0 + 2.0 * y - 0.5 * x
-    np.testing.assert_allclose(raised(field, (2, 2)), field.reshape(4, 2, 3, 2).mean(axis=(1, 3)), rtol=1e-15)
+    np.testing.assert_allclose(
+        block_separation(field, (2, 2)), field.reshape(4, 2, 3, 2).mean(axis=(1, 3)), rtol=1e-15
+    )
 
 
 @pytest.mark.parametrize("rows", [1, 2, 7, 20, 21, 45])
@@ -50,24 +55,24 @@ def test_rows_are_worked_on_in_slabs(rows, monkeypatch):
     """Of 20 here: none of them, some, whole ones, and an odd row at last."""
     field = np.random.default_rng(5).random((rows, 10))
     field[rows // 2, 3] = np.inf
-    whole = raised(field, (2, 2))
-    monkeypatch.setattr(pooling, "SLAB", 20)
-    np.testing.assert_array_equal(raised(field, (2, 2)), whole)
+    whole = block_separation(field, (2, 2))
+    monkeypatch.setattr(tuning, "SLAB", 20)
+    np.testing.assert_array_equal(block_separation(field, (2, 2)), whole)
 
 
 @pytest.mark.parametrize("out", [1.0, -1.0])
 def test_cells_that_stand_out_of_their_plane_raise_the_block(out):
     """By twice as far, unless its highest cell is less high."""
     saddle = 5.0 + out * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    assert raised(saddle, (2, 2)) == 4.0
+    assert block_separation(saddle, (2, 2)) == 4.0
     tilted = saddle + np.array([[0.0, 0.0], [10.0, 10.0]])
-    assert raised(tilted, (2, 2)) == pytest.approx(10.0 - 2.0)
+    assert block_separation(tilted, (2, 2)) == pytest.approx(10.0 - 2.0)
 
 
 def test_blocks_with_missing_cells_have_the_lowest_of_the_rest():
     field = np.random.default_rng(2).random((6, 6))
     field[0, 0] = field[2:4, 2:4] = np.inf
-    found = raised(field, (2, 2))
+    found = block_separation(field, (2, 2))
     assert found[0, 0] == field[:2, :2].min()
     assert found[1, 1] == np.inf
     assert np.isfinite(found).sum() == 8
@@ -76,17 +81,17 @@ def test_blocks_with_missing_cells_have_the_lowest_of_the_rest():
 @pytest.mark.parametrize("factors", [(2,), (1, 2)])
 def test_without_blocks_of_two_by_two_it_is_the_lowest(factors):
     field = np.random.default_rng(3).random((6, 6)[: len(factors)])
-    np.testing.assert_array_equal(raised(field, factors), lowest(field, factors))
+    np.testing.assert_array_equal(block_separation(field, factors), block_minimum(field, factors))
 
 
 @pytest.mark.parametrize("shape", [(8, 12), (9, 7), (5, 16), (4, 4), (3, 2)])
 @pytest.mark.parametrize("factors", [(4, 4), (4, 2), (2, 4), (4, 1)])
 def test_blocks_of_four_are_blocks_of_blocks(shape, factors):
     field = np.random.default_rng(4).random(shape)
-    found, halves = raised(field, factors), tuple(min(f, 2) for f in factors)
+    found, halves = block_separation(field, factors), tuple(min(f, 2) for f in factors)
     assert found.shape == tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
     rest = tuple(f // half for f, half in zip(factors, halves, strict=True))
-    np.testing.assert_array_equal(found, raised(raised(field, halves), rest))
+    np.testing.assert_array_equal(found, block_separation(block_separation(field, halves), rest))
 
 
 @pytest.mark.parametrize(
@@ -120,7 +125,7 @@ def test_a_smooth_surface_takes_fewer_products_than_from_its_summits(monkeypatch
     x = (np.arange(256) + 0.5) / 256 - 0.5
     sphere = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((256, 256), 1 / 256))
     steps = rc.press(sphere, 1.0, force=0.01).steps
-    monkeypatch.setattr(cascade, "raised", lowest)
+    monkeypatch.setattr(nested_iteration, "block_separation", block_minimum)
     assert steps < 0.75 * rc.press(sphere, 1.0, force=0.01).steps
 
 
@@ -153,7 +158,7 @@ def test_cells_have_the_pressure_of_their_block(shape, factors, share, elsewhere
     for missing in (0.0, 0.3):
         separation = np.where(rng.random(shape) < missing, np.inf, 1.0)
         given = [Strict.put(f) if elsewhere else f for f in (coarse, separation)]
-        found = cascade._spread(given[0], factors, given[1])
+        found = nested_iteration._interpolated(given[0], factors, given[1])
         np.testing.assert_array_equal(
             Strict.get(found) if elsewhere else found, blocks(coarse, factors, separation)
         )
@@ -178,12 +183,12 @@ class Corner:
 @pytest.mark.parametrize("shape", [(66, 70), (65, 67), (130, 75)])
 @pytest.mark.parametrize("strength", [0.0, 3.0])
 def test_a_guess_is_the_coarse_answer_on_the_cells(shape, strength, monkeypatch):
-    monkeypatch.setattr(cascade, "Windows", Corner)
+    monkeypatch.setattr(nested_iteration, "SubdomainSolver", Corner)
     monkeypatch.setattr(Corner, "strength", strength)
     rng, operator = np.random.default_rng(7), rc.half_space(rc.Grid(shape, 1.0), 1.0)
     separation = np.where(rng.random(shape) < 0.1, np.inf, rng.random(shape))
     _, factors = coarse_operator(operator, shape)
-    found, depth = coarse_guess(operator, separation, Depth(5.0), rc.ActiveSet())
+    found, depth = nested_start(operator, separation, Depth(5.0), rc.ActiveSet())
     assert depth == 0.25
     np.testing.assert_array_equal(found, blocks(Corner.answers[-1], factors, separation))
     assert found.any() == (strength > 0)
@@ -191,7 +196,7 @@ def test_a_guess_is_the_coarse_answer_on_the_cells(shape, strength, monkeypatch)
 
 def test_without_coarser_cells_a_guess_is_no_pressure():
     separation = np.random.default_rng(7).random((64, 64))
-    found, depth = coarse_guess(
+    found, depth = nested_start(
         rc.half_space(rc.Grid((64, 64), 1.0), 1.0), separation, Depth(0.5), rc.ActiveSet()
     )
     assert (found.shape, found.any(), depth) == ((64, 64), False, 0.0)

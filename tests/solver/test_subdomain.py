@@ -1,4 +1,4 @@
-"""Windows that are lists of cells: the same certified answers as on the plane, and the box that lists share."""
+"""SubdomainSolver that are lists of cells: the same certified answers as on the plane, and the box that lists share."""
 
 from collections import Counter
 
@@ -10,8 +10,8 @@ from roughcontact.halfspace.operators import cell_list as lists
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.kernels import loader
-from roughcontact.solver import subdomain as window
-from roughcontact.solver.subdomain import Windows
+from roughcontact.solver import tuning
+from roughcontact.solver.subdomain import SubdomainSolver
 
 MODULUS = 1e9
 SOLVERS = {"default": rc.ActiveSet(), "iterative": rc.ActiveSet(dense_limit=0)}
@@ -19,13 +19,16 @@ SHAPES = [(160, 160), (230, 187)]
 
 
 class Plain:
-    """A half-space that has products and boxes, and says nothing of lists, tiles or single precision."""
-
-    positive = True
+    """A half-space that has products and boxes, and states no lists, tiles or single precision."""
 
     def __init__(self, operator):
         self.whole = operator
         self.grid, self.weights = operator.grid, operator.weights
+        self.capabilities = rc.Capabilities(
+            positive=True,
+            coarsened=lambda grid: Plain(operator.coarsened(grid)),
+            approximate_inverse=operator.approximate_inverse,
+        )
 
     def apply(self, pressure):
         return self.whole.apply(pressure)
@@ -35,12 +38,6 @@ class Plain:
 
     def restrict(self, window):
         return Plain(self.whole.restrict(window))
-
-    def approximate_inverse(self, displacement):
-        return self.whole.approximate_inverse(displacement)
-
-    def coarsened(self, grid):
-        return Plain(self.whole.coarsened(grid))
 
 
 @pytest.fixture(params=SHAPES, ids=str)
@@ -54,10 +51,10 @@ def parts(monkeypatch, rough):
     """Take lists wherever it can be, sum tile by tile, and count on what the surface itself is solved."""
     if not loader.is_available():
         pytest.skip("no machine code here")
-    monkeypatch.setattr(window, "LARGE", 0)
-    monkeypatch.setattr(window, "FILLED", 1.0)
+    monkeypatch.setattr(tuning, "LARGE_BOX", 0)
+    monkeypatch.setattr(tuning, "LIST_FILLING", 1.0)
     monkeypatch.setattr(lists, "MANY", 0)
-    found, chosen = Counter(), Windows._place
+    found, chosen = Counter(), SubdomainSolver._subdomain
 
     def counted(self, region):
         place = chosen(self, region)
@@ -65,7 +62,7 @@ def parts(monkeypatch, rough):
             found["box" if isinstance(place, tuple) else "list"] += 1
         return place
 
-    monkeypatch.setattr(Windows, "_place", counted)
+    monkeypatch.setattr(SubdomainSolver, "_subdomain", counted)
     return found
 
 
@@ -140,7 +137,7 @@ def test_the_stiffness_of_a_list_is_that_on_the_plane(monkeypatch, rough, share,
     # A list that holds more than the region.
     cells = np.flatnonzero(heights > np.quantile(heights, 1 - 2 * share))
     operator = rc.half_space(rough.grid, MODULUS)
-    part = operator.between(cells)
+    part = operator.submatrix(cells)
     expected = rc.contact_stiffness(region, rough.grid, MODULUS, operator=Plain(operator))
     found = rc.contact_stiffness(region.ravel()[cells], part.grid, MODULUS, operator=part)
     assert found == pytest.approx(expected, rel=2e-7)  # each unit displacement is met to 1e-7
@@ -151,8 +148,10 @@ def test_any_displacement_of_a_list_is_that_of_the_plane(rough):
     wanted = np.where(region, rough.heights, np.nan)
     cells = np.flatnonzero(rough.heights > np.quantile(rough.heights, 0.8))
     operator = rc.half_space(rough.grid, MODULUS)
-    part = operator.between(cells)
-    found = rc.prescribed_displacement(part, region.ravel()[cells], wanted.ravel()[cells], tolerance=1e-10)
+    part = operator.submatrix(cells)
+    found = rc.prescribed_displacement(
+        region.ravel()[cells], wanted.ravel()[cells], operator=part, tolerance=1e-10
+    )
     assert found.residual <= 1e-10
     whole = np.zeros(rough.grid.shape)
     whole.ravel()[cells] = found.pressure
@@ -179,7 +178,7 @@ class TestParts:
 
     def test_a_list_is_a_part_of_the_plane(self):
         operator = rc.half_space(self.GRID, 2.0)
-        windows = Windows(operator)
+        windows = SubdomainSolver(operator)
         for rows, columns in (
             (slice(10, 20), slice(30, 50)),
             (slice(0, 7), slice(60, 70)),
@@ -187,7 +186,7 @@ class TestParts:
             (slice(0, 50), slice(0, 70)),
         ):
             cells = self.block(rows, columns)
-            part = windows.part(cells)
+            part = windows.operator_on(cells)
             assert isinstance(part, CellsOperator)
             np.testing.assert_array_equal(part.as_matrix(), operator.as_matrix(cells))
             pressure = np.zeros(self.GRID.shape)
@@ -200,7 +199,7 @@ class TestParts:
     def test_all_ways_through_the_box_are_one(self, monkeypatch):
         """Cells are counted anew in the box: its products are those of the list."""
         cells = self.block(slice(10, 35), slice(30, 50))
-        part = Windows(rc.half_space(self.GRID, 2.0)).part(cells)
+        part = SubdomainSolver(rc.half_space(self.GRID, 2.0)).operator_on(cells)
         assert part.plane.grid.shape == (25 + 2, 20 + 2)
         pressure = np.random.default_rng(1).random(len(cells))
         exact = part.as_matrix() @ pressure
@@ -210,42 +209,42 @@ class TestParts:
             np.testing.assert_allclose(part.apply(pressure), exact, rtol=1e-13)
 
     def test_the_box_is_kept_while_it_holds(self):
-        windows = Windows(rc.half_space(self.GRID, 2.0))
-        first = windows.part(self.block(slice(10, 20), slice(30, 50)))
-        assert windows.part(self.block(slice(10, 20), slice(30, 50), 0.6)).plane is first.plane
+        windows = SubdomainSolver(rc.half_space(self.GRID, 2.0))
+        first = windows.operator_on(self.block(slice(10, 20), slice(30, 50)))
+        assert windows.operator_on(self.block(slice(10, 20), slice(30, 50), 0.6)).plane is first.plane
         # A cell of room on each side.
-        assert windows.part(self.block(slice(9, 21), slice(29, 51))).plane is first.plane
-        second = windows.part(self.block(slice(8, 21), slice(29, 51)))
+        assert windows.operator_on(self.block(slice(9, 21), slice(29, 51))).plane is first.plane
+        second = windows.operator_on(self.block(slice(8, 21), slice(29, 51)))
         assert second.plane is not first.plane
         assert second.plane.grid.shape == (15, 24)
         # Half of the box is worth one of its own.
-        assert windows.part(self.block(slice(10, 16), slice(30, 40))).plane is not second.plane
+        assert windows.operator_on(self.block(slice(10, 16), slice(30, 40))).plane is not second.plane
 
     def test_the_last_list_is_kept(self):
         operator = rc.half_space(self.GRID, 2.0)
-        windows = Windows(operator)
+        windows = SubdomainSolver(operator)
         one, other = (self.block(slice(10, 20), slice(30, 50), seed=seed) for seed in range(2))
-        assert windows.part(one) is windows.part(one)
+        assert windows.operator_on(one) is windows.operator_on(one)
         for cells in (other, one):
-            np.testing.assert_array_equal(windows.part(cells).as_matrix(), operator.as_matrix(cells))
+            np.testing.assert_array_equal(windows.operator_on(cells).as_matrix(), operator.as_matrix(cells))
 
     def test_the_influence_is_that_of_the_whole(self):
         """So that a table serves all windows."""
         operator = rc.half_space(self.GRID, 2.0)
-        windows = Windows(operator)
+        windows = SubdomainSolver(operator)
         for rows in (slice(10, 20), slice(5, 45)):
-            part = windows.part(self.block(rows, slice(30, 50)))
+            part = windows.operator_on(self.block(rows, slice(30, 50)))
             assert part.influence is operator.influence
             assert part.plane.influence is operator.influence
 
     def test_where_the_box_is_the_whole(self):
         operator = rc.half_space(self.GRID, 2.0)
-        assert Windows(operator).part(self.block(slice(0, 50), slice(0, 70))).plane is operator
+        assert SubdomainSolver(operator).operator_on(self.block(slice(0, 50), slice(0, 70))).plane is operator
 
     def test_of_a_line(self):
         operator = rc.line(rc.Grid(300, 0.5), 2.0)
         cells = np.r_[20:50, 100:104, 299]
-        part = Windows(operator).part(cells)
+        part = SubdomainSolver(operator).operator_on(cells)
         np.testing.assert_array_equal(part.as_matrix(), operator.as_matrix(cells))
 
 
@@ -262,8 +261,8 @@ class TestParts:
 def test_what_is_a_list(monkeypatch, shape, share, large, is_list):
     if not loader.is_available():
         pytest.skip("no machine code here")
-    monkeypatch.setattr(window, "LARGE", large)
+    monkeypatch.setattr(tuning, "LARGE_BOX", large)
     region = np.random.default_rng(0).random(shape) < share
     region[0, 0] = region[-1, -1] = True
-    windows = Windows(rc.half_space(rc.Grid(shape, 1.0), 2.0))
-    assert isinstance(windows._place(region), np.ndarray) == is_list
+    windows = SubdomainSolver(rc.half_space(rc.Grid(shape, 1.0), 2.0))
+    assert isinstance(windows._subdomain(region), np.ndarray) == is_list

@@ -2,7 +2,7 @@
 
 import pytest
 
-from roughcontact.theory.tools.graded_quadrature import gauss, graded, running
+from roughcontact.theory.tools.quadrature import gauss, graded, running
 
 
 def test_gauss_integrates_polynomials():

@@ -11,12 +11,10 @@ from hypothesis import strategies as st
 import roughcontact as rc
 from libraries import Strict
 from roughcontact.kernels import loader, planes
-from roughcontact.solver import verdict
+from roughcontact.solver import optimality
 from roughcontact.solver.control import Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Judge
-from roughcontact.solver.trial import Trial
-from roughcontact.solver.verdict import guess_region, judge_pressure
+from roughcontact.solver.optimality import Iterate, Optimality, predict_free_set
 
 EPS = np.finfo(np.float64).eps
 FORCE, DEPTH = Terms(Force(1.0)), Terms(Depth(0.4))
@@ -32,7 +30,7 @@ PLANES = {periodic: plane(periodic=periodic) for periodic in (False, True)}
 
 
 def judged(operator, terms, p, u, s):
-    return judge_pressure(Judge.of(operator, terms), Measure(operator.weights), terms, Trial(p, u, s))
+    return Optimality.of(operator, terms).evaluate(Iterate(p, u, s))
 
 
 def generic(function, *given, **named):
@@ -49,7 +47,7 @@ def unheard_of(*_):
 @pytest.fixture
 def without_machine_code(monkeypatch):
     """Whoever asks it is wrong."""
-    for name in ("look", "mark"):
+    for name in ("extremes", "predict_active"):
         monkeypatch.setattr(planes, name, unheard_of)
 
 
@@ -101,7 +99,7 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
     if not p.any():
         return
     before = [f.copy() for f in (p, u, s)]
-    judge, measure = Judge.of(operator, terms), Measure(operator.weights)
+    judge, measure = Optimality.of(operator, terms), Measure(operator.weights)
     for found in (judged(operator, terms, p, u, s), generic(judged, operator, terms, p, u, s)):
         agrees(found, judge, measure, terms, p, u, s)
     for one, other in zip(before, (p, u, s), strict=True):
@@ -112,18 +110,18 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
 @given(givens(), st.sampled_from([0.0, 0.1]), st.sampled_from([math.inf, None, 1e-3]))
 def test_both_guess_the_same_region(given_fields, allowed, own):
     operator, p, u, s = given_fields
-    own = Judge.of(operator, FORCE).self_influence if own is None else own
-    one = guess_region(FORCE, Trial(p, u, s), depth=0.4, allowed=allowed, own=own)
-    two = generic(guess_region, FORCE, Trial(p, u, s), depth=0.4, allowed=allowed, own=own)
+    own = Optimality.of(operator, FORCE).self_influence if own is None else own
+    one = predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=allowed, self_influence=own)
+    two = generic(predict_free_set, FORCE, Iterate(p, u, s), depth=0.4, allowed=allowed, self_influence=own)
     gap = u + s - 0.4
     wrong = (p * own < gap) if own < math.inf else np.zeros(p.shape, bool)
     asked = (p > 0) | (gap < -allowed)
     for guess in (one, two):
-        np.testing.assert_array_equal(guess.region, asked & ~wrong)
+        np.testing.assert_array_equal(guess.free, asked & ~wrong)
         assert guess.count == np.count_nonzero(asked & ~wrong)
-        assert guess.wrong == np.count_nonzero(asked & wrong)
-        np.testing.assert_array_equal(guess.taken, guess.region | (p > 0))
-        assert not guess.region[np.isinf(s)].any()
+        assert guess.dropped == np.count_nonzero(asked & wrong)
+        np.testing.assert_array_equal(guess.support, guess.free | (p > 0))
+        assert not guess.free[np.isinf(s)].any()
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -137,7 +135,7 @@ def test_a_solution_is_one_both_ways(control, periodic, missing):
     terms = Terms(Force(0.5) if control == "force" else Depth(0.3), 1e-8)
     state = rc.ActiveSet().run(operator, s, terms, np.zeros_like(s))
     assert state.status.converged
-    u, judge = operator.apply(state.pressure), Judge.of(operator, terms)
+    u, judge = operator.apply(state.pressure), Optimality.of(operator, terms)
     for found in (
         judged(operator, terms, state.pressure, u, s),
         generic(judged, operator, terms, state.pressure, u, s),
@@ -185,10 +183,10 @@ def test_no_cell_in_contact_at_a_given_depth(depth):
     ):
         assert found == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
     for guess in (
-        guess_region(terms, Trial(nothing, nothing, s), depth=depth, allowed=0.0),
-        generic(guess_region, terms, Trial(nothing, nothing, s), depth=depth, allowed=0.0),
+        predict_free_set(terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
+        generic(predict_free_set, terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
     ):
-        np.testing.assert_array_equal(guess.region, s < depth)
+        np.testing.assert_array_equal(guess.free, s < depth)
         assert guess.count == (s < depth).sum()
 
 
@@ -210,7 +208,7 @@ def test_varying_weights(control):
     p, s = rng.random(30) * (rng.random(30) < 0.5), rng.random(30)
     u, measure = operator.apply(p), Measure(operator.weights)
     assert measure.varies
-    agrees(judged(operator, terms, p, u, s), Judge.of(operator, terms), measure, terms, p, u, s)
+    agrees(judged(operator, terms, p, u, s), Optimality.of(operator, terms), measure, terms, p, u, s)
 
 
 @pytest.mark.usefixtures("without_machine_code")
@@ -222,14 +220,14 @@ def test_a_hardness(control):
     p, s = np.minimum(rng.random((5, 7)), 0.5) * (rng.random((5, 7)) < 0.7), rng.random((5, 7))
     u = operator.apply(p)
     found = judged(operator, terms, p, u, s)
-    agrees(found, Judge.of(operator, terms), Measure(operator.weights), terms, p, u, s)
+    agrees(found, Optimality.of(operator, terms), Measure(operator.weights), terms, p, u, s)
     held, gap = p >= 0.5, u + s - found.depth
     assert held.any()
-    guess = guess_region(terms, Trial(p, u, s), depth=found.depth, allowed=0.01)
+    guess = predict_free_set(terms, Iterate(p, u, s), depth=found.depth, allowed=0.01)
     wanted = np.where(held, gap > 0.01, (p > 0) | (gap < -0.01))
-    np.testing.assert_array_equal(guess.region, wanted)
-    assert (guess.count, guess.wrong) == (wanted.sum(), 0)
-    np.testing.assert_array_equal(guess.taken, wanted | (p > 0))
+    np.testing.assert_array_equal(guess.free, wanted)
+    assert (guess.count, guess.dropped) == (wanted.sum(), 0)
+    np.testing.assert_array_equal(guess.support, wanted | (p > 0))
 
 
 @pytest.mark.usefixtures("without_machine_code")
@@ -246,12 +244,14 @@ def test_what_lies_otherwise(kind):
     p, u, s = np.random.default_rng(4).random((3, 5, 7)).astype(np.float32).astype(np.float64)
     there = [ways[kind](f) for f in (p, u, s)]
     found = judged(operator, DEPTH, *there)
-    _, residual, scale, _ = literally(Judge.of(operator, DEPTH), Measure(operator.weights), DEPTH, p, u, s)
+    _, residual, scale, _ = literally(
+        Optimality.of(operator, DEPTH), Measure(operator.weights), DEPTH, p, u, s
+    )
     # Levels, gaps and their ratio are rounded: numbers below three, of which the worst is above a third.
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
-    guess = guess_region(DEPTH, Trial(*there), depth=0.4, allowed=0.1, own=0.3)
-    assert (guess.count, guess.wrong) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
+    guess = predict_free_set(DEPTH, Iterate(*there), depth=0.4, allowed=0.1, self_influence=0.3)
+    assert (guess.count, guess.dropped) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
 
 def test_machine_code_is_asked_where_there_is_some(monkeypatch):
@@ -260,10 +260,12 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     p, u, s = np.random.default_rng(4).random((3, 5, 7))
     asked = []
     seen = SimpleNamespace(
-        look=lambda *given: asked.append("look") or planes.look(*given),
-        mark=lambda *given, **named: asked.append("mark") or planes.mark(*given, **named),
+        extremes=lambda *given: asked.append("extremes") or planes.extremes(*given),
+        predict_active=lambda *given, **named: (
+            asked.append("predict_active") or planes.predict_active(*given, **named)
+        ),
     )
-    monkeypatch.setattr(verdict, "planes", seen)
+    monkeypatch.setattr(optimality, "planes", seen)
     judged(plane((5, 7)), FORCE, p, u, s)
-    guess_region(FORCE, Trial(p, u, s), depth=0.4, allowed=0.1)
-    assert asked == ["look", "mark"]
+    predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=0.1)
+    assert asked == ["extremes", "predict_active"]

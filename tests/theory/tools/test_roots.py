@@ -1,9 +1,9 @@
-"""Newton's method on concave functions: far starts, both directions, and functions that are not what they say."""
+"""Bisection; Newton's method on concave functions: far starts, both directions, functions without a root."""
 
 import numpy as np
 import pytest
 
-from roughcontact.theory.tools.concave_root import concave_root
+from roughcontact.theory.tools.roots import bisect, concave_root
 
 
 @pytest.mark.parametrize("start", [-300.0, 0.0, 500.0])
@@ -26,3 +26,11 @@ def test_increasing():
 def test_no_root():
     with pytest.raises(RuntimeError, match="met no root"):
         concave_root(lambda x: (-(x**2) - 1, -2 * x), np.array([0.0]), np.array([0.3]))
+
+
+def test_bisection():
+    wanted = np.array([0.0, 1e-9, 0.5, 1.0])
+    # A bracket of the size of the root, so the error is relative.
+    root = bisect(lambda x: x**3 > wanted, np.cbrt(wanted) / 2, 2 * np.cbrt(wanted))
+    np.testing.assert_allclose(root, np.cbrt(wanted), rtol=4e-16)
+    assert np.ndim(bisect(lambda x: np.exp(x) > 2.0, 0.0, 1.0)) == 0

@@ -78,7 +78,7 @@ def large():
     """A plane of 200 x 200 cells in full contact, its pressure per unit depth good to 1e-13."""
     grid = rc.Grid((200, 200), 1 / 200)
     operator = rc.half_space(grid, 1.0)
-    full = rc.prescribed_displacement(operator, np.ones(grid.shape, bool), 1.0, tolerance=1e-13)
+    full = rc.prescribed_displacement(np.ones(grid.shape, bool), 1.0, operator=operator, tolerance=1e-13)
     return operator, full.pressure
 
 
@@ -87,14 +87,14 @@ def test_one_open_cell_of_a_large_plane(large, place):
     """One open cell stays behind by (B 1)_j / B_jj, with B the inverse of the operator."""
     operator, full = large
     mask = cell(place, 200)
-    column = rc.prescribed_displacement(operator, ~mask | mask, mask.astype(float), tolerance=1e-11)
+    column = rc.prescribed_displacement(~mask | mask, mask.astype(float), operator=operator, tolerance=1e-11)
     opening = full[mask] / column.pressure[mask]
     solution = rc.press(pitted(operator.grid, mask, opening), 1.0, depth=DEPTH)
     np.testing.assert_array_equal(solution.contact, ~mask)
     closing = opening.item() / mask.size
     assert solution.interfacial_stiffness == pytest.approx(solution.stiffness / closing, rel=WITHIN)
     assert solution.mean_gap == pytest.approx(DEPTH * closing, rel=WITHIN)
-    resistance = rc.conductance(solution, resistivities=(1e-8, 1e-8), of="interfacial_stiffness")
+    resistance = rc.conductance(solution, resistivities=(1e-8, 1e-8), of="interface")
     expected = 1e-8 * closing / solution.stiffness  # rho E*/K
     assert resistance["electrical_resistance"] == pytest.approx(expected, rel=WITHIN)
 
@@ -103,7 +103,7 @@ def test_one_open_cell_of_a_large_plane(large, place):
 def test_many_open_cells_of_a_large_plane(large, share):
     operator, _ = large
     mask = some(share, 200)
-    tangent = rc.prescribed_displacement(operator, ~mask, 1.0, tolerance=1e-13)
+    tangent = rc.prescribed_displacement(~mask, 1.0, operator=operator, tolerance=1e-13)
     opening = 1 - operator.apply(tangent.pressure)[mask]
     solution = rc.press(pitted(operator.grid, mask, opening), 1.0, depth=DEPTH)
     np.testing.assert_array_equal(solution.contact, ~mask)

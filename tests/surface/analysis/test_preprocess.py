@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from roughcontact.surface.analysis.windows import WINDOWS, taper, window_along
+from roughcontact.surface.analysis.preprocess import taper
+from roughcontact.surface.windows import WINDOWS
 
 
 @pytest.mark.parametrize("size", [8, 101])
@@ -14,7 +15,7 @@ def test_the_corrections_of_hann_are_its_closed_ones(size):
     assert hann.smear == pytest.approx(np.sinc(1 / size) ** 2 / 3, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", WINDOWS)
+@pytest.mark.parametrize("name", ["none", *WINDOWS])
 def test_windows_are_even_and_end_low(name):
     window = taper(name, 64)
     np.testing.assert_allclose(window.values, window.values[::-1], rtol=0, atol=1e-14)
@@ -23,7 +24,7 @@ def test_windows_are_even_and_end_low(name):
 
 
 def test_automatic_windows_follow_the_boundary():
-    assert (window_along("auto", 9, True).values == 1).all()
-    np.testing.assert_array_equal(window_along("auto", 9, False).values, taper("hann", 9).values)
+    assert (taper("auto", 9, periodic=True).values == 1).all()
+    np.testing.assert_array_equal(taper("auto", 9, periodic=False).values, taper("hann", 9).values)
     with pytest.raises(ValueError, match="window must be one of"):
         taper("kaiser", 9)

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from regions import PRECISIONS, Seeing, both_of, close, eighths, generic, on
 from roughcontact.kernels import loader
 from roughcontact.kernels.constants import ROUNDINGS
-from roughcontact.solver import compiled_vectors as compiled_fields
-from roughcontact.solver.bounded import Bounded
+from roughcontact.solver import tuning
+from roughcontact.solver.inner_product import Projected
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -25,13 +25,13 @@ class Given:
 
     kept: np.ndarray
     base: np.ndarray
-    change: np.ndarray
+    correction: np.ndarray
     lacking: np.ndarray
     t: np.ndarray
 
     @property
     def p(self):
-        return self.base + self.change
+        return self.base + self.correction
 
     @property
     def step(self):
@@ -51,17 +51,17 @@ class Given:
         """Return what there is to know of the step, once it is bounded."""
         lifted = self.bounded[~self.stays].astype(np.float64)
         force = (self.bounded.astype(np.float64) - self.step).sum()
-        return Bounded(np.abs(lifted).sum(), 0.25 * self.stays.sum(), 0.25 * force)
+        return Projected(np.abs(lifted).sum(), 0.25 * self.stays.sum(), 0.25 * force)
 
     def both(self):
         """Return both kinds of fields so far, about to take the step."""
         found = both_of(Seeing, self.kept, self.lacking, self.base)
         for fields in found:
-            fields.change[...] += self.change
-            fields.t[...] = self.t
-            fields.begin()
-            fields.size()
-            fields.share()
+            fields.correction[...] += self.correction
+            fields.s[...] = self.t
+            fields.restart()
+            fields.residual_max()
+            fields.constraint_direction()
             fields.precondition()
         return found
 
@@ -80,17 +80,17 @@ def givens(draw):
 
 def is_on(fields, kept):
     """Whether all that hangs on the region is that of these cells, and nothing is left of an error elsewhere."""
-    np.testing.assert_array_equal(fields.inside > 0, kept)
-    np.testing.assert_array_equal(fields.inside, kept)
+    np.testing.assert_array_equal(fields.free > 0, kept)
+    np.testing.assert_array_equal(fields.free, kept)
     precision = fields.r.dtype
-    assert fields.inside.dtype == precision
-    assert fields.begin() == 0.25 * kept.sum()
+    assert fields.free.dtype == precision
+    assert fields.restart() == 0.25 * kept.sum()
     # What is shared may be that of a few more cells, which have been lost since.
-    alike = fields.share() / (0.25 * Seeing.part * max(1, kept.sum()))
-    assert kept.sum() <= alike <= (1 + compiled_fields.FEW) * kept.sum()
+    alike = fields.constraint_direction() / (0.25 * Seeing.part * max(1, kept.sum()))
+    assert kept.sum() <= alike <= (1 + tuning.STALE_CONSTRAINT_DIRECTION) * kept.sum()
     error = (fields.r * kept).astype(np.float64)
-    assert fields.size() == np.abs(error).max()
-    z, size, v = Seeing.part * error.sum(), Seeing.part * np.abs(error).sum(), fields.v.astype(np.float64)
+    assert fields.residual_max() == np.abs(error).max()
+    z, size, v = Seeing.part * error.sum(), Seeing.part * np.abs(error).sum(), fields.q.astype(np.float64)
     descent, overlap, total, shared = fields.precondition()
     # Each term is rounded, and each is a rounded sum times a number: as the sums of sizes, all told.
     close(descent, 0.25 * z * error.sum(), 0.25 * size * np.abs(error).sum(), precision)
@@ -106,11 +106,11 @@ def test_the_same_cells_are_let_go(start):
     """Those that would pull; they go to nothing, and so do others that press: no number is rounded."""
     given_base = start.base.copy()
     for fields in start.both():
-        assert fields.bound(BETA, SHIFT, STEP) == start.found()
-        np.testing.assert_array_equal(fields.t, start.bounded)
-        np.testing.assert_array_equal(fields.change, start.change)
+        assert fields.project(BETA, SHIFT, STEP) == start.found()
+        np.testing.assert_array_equal(fields.s, start.bounded)
+        np.testing.assert_array_equal(fields.correction, start.correction)
         np.testing.assert_array_equal(fields.r, start.lacking)
-        assert fields.t.dtype == fields.change.dtype == start.base.dtype
+        assert fields.s.dtype == fields.correction.dtype == start.base.dtype
         is_on(fields, start.stays)
     np.testing.assert_array_equal(start.base, given_base)
 
@@ -120,11 +120,11 @@ def test_the_same_cells_are_let_go(start):
 def test_how_far_pressures_are_out_of_bounds(start):
     for fields in start.both():
         out = np.where(start.kept, np.maximum(-start.p, 0), np.abs(start.p))
-        assert fields.excess() == out.max()
-        fields.bound(BETA, SHIFT, STEP)
-        fields.measure(np.zeros_like(start.lacking))
+        assert fields.bound_violation() == out.max()
+        fields.project(BETA, SHIFT, STEP)
+        fields.inner_products(np.zeros_like(start.lacking))
         fields.advance(1.0, 0.0)
-        assert fields.excess() == 0
+        assert fields.bound_violation() == 0
 
 
 @many
@@ -136,17 +136,17 @@ def test_the_force_is_kept(start):
     p = (start.p + bounded) * stays
     wanted = bounded - total * (p / p.sum() if p.sum() > 0 else stays / max(1, stays.sum()))
     for fields in start.both():
-        fields.bound(BETA, SHIFT, STEP)
+        fields.project(BETA, SHIFT, STEP)
         if not stays.any():
             continue
-        fields.share_out(0.25 * total)
+        fields.redistribute(0.25 * total)
         # A share is a ratio of sums, of which one kind rounds each term, times what cells carry.
         size = np.abs(bounded).sum() + np.abs(step).sum() + np.abs(total)
-        assert fields.t.dtype == start.base.dtype
-        close(fields.t, wanted, size, fields.t.dtype)
-        close(fields.t.sum(dtype=np.float64), 0.0, size, fields.t.dtype)
-        np.testing.assert_array_equal(fields.t[~stays], bounded[~stays])
-        np.testing.assert_array_equal(fields.inside, stays)
+        assert fields.s.dtype == start.base.dtype
+        close(fields.s, wanted, size, fields.s.dtype)
+        close(fields.s.sum(dtype=np.float64), 0.0, size, fields.s.dtype)
+        np.testing.assert_array_equal(fields.s[~stays], bounded[~stays])
+        np.testing.assert_array_equal(fields.free, stays)
 
 
 @many
@@ -154,18 +154,18 @@ def test_the_force_is_kept(start):
 def test_steps_are_taken_again_and_again(start):
     """On what is left each time: what went to nothing moves no more, and is in no sum."""
     for fields in start.both():
-        first = fields.bound(BETA, SHIFT, STEP)
-        fields.measure(np.zeros_like(start.lacking))
+        first = fields.project(BETA, SHIFT, STEP)
+        fields.inner_products(np.zeros_like(start.lacking))
         fields.advance(1.0, 0.0)
         p, stays = start.p + start.bounded, start.stays
-        fields.size()
+        fields.residual_max()
         fields.precondition()
-        second = fields.bound(-2.0, 0.0, 1.0)
+        second = fields.project(-2.0, 0.0, 1.0)
         z = Seeing.part * (start.lacking * stays).sum(dtype=np.float64)
         step = np.where(stays, -2.0 * start.bounded + z, 0.0).astype(p.dtype)
         rest = stays & (p + step >= 0)
         wanted = np.where(rest, step, np.where(stays, -p, 0))
-        np.testing.assert_array_equal(fields.t, wanted)
+        np.testing.assert_array_equal(fields.s, wanted)
         assert second.area == 0.25 * rest.sum() <= first.area
         assert second.lifted == p[stays & ~rest].sum(dtype=np.float64)
         is_on(fields, rest)
@@ -177,10 +177,10 @@ def test_a_step_is_taken(start):
     """All the way or in part; what it causes is taken off everywhere, outside the region too."""
     v = start.lacking[::-1].copy()
     for fields in start.both():
-        fields.bound(BETA, SHIFT, STEP)
-        fields.measure(v)
+        fields.project(BETA, SHIFT, STEP)
+        fields.inner_products(v)
         largest = fields.advance(0.5, 0.25)
-        np.testing.assert_array_equal(fields.change, start.change + start.bounded / 2)
+        np.testing.assert_array_equal(fields.correction, start.correction + start.bounded / 2)
         wanted = start.lacking - (v - v.dtype.type(0.25)) / 2
         np.testing.assert_array_equal(fields.r, wanted)
         assert largest == np.abs(wanted * start.stays).max()
@@ -192,12 +192,12 @@ def test_a_step_is_taken(start):
 def test_what_is_listed_no_more_leaves_no_direction_behind(start, least):
     """A step takes pressures to nothing, outside too; cells that are taken in afterwards go on from no direction."""
     for fields in start.both():
-        fields.bound(BETA, SHIFT, STEP)
-        fields.measure(np.zeros_like(start.lacking))
+        fields.project(BETA, SHIFT, STEP)
+        fields.inner_products(np.zeros_like(start.lacking))
         fields.advance(1.0, 0.0)
         new = ~start.stays & (start.lacking > least)
-        assert fields.take_in(least) == (start.lacking[new].max() if new.any() else 0.0)
-        np.testing.assert_array_equal(fields.t, np.where(start.stays, start.step, 0))
+        assert fields.free_violated(least) == (start.lacking[new].max() if new.any() else 0.0)
+        np.testing.assert_array_equal(fields.s, np.where(start.stays, start.step, 0))
         is_on(fields, start.stays | new)
 
 
@@ -213,14 +213,14 @@ def test_a_step_that_is_not_taken_leaves_no_direction_behind(make):
     """As where no cell is left to take the force."""
     kept, ones = np.arange(36).reshape(4, 9) % 2 == 0, np.ones((4, 9))
     fields = make(Seeing, kept, ones, 3.0 * ones)
-    fields.begin()
-    fields.size()
+    fields.restart()
+    fields.residual_max()
     fields.precondition()
-    fields.t[...] = -4.0 * kept
-    assert fields.bound(1.0, 0.0, 1.0).area == 0
-    assert fields.take_in(0.5) == 1.0
-    assert fields.inside.all()
-    assert not fields.t.any()
+    fields.s[...] = -4.0 * kept
+    assert fields.project(1.0, 0.0, 1.0).area == 0
+    assert fields.free_violated(0.5) == 1.0
+    assert fields.free.all()
+    assert not fields.s.any()
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -232,14 +232,14 @@ def test_pressure_that_is_but_rounding_is_none(precision):
     left = np.where(np.abs(units) > ROUNDINGS, units * unit, 0.0)
     for kept in (zeros > 0, zeros == 0):
         for fields in both_of(Seeing, kept, zeros, base):
-            fields.change[...] = units * unit - base
-            assert fields.excess() == (ROUNDINGS + 1) * unit
-            fields.begin()
+            fields.correction[...] = units * unit - base
+            assert fields.bound_violation() == (ROUNDINGS + 1) * unit
+            fields.restart()
             fields.precondition()
-            fields.t[...] = -1.0
-            assert fields.bound(1.0, 0.0, 1.0).lifted == np.abs(left).sum()
-            np.testing.assert_array_equal(fields.t, -left)
-            assert not fields.inside.any()
+            fields.s[...] = -1.0
+            assert fields.project(1.0, 0.0, 1.0).lifted == np.abs(left).sum()
+            np.testing.assert_array_equal(fields.s, -left)
+            assert not fields.free.any()
 
 
 @pytest.mark.parametrize("order", ["C", "F"])
@@ -248,35 +248,35 @@ def test_bounds_may_lie_otherwise_in_memory(order):
     kept = rng.random((9, 14)) < 0.6
     p, lacking, displacement, t = (np.array(eighths(rng, (9, 14), "float64"), order=order) for _ in range(4))
     for fields in both_of(Seeing, np.array(kept, order=order), lacking, np.abs(p)):
-        fields.begin()
-        fields.size()
+        fields.restart()
+        fields.residual_max()
         fields.precondition()
-        fields.t[...] = t
-        fields.bound(1.0, 0.0, 0.5)
+        fields.s[...] = t
+        fields.project(1.0, 0.0, 0.5)
         z = Seeing.part * lacking[kept].sum()
         rest = kept & (np.abs(p) + (t + z) / 2 >= 0)
-        np.testing.assert_array_equal(fields.inside > 0, rest)
-        np.testing.assert_array_equal(fields.t, np.where(rest, (t + z) / 2, -np.abs(p)))
-        fields.measure(displacement)
+        np.testing.assert_array_equal(fields.free > 0, rest)
+        np.testing.assert_array_equal(fields.s, np.where(rest, (t + z) / 2, -np.abs(p)))
+        fields.inner_products(displacement)
         fields.advance(1.0, 0.0)
         np.testing.assert_array_equal(fields.r, lacking - displacement)
-        fields.take_in(0.5)
-        np.testing.assert_array_equal(fields.inside > 0, rest | (lacking - displacement > 0.5))
+        fields.free_violated(0.5)
+        np.testing.assert_array_equal(fields.free > 0, rest | (lacking - displacement > 0.5))
 
 
 def test_new_cells_share_alike():
     """They carry nothing yet, so nothing tells their shares."""
     kept, base = np.ones((4, 9), bool), np.where(np.arange(36).reshape(4, 9) < 6, 3.0, 0.0)
     for fields in both_of(Seeing, kept, np.zeros((4, 9)), base):
-        fields.begin()
-        fields.size()
+        fields.restart()
+        fields.residual_max()
         fields.precondition()
-        fields.t[...] = -4.0 * (base > 0)
-        assert fields.bound(1.0, 0.0, 1.0) == Bounded(18.0, 0.25 * 30, 0.25 * 6)
-        fields.share_out(0.25 * -18.0)
-        np.testing.assert_allclose(fields.t.ravel()[:6], -3.0)
-        np.testing.assert_allclose(fields.t.ravel()[6:], 18.0 / 30)
-        assert not fields.change.any()
+        fields.s[...] = -4.0 * (base > 0)
+        assert fields.project(1.0, 0.0, 1.0) == Projected(18.0, 0.25 * 30, 0.25 * 6)
+        fields.redistribute(0.25 * -18.0)
+        np.testing.assert_allclose(fields.s.ravel()[:6], -3.0)
+        np.testing.assert_allclose(fields.s.ravel()[6:], 18.0 / 30)
+        assert not fields.correction.any()
 
 
 @pytest.mark.parametrize(
@@ -292,13 +292,13 @@ def test_new_cells_share_whatever_others_have_left(make):
     for seed in range(20):
         base = np.random.default_rng(seed).random((4, 9)) * (np.arange(36).reshape(4, 9) < 6)
         fields = make(Seeing, np.ones((4, 9), bool), np.zeros((4, 9)), base)
-        fields.begin()
-        fields.size()
+        fields.restart()
+        fields.residual_max()
         fields.precondition()
-        fields.t[...] = -4.0 * (base > 0)
-        fields.bound(1.0, 0.0, 1.0)
-        fields.share_out(0.25 * fields.t.sum())
-        np.testing.assert_allclose(fields.t.ravel()[6:], base.sum() / 30, rtol=1e-13)
+        fields.s[...] = -4.0 * (base > 0)
+        fields.project(1.0, 0.0, 1.0)
+        fields.redistribute(0.25 * fields.s.sum())
+        np.testing.assert_allclose(fields.s.ravel()[6:], base.sum() / 30, rtol=1e-13)
 
 
 @many
@@ -306,10 +306,10 @@ def test_new_cells_share_whatever_others_have_left(make):
 def test_the_same_cells_are_taken_in(start, least):
     lacking, new = start.lacking, ~start.kept & (start.lacking > least)
     for fields in start.both():
-        assert fields.take_in(least) == (lacking[new].max() if new.any() else 0.0)
+        assert fields.free_violated(least) == (lacking[new].max() if new.any() else 0.0)
         is_on(fields, start.kept | new)
-        np.testing.assert_array_equal(fields.t, start.t)
-        np.testing.assert_array_equal(fields.change, start.change)
+        np.testing.assert_array_equal(fields.s, start.t)
+        np.testing.assert_array_equal(fields.correction, start.correction)
         np.testing.assert_array_equal(fields.r, lacking)
 
 
@@ -320,19 +320,19 @@ def test_letting_go_and_taking_in_by_turns(start):
     kept = start.kept
     one, two = start.both()
     for turn in range(3):
-        p, r = start.base + start.change * turn, start.lacking * (turn - 1)
+        p, r = start.base + start.correction * turn, start.lacking * (turn - 1)
         for fields in (one, two):
-            fields.change[...] = start.change * turn
+            fields.correction[...] = start.correction * turn
             fields.r[...] = r
-            fields.begin()
-            fields.share()
-            fields.t[...] = start.t * fields.inside
-            fields.size()
+            fields.restart()
+            fields.constraint_direction()
+            fields.s[...] = start.t * fields.free
+            fields.residual_max()
             fields.precondition()
-            fields.bound(1.0, 0.0, 1.0)
-            fields.measure(np.zeros_like(r))
+            fields.project(1.0, 0.0, 1.0)
+            fields.inner_products(np.zeros_like(r))
             fields.advance(0.0, 0.0)
-            fields.take_in(0.2)
+            fields.free_violated(0.2)
         z = Seeing.part * (r * kept).sum(dtype=np.float64)
         kept = kept & (p + (start.t + z).astype(p.dtype) >= 0)
         kept = kept | (r > 0.2)
@@ -346,29 +346,29 @@ def test_cells_at_the_hardness():
     kept, held = np.array([[1, 1, 1, 1, 0, 0, 0]], bool), np.array([[0, 0, 0, 0, 1, 0, 0]], bool)
     lacking = np.array([[0.1, 0.0, 0.0, 0.2, -0.5, 0.3, 0.0]])
     fields = on(Seeing, kept, lacking, p, held, 3.5)
-    assert fields.excess() == 0.5
-    fields.begin()
-    fields.size()
+    assert fields.bound_violation() == 0.5
+    fields.restart()
+    fields.residual_max()
     fields.precondition()
     z = Seeing.part * 0.3
-    fields.t[...] = np.array([[-2.0, 0.0, 0.0, 2.0, 5.0, 5.0, 5.0]]) - z
-    found = fields.bound(1.0, 0.0, 1.0)
+    fields.s[...] = np.array([[-2.0, 0.0, 0.0, 2.0, 5.0, 5.0, 5.0]]) - z
+    found = fields.project(1.0, 0.0, 1.0)
     # The first goes to nothing, and so does the last, which is not free; the fourth goes to the hardness.
-    np.testing.assert_allclose(fields.t, [[-1.0, 0.0, 0.0, 0.5, 0.0, 0.0, -0.5]], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(fields.s, [[-1.0, 0.0, 0.0, 0.5, 0.0, 0.0, -0.5]], rtol=0, atol=1e-15)
     np.testing.assert_allclose(found, [1.0 + 0.5 + 0.5, 0.25 * 2, 0.25 * (1.0 - 1.5 - 0.5)], atol=1e-15)
-    np.testing.assert_array_equal(fields.inside, [[0, 1, 1, 0, 0, 0, 0]])
-    np.testing.assert_array_equal(fields.held, [[0, 0, 0, 1, 1, 0, 0]])
+    np.testing.assert_array_equal(fields.free, [[0, 1, 1, 0, 0, 0, 0]])
+    np.testing.assert_array_equal(fields.upper, [[0, 0, 0, 1, 1, 0, 0]])
     # Two cells share what is missing, as they carry.
-    fields.share_out(0.25 * -1.0)
-    np.testing.assert_allclose(fields.t, [[-1.0, 1 / 3, 2 / 3, 0.5, 0.0, 0.0, -0.5]], rtol=0, atol=1e-15)
-    fields.measure(np.zeros_like(p))
+    fields.redistribute(0.25 * -1.0)
+    np.testing.assert_allclose(fields.s, [[-1.0, 1 / 3, 2 / 3, 0.5, 0.0, 0.0, -0.5]], rtol=0, atol=1e-15)
+    fields.inner_products(np.zeros_like(p))
     fields.advance(1.0, 0.0)
-    np.testing.assert_allclose(p + fields.change, [[0, 4 / 3, 8 / 3, 3.5, 3.5, 0, 0]], rtol=0, atol=1e-15)
-    assert fields.excess() == 0
-    assert not fields.t[~(fields.inside > 0)].any()
-    assert fields.take_in(0.25) == 0.5
-    np.testing.assert_array_equal(fields.inside, [[0, 1, 1, 0, 1, 1, 0]])
-    np.testing.assert_array_equal(fields.held, [[0, 0, 0, 1, 0, 0, 0]])
+    np.testing.assert_allclose(p + fields.correction, [[0, 4 / 3, 8 / 3, 3.5, 3.5, 0, 0]], rtol=0, atol=1e-15)
+    assert fields.bound_violation() == 0
+    assert not fields.s[~(fields.free > 0)].any()
+    assert fields.free_violated(0.25) == 0.5
+    np.testing.assert_array_equal(fields.free, [[0, 1, 1, 0, 1, 1, 0]])
+    np.testing.assert_array_equal(fields.upper, [[0, 0, 0, 1, 0, 0, 0]])
 
 
 def test_how_far_pressures_are_from_the_hardness():
@@ -391,5 +391,5 @@ def test_how_far_pressures_are_from_the_hardness():
         base = np.where(np.arange(3) == 2, 0.0, 4.0).reshape(1, 3)
         fields = on(Seeing, np.array([[True, False, False]]), zeros, base, held, 4.0)
         base[0, 2] = 4.0 if at == 2 else 0.0
-        fields.change[0, at] = by
-        assert fields.excess() == wanted
+        fields.correction[0, at] = by
+        assert fields.bound_violation() == wanted

@@ -1,0 +1,86 @@
+"""Windows: factors that take the heights to zero toward the edges, so that a free map may be repeated."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.validation import numeric
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["WINDOWS", "Window", "tapered", "window_values"]
+
+Array = npt.NDArray[np.float64]
+Window: TypeAlias = Literal["hann", "hamming", "blackman", "welch", "tukey"]
+# Each but Tukey's, which has a parameter, as a function of the phase, from 0 to 2 pi along the axis.
+_SHAPES: dict[str, Callable[[Array], Array]] = {
+    "hann": lambda t: 0.5 - 0.5 * np.cos(t),
+    "hamming": lambda t: 0.54 - 0.46 * np.cos(t),
+    "blackman": lambda t: 0.42 - 0.5 * np.cos(t) + 0.08 * np.cos(2 * t),
+    "welch": lambda t: 1 - (t / np.pi - 1) ** 2,
+}
+WINDOWS = (*_SHAPES, "tukey")
+
+
+def window_values(name: str, count: int, share: float = 0.25) -> Array:
+    """Return a window at the centres of `count` cells, see `tapered`.
+
+    Raises
+    ------
+    ValueError
+        If there is no such window, or `share` lies outside 0 to 1.
+    """
+    phase = 2 * np.pi * (np.arange(count) + 0.5) / count
+    if name in _SHAPES:
+        return _SHAPES[name](phase)
+    if name != "tukey":
+        raise ValueError(f"window must be one of {', '.join(WINDOWS)}, not {name!r}")
+    if not 0 <= share <= 1:
+        raise ValueError(f"share must lie between 0 and 1, not {share}")
+    # A flat middle between two halves of a Hann window, each of half the share.
+    bent = np.minimum(phase, 2 * np.pi - phase)
+    return _SHAPES["hann"](np.minimum(bent, math.pi * share) / share) if share else np.ones(count)
+
+
+@numeric
+def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> Surface:
+    """Return the heights above their mean times a window along every free axis.
+
+    Periodic axes need none and are left. The mean square falls by the factor that the provenance states; a
+    spectrum takes its own window and corrects for it, so it wants the surface as it is.
+
+    Parameters
+    ----------
+    surface : Surface
+    window : {"hann", "hamming", "blackman", "welch", "tukey"}
+        With t from 0 to 1 along the axis, Hann: sin^2(pi t), Welch: 1 - (2t - 1)^2, Tukey: a flat middle between two
+        halves of a Hann window.
+    share : float
+        For "tukey": the part of the length that is bent, both ends together, from 0 to 1.
+
+    Returns
+    -------
+    Surface
+        The tapered heights, about zero.
+
+    Raises
+    ------
+    ValueError
+        If there is no such `window`, or `share` lies outside 0 to 1.
+    """
+    heights = surface.heights - np.nanmean(surface.heights)
+    loss = 1.0
+    for axis, (count, repeats) in enumerate(zip(surface.grid.shape, surface.grid.periodic, strict=True)):
+        if not repeats:
+            weights = window_values(window, count, share)
+            heights = heights * weights.reshape([-1 if k == axis else 1 for k in range(heights.ndim)])
+            loss *= float((weights**2).mean())
+    line = f"{window} window, mean square times {loss:.6g}"
+    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
