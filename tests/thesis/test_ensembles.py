@@ -10,9 +10,9 @@ from roughcontact.thesis.ensembles import (
     coarse_square_study,
     curve_averages,
     curve_fits,
+    full_contact_study,
     laws,
     resolution_studies,
-    full_contact_study,
     sphere_study,
     square_study,
 )

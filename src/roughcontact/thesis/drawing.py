@@ -137,7 +137,7 @@ def key(axes: Axes, style: str, words: str, **given: Any) -> None:
 
 
 def level(axes: Axes, value: float, words: str = "", style: Any = "--", **given: Any) -> None:
-    """Draw a level across the axes, with words above its left end, or where `ha` and `va` tell."""
+    """Draw a level across the axes, with words above its left end, or as the keywords `ha` and `va` align them."""
     axes.axhline(value, color="0.35", linewidth=0.9, linestyle=style, zorder=1)
     aligned = {"ha": "left", "va": "bottom"} | given
     place = 0.01 if aligned["ha"] == "left" else 0.99
