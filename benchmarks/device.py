@@ -28,7 +28,7 @@ from measure import AGREEMENT
 from pairs import without
 
 import roughcontact as rc
-from roughcontact.convolution import Convolution
+from roughcontact.transforms import Convolution
 
 try:
     import torch

@@ -23,10 +23,11 @@ import tracemalloc
 os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 import numpy as np
+from pairs import without
 
 import roughcontact as rc
 from roughcontact.halfspace.operators.dense import DenseOperator
-from roughcontact.halfspace.sums import compiled
+from roughcontact.halfspace.sums import levels, near_sum
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 
 # For the matrix, and for the moving grid.
@@ -131,21 +132,17 @@ def table(geometry, sizes, repeats):
 
 def settings(n, repeats):
     print(
-        f"\nmultilevel at {n} x {n}: error against the transforms, and a product with and without Numba [s]"
+        f"\nmultilevel at {n} x {n}: error against the transforms, a product with and without machine code [s]"
     )
     free = rc.half_space(rc.Grid((n, n), 1.0), 1.0)
     fields = pressures(free.grid.shape)
-    by_loops = compiled.compiled_loops
     for order, near in SETTINGS:
         subject = MultilevelOperator(free, order, near)
         off = max(error(subject, free, p) for p in fields)
-        compiled.compiled_loops = by_loops
-        subject.apply(fields[0])
         fast = seconds(subject.apply, fields[0], repeats)
-        compiled.compiled_loops = lambda: None
-        slow = seconds(subject.apply, fields[0], repeats)
+        with without(levels, "add_near", near_sum.add_near_by_products):
+            slow = seconds(subject.apply, fields[0], repeats)
         print(f"order {order:2d}, near {near:2d}: {off:.1e}   {fast:.3e}   {slow:.3e}")
-    compiled.compiled_loops = by_loops
 
 
 def main():
@@ -161,8 +158,6 @@ def main():
         geometry, method, n = chosen.one
         measure(geometry, method, int(n), chosen.repeats)
         return
-    if compiled.compiled_loops() is None:
-        print("Numba is not installed: the multilevel sum runs without it")
     for geometry in ("plane", "shear"):
         table(geometry, [int(n) for n in chosen.sizes.split(",")], chosen.repeats)
     table("line", [int(n) for n in chosen.lines.split(",")], chosen.repeats)

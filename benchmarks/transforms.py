@@ -8,11 +8,11 @@ import time
 import numpy as np
 import scipy.fft
 
-import roughcontact.arrays as arrays
-from roughcontact.convolution import Convolution, padded_length
+from roughcontact import transforms
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.transforms import Convolution, padded_length
 
 
 def best(function, *arguments, repeats=7):
@@ -33,14 +33,14 @@ def slabs():
     print("a product with an n x n field: plain transforms, and slabs of columns of several widths")
     rng = np.random.default_rng(0)
     for n in (64, 128, 256, 512, 1024):
-        padded = (arrays.fast_even_length(2 * n - 2),) * 2
+        padded = (transforms.fast_even_length(2 * n - 2),) * 2
         field, table = rng.random((n, n)), rng.random((n, n))
-        multiplier = arrays.even_multiplier(table, padded)
+        multiplier = transforms.even_multiplier(table, padded)
         whole = np.concatenate([multiplier, multiplier[-2:0:-1]])
         row = [f"plain {best(plain, field, whole, padded):7.2f}"]
         for width in (8, 16, 32, 64, 128):
-            arrays.SLAB = width
-            row.append(f"{width}: {best(arrays.convolve, field, multiplier, padded):7.2f}")
+            transforms.SLAB = width
+            row.append(f"{width}: {best(transforms.convolve, field, multiplier, padded):7.2f}")
         print(f"{n:6d}  " + "   ".join(row))
 
 
@@ -54,7 +54,7 @@ def machine():
                 multiplier = rng.random((length // 2 + 1,) * 2)
                 compiled = Convolution(multiplier, (length, length))
                 factors = multiplier.astype(precision)
-                slow = best(arrays.convolve, field, factors, (length, length))
+                slow = best(transforms.convolve, field, factors, (length, length))
                 row.append(f"{slow:8.2f} {best(compiled.apply, field):8.2f}")
             print(f"{precision} {n:6d}  " + "   ".join(row))
 
@@ -62,10 +62,10 @@ def machine():
 def lookups():
     print("look-ups of the influence table in the time of one cell of the padded box")
     rng = np.random.default_rng(0)
-    arrays.SLAB = 32
+    transforms.SLAB = 32
     for n in (128, 256, 512, 1024):
         padded = (padded_length(n),) * 2
-        multiplier = arrays.even_multiplier(rng.random((n, n)), padded)
+        multiplier = transforms.even_multiplier(rng.random((n, n)), padded)
         transform = best(Convolution(multiplier, padded).apply, rng.random((n, n))) / (4 * n * n)
         influence = Tables(Love((1.0, 1.0), 1.0), (n, n))
         influence.table((n, n))

@@ -11,9 +11,10 @@ import numpy as np
 from matplotlib.cbook import get_sample_data
 
 import roughcontact as rc
+from roughcontact.files.aside import WriteError, output_folder
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.provenance import provenance
-from roughcontact.files.write import WriteError, output_folder, write_csv, write_netcdf
+from roughcontact.files.write import write_csv, write_netcdf
 from roughcontact.plot.canvas import curve_figure, save, solution_figure
 
 GRANITE = rc.Solid(young_modulus=60e9, poisson_ratio=0.25)

@@ -22,7 +22,21 @@ import roughcontact
 from roughcontact.cached import cached_property
 
 # The rooms whose docstrings are complete and stay so; one that is not here is not checked.
-CHECKED = {"files", "grid", "material", "statistics", "surface"}
+CHECKED = {
+    *(
+        "contact",
+        "files",
+        "friction",
+        "grid",
+        "halfspace",
+        "material",
+        "mdr",
+        "solver",
+        "statistics",
+        "surface",
+    ),
+    "theory",
+}
 # Of numpydoc's checks those of content: there is a docstring (GL08); it names the parameters of the signature, no
 # other, in their order, with a type (PR01, PR02, PR03, PR04); it says what is returned or yielded (RT01, YD01).
 # Layout is ruff's affair (GL, SS). A description of every parameter (PR07) would repeat types that say all, as in

@@ -15,12 +15,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact import arrays
 from roughcontact import threads as threads_module
+from roughcontact import transforms
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.solver.control import Force
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Force, Status
 from roughcontact.threads import controller, join_in, limit_threads, once, one_blas_thread, spread, threads
 
 PATIENCE = 120  # [s], of a busy machine
@@ -128,7 +127,7 @@ def test_who_joins_in_may_fail_or_interrupt():
 
 @pytest.mark.parametrize("periodic", [False, True])
 def test_answers_do_not_hang_on_their_number(monkeypatch, periodic):
-    monkeypatch.setattr(arrays, "LARGE", 1)
+    monkeypatch.setattr(transforms, "LARGE", 1)
     grid = rc.Grid((140, 260), 1e-3, periodic)
     rough = rc.self_affine(grid, 0.8, 1e-4, np.random.default_rng(0))
     answers = []

@@ -85,7 +85,7 @@ _ROOMS = {
     "Depth": "solver.control",
     "ContactProblem": "contact.problem",
     "Solution": "contact.solution",
-    "Status": "solver.status",
+    "Status": "solver.control",
     "ConvergenceError": "contact.convergence",
     "ActiveSet": "solver.active_set",
     "PolonskyKeer": "solver.polonsky_keer",
@@ -99,7 +99,7 @@ _ROOMS = {
     "Comparison": "contact.compare",
     "conductance": "contact.conduction",
     "loading_laws": "contact.theories",
-    "PowerLaw": "contact.curve",
+    "PowerLaw": "statistics.power_law",
     "read": "files.read",
     "read_line": "files.read",
     "read_curve": "files.read_curve",
@@ -110,12 +110,19 @@ _ROOMS = {
 }
 
 # Public names that are modules themselves.
-_MODULES = {"shapes": "surface.shapes", "theory": "theory", "mdr": "mdr", "study": "study"}
+_MODULES = {
+    "shapes": "surface.shapes",
+    "statistics": "statistics",
+    "theory": "theory",
+    "mdr": "mdr",
+    "study": "study",
+}
 
 __all__ = ["__version__", *_ROOMS, *_MODULES]
 
 if TYPE_CHECKING:
     from roughcontact import mdr as mdr
+    from roughcontact import statistics as statistics
     from roughcontact import study as study
     from roughcontact import theory as theory
     from roughcontact.contact.below import StressPeak as StressPeak
@@ -126,7 +133,6 @@ if TYPE_CHECKING:
     from roughcontact.contact.conduction import conductance as conductance
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
-    from roughcontact.contact.curve import PowerLaw as PowerLaw
     from roughcontact.contact.loading import loading_curve as loading_curve
     from roughcontact.contact.loading import loading_path as loading_path
     from roughcontact.contact.loading import suggested_forces as suggested_forces
@@ -171,9 +177,10 @@ if TYPE_CHECKING:
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
     from roughcontact.solver.control import Depth as Depth
     from roughcontact.solver.control import Force as Force
+    from roughcontact.solver.control import Status as Status
     from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
-    from roughcontact.solver.status import Status as Status
+    from roughcontact.statistics.power_law import PowerLaw as PowerLaw
     from roughcontact.surface import shapes as shapes
     from roughcontact.surface.analysis.correlation import autocorrelation as autocorrelation
     from roughcontact.surface.analysis.correlation import structure_function as structure_function

@@ -1,21 +1,26 @@
-"""How much memory there is, and a refusal before the machine comes to a halt."""
+"""How much memory there is, and a refusal before the machine comes to a halt.
+
+What is known by a lower bound is held against all that there could be, what is estimated against what is free.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import psutil
 
-__all__ = ["most_memory", "require_memory"]
+__all__ = ["free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
 
 SMALL = 2**24  # [bytes] what every machine has: nothing is asked
 GROUPS = Path("/sys/fs/cgroup")  # where Linux says what a container or a job may use
 OWN = Path("/proc/self/cgroup")
+_ELSEWHERE = "or use a machine with more memory"
 
 
 def require_memory(least: int, what: str, remedy: str) -> None:
-    """Refuse what needs more memory than there is.
+    """Refuse what cannot be done in the memory that work here could have at most, see `most_memory`.
 
     Parameters
     ----------
@@ -27,16 +32,42 @@ def require_memory(least: int, what: str, remedy: str) -> None:
     Raises
     ------
     ValueError
-        If the bound exceeds what there is, see `most_memory`.
+        If the bound exceeds what there is.
     """
     if least < SMALL:
         return
     most = most_memory()
     if least > most:
-        raise ValueError(
-            f"{what} needs {least / 1e9:.3g} GB of memory at least, and {most / 1e9:.3g} GB are there: "
-            f"{remedy}, or use a machine with more memory"
-        )
+        problem = f"{what} needs {gigabytes(least)} of memory at least, and {gigabytes(most)} are there"
+        raise ValueError(f"{problem}: {remedy}, {_ELSEWHERE}")
+
+
+def require_free(need: int, what: str, remedy: str, error: Callable[[str, str], Exception]) -> None:
+    """Refuse what takes more memory than is free now.
+
+    Parameters
+    ----------
+    need : int
+        An estimate of the memory that it takes from now on [bytes].
+    what, remedy : str
+        For the message.
+    error : callable
+        Makes the exception to raise from a problem and a remedy in words.
+    """
+    free = free_memory()
+    if need > free:
+        problem = f"{what} needs {gigabytes(need)} of memory, and {gigabytes(free)} are free"
+        raise error(problem, f"{remedy}, {_ELSEWHERE}")
+
+
+def free_memory() -> int:
+    """Return the memory that is free now, without the swap space [bytes]."""
+    return int(psutil.virtual_memory().available)
+
+
+def gigabytes(size: float) -> str:
+    """Return a number of bytes in words."""
+    return f"{size / 1e9:.3g} GB"
 
 
 def most_memory() -> float:
@@ -46,7 +77,7 @@ def most_memory() -> float:
     limit of the container.
     """
     swap = psutil.swap_memory()
-    free: float = psutil.virtual_memory().available + swap.free + psutil.Process().memory_info().rss
+    free: float = free_memory() + swap.free + psutil.Process().memory_info().rss
     return min(free, _limit() + float(swap.total))
 
 

@@ -142,7 +142,7 @@ class TestMemory:
         # 1.6 GB of file and a hundred bytes for each of 4e8 points.
         assert answer.stderr == (
             f"Error: {path}: reading it needs 41.6 GB of memory, and 8 GB are free; "
-            "cut the map or thin it out, or use a machine with more memory\n"
+            "cut the map or subsample it, or use a machine with more memory\n"
         )
 
     def test_a_surface_that_was_read_may_be_too_large_to_press(self, invoke, rough, monkeypatch):

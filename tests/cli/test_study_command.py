@@ -15,7 +15,7 @@ from rich.console import Console
 from roughcontact.cli.study_progress import Pace, duration, progress
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
-from roughcontact.study.summary import Summary
+from roughcontact.study.task import Summary
 from study import trial
 
 TESTS = Path(__file__).parents[1]

@@ -89,8 +89,7 @@ def test_what_gives_way_conducts_too():
 
 
 def test_a_curve_under_a_hardness_does_not_know():
-    from roughcontact.contact.conduction import Conductors
-    from roughcontact.contact.dataset import with_conductance
+    from roughcontact.contact.conduction import Conductors, with_conductance
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)
@@ -106,9 +105,8 @@ def test_a_curve_under_a_hardness_does_not_know():
 
 def test_an_insulator_has_a_picture():
     """Its resistance is infinite, and has no place on the axis."""
-    from roughcontact.contact.conduction import Conductors
-    from roughcontact.contact.dataset import with_conductance
-    from roughcontact.plot.resistance import resistance_figure
+    from roughcontact.contact.conduction import Conductors, with_conductance
+    from roughcontact.plot.curves import resistance_figure
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])

@@ -6,11 +6,9 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.solver import plastic as hard
-from roughcontact.solver.control import Depth, Force, Terms
+from roughcontact.solver.control import Depth, Force, State, Status, Terms
 from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.state import State
-from roughcontact.solver.status import Status
 
 MODULUS = 2.0
 SOLVERS = {"active set": rc.ActiveSet(), "Polonsky-Keer": rc.PolonskyKeer()}

@@ -12,7 +12,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.files import content as module
 from roughcontact.files.content import content
-from roughcontact.files.inspect import channels
+from roughcontact.files.read import channels
 
 READERS = (rc.read, rc.read_line, rc.read_curve, channels)
 

@@ -15,7 +15,7 @@ from scipy.io import savemat
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
+from roughcontact.files.read import channels
 
 pytest.importorskip("SurfaceTopography")
 

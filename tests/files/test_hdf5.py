@@ -12,7 +12,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.files import hdf5
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
-from roughcontact.files.inspect import channels
+from roughcontact.files.read import channels
 
 SECRET = bytes(range(48, 96))
 GIVEN = {"unit": "um", "size": 1e-3}

@@ -1,12 +1,11 @@
-"""Line scans: read when asked for, never taken for a map."""
+"""Profiles: read when asked for, never taken for a map."""
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_either, read_line
+from roughcontact.files.read import channels, read_either, read_line
 
 HEIGHTS = np.random.default_rng(3).standard_normal(40).cumsum()
 
@@ -103,13 +102,13 @@ def test_a_profile_in_x3p(put, make_x3p):
 
 
 def test_a_map_is_no_line_and_a_line_no_map(put, npy):
-    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, no line scan; use read"):
+    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, no profile; use read"):
         read_line(put("a.npy", npy(HEIGHTS.reshape(5, 8))), unit="um", size=1e-3)
     with pytest.raises(
-        rc.ReadError, match=r"it is a line scan of 40 heights, not a map .*read it by read_line"
+        rc.ReadError, match=r"it is a profile of 40 heights, not a map .*read it by read_line"
     ):
         rc.read(put("a.csv", "x [um], z [um]\n" + rows()))
-    with pytest.raises(rc.ReadError, match=r"line scans are not read from \.opd"):
+    with pytest.raises(rc.ReadError, match=r"profiles are not read from \.opd"):
         read_line(put("a.opd", b"any"))
     (channel,) = channels(put("b.csv", "x [um], z [um]\n" + rows()))
     assert (channel.shape, channel.unit, channel.is_height) == ((40,), "um", False)
@@ -136,7 +135,7 @@ def test_either_is_what_the_file_holds(put, npy, npz, make_x3p):
 
 def test_either_refuses_what_is_neither(put, npy):
     for name, content, message in (
-        ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a line scan at most"),
+        ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a profile at most"),
         ("a.txt", "1 2 3\n4 5\n", "row 2"),
         ("a.csv", "x [um], z [um]\n1, 2\n", "not a number"),
     ):

@@ -9,8 +9,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 OWN = {
     "ISO5436-sample1.x3p": {},
@@ -117,7 +116,7 @@ def test_the_manifest_is_read_completely(manifest):
 
 def test_a_line_scan_is_read_when_asked_for(surfaces, manifest):
     path = surfaces / "dektak-1.csv"
-    with pytest.raises(rc.ReadError, match=r"dektak-1\.csv: it is a line scan of 9600 heights.*by read_line"):
+    with pytest.raises(rc.ReadError, match=r"dektak-1\.csv: it is a profile of 9600 heights.*by read_line"):
         rc.read(path)
     row = manifest["dektak-1.csv"]
     line = read_line(path)

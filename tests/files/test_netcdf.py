@@ -9,8 +9,7 @@ import xarray
 from scipy.io import netcdf_file
 
 import roughcontact as rc
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 HEIGHTS = np.arange(12.0).reshape(3, 4)
 
@@ -79,7 +78,7 @@ def test_a_length_that_contradicts_the_coordinates_is_refused(tmp_path):
 
 def test_a_line_scan_is_read_as_one_and_not_as_a_map(tmp_path):
     path = contact_engineering(tmp_path / "line.nc", line=True)
-    with pytest.raises(rc.ReadError, match=r"line\.nc: it is a line scan of 4 heights.*read_line"):
+    with pytest.raises(rc.ReadError, match=r"line\.nc: it is a profile of 4 heights.*read_line"):
         rc.read(path)
     line = read_line(path)
     np.testing.assert_allclose(line.heights, HEIGHTS[0] * 1e-6, rtol=1e-15)

@@ -12,7 +12,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.inspect import channels
+from roughcontact.files.read import channels
 
 TEXT = "1 2 3 4\n5 6 7 8\n"
 

@@ -10,8 +10,7 @@ import psutil
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.inspect import channels
-from roughcontact.files.read import read_line
+from roughcontact.files.read import channels, read_line
 
 COUNTS = np.array([[5, -7, 100, 3], [8, 0, 2, -40], [1, 2, 3, 4]])
 STEP = 0.25  # exact in single precision
@@ -77,7 +76,7 @@ def test_a_profile_is_a_line_scan(put):
     line = read_line(path)
     np.testing.assert_allclose(line.heights, COUNTS[0] * STEP * 1e-6, rtol=1e-15)
     np.testing.assert_allclose(line.grid.spacing, (0.5e-3,), rtol=1e-15)
-    with pytest.raises(rc.ReadError, match="line scan of 4 heights"):
+    with pytest.raises(rc.ReadError, match="profile of 4 heights"):
         rc.read(path)
 
 

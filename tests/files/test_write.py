@@ -16,15 +16,9 @@ import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.files.aside import WriteError, output_folder, written_aside
 from roughcontact.files.provenance import provenance, surface_hash
-from roughcontact.files.write import (
-    WriteError,
-    output_folder,
-    write_csv,
-    write_json,
-    write_netcdf,
-    written_aside,
-)
+from roughcontact.files.write import netcdf_bytes, write_csv, write_json, write_netcdf
 
 MODULUS = 1e11
 GRID = rc.Grid((32, 32), (1e-7, 1e-7))
@@ -338,3 +332,21 @@ def test_the_hash_tells_surfaces_apart_and_knows_equal_ones(surface):
         rc.Surface(surface.heights, rc.Grid(GRID.shape, GRID.spacing, periodic=True)),
     )
     assert len({surface_hash(each) for each in (surface, *others)}) == 4
+
+
+def test_the_bytes_are_those_of_a_file_that_holds_the_dataset(tmp_path):
+    rng = np.random.default_rng(1)
+    dataset = xarray.Dataset(
+        {"pressure": (("y", "x"), rng.normal(size=(40, 30)), {"units": "Pa"}), "force": 1.5, "name": "a"},
+        {"x": np.arange(30.0)},
+        {"title": "pressures"},
+    )
+    dataset["pressure"][3, 4] = np.nan
+    (tmp_path / "a.nc").write_bytes(netcdf_bytes(dataset))
+    back = xarray.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    xarray.testing.assert_identical(back, dataset)
+
+
+def test_maps_are_compressed():
+    dataset = xarray.Dataset({"gap": (("y", "x"), np.zeros((500, 500)))})
+    assert len(netcdf_bytes(dataset)) < 0.05 * dataset["gap"].nbytes

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.xmlnode import parse_xml
+from roughcontact.files.x3p import parse_xml
 
 HEIGHTS = np.array([[0.0, 1e-6, 2e-6], [-1e-6, 5e-7, 3e-6]])
 COUNTS = np.array([[0, 1000, -2000], [300, -32768, 32767]])

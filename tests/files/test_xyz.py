@@ -61,7 +61,7 @@ def test_few_digits_do_not_add_up_along_a_wide_map(put):
     ("content", "message"),
     [
         ("".join(f"{x} {y} 1\n" for x, y in RNG.random((40, 2))), "scattered"),
-        ("".join(f"{k} 0 1\n" for k in range(9)), "share one y: it is a line scan"),
+        ("".join(f"{k} 0 1\n" for k in range(9)), "share one y: it is a profile"),
         ("0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n", "share one place"),
         ("0 0\n1 0\n", "its rows hold 2 numbers; give three columns"),
         ("0 0 1\nnan 0 1\n0 1 1\n", "not finite"),

@@ -12,7 +12,7 @@ from roughcontact.friction.slide import slide, slide_path
 from roughcontact.friction.slip_step import SlipStep
 from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
 from roughcontact.halfspace.shear.shear_operator import shear_half_space
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 
 MU = 0.4
 

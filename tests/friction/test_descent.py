@@ -13,7 +13,7 @@ from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.descent import descended
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_step import SlipStep
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 
 BODY = rc.Solid(1.0, 0.4)
 

@@ -51,7 +51,9 @@ OTHERS = {
         for shape in SHAPES
     },
     "moving grid along a line": lambda: rc.line(rc.Grid(75, 0.5), 2.0, method="moving-grid"),
-    "multilevel, too small for levels": lambda: rc.half_space(rc.Grid((13, 20), 0.5), 2.0, "multilevel"),
+    "multilevel, too small for levels": lambda: rc.half_space(
+        rc.Grid((13, 20), 0.5), 2.0, method="multilevel"
+    ),
     # Where all pairs are near, all are corrected, and the sum is exact.
     "multilevel": lambda: MultilevelOperator(rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), near=80),
     "multilevel along a line": lambda: LineOperator(

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.height_histogram import height_distribution
+from roughcontact.plot.distributions import height_distribution
 from roughcontact.plot.profile_plot import profile_curve
 from roughcontact.plot.spectrum_plot import spectrum_curve
 from roughcontact.plot.view import surface_view

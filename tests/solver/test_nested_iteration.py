@@ -8,15 +8,13 @@ import pytest
 import roughcontact as rc
 from libraries import Strict
 from roughcontact.solver import nested_iteration, tuning
-from roughcontact.solver.control import Depth
+from roughcontact.solver.control import Depth, State, Status
 from roughcontact.solver.nested_iteration import (
     block_minimum,
     block_separation,
     coarse_operator,
     nested_start,
 )
-from roughcontact.solver.state import State
-from roughcontact.solver.status import Status
 
 SHAPES = [(8, 6), (7, 6), (8, 5), (9, 7), (1, 8), (2, 2)]
 

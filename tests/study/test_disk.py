@@ -15,9 +15,10 @@ import pytest
 from roughcontact.study import field_files as fields_module
 from roughcontact.study.perform import perform
 from roughcontact.study.run import run
-from roughcontact.study.store import Store, Summary
+from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError
+from roughcontact.study.task import Summary
 from study.trial import NAME
 
 FULL = "the disk is full; make room and run again; what was stored before is safe"

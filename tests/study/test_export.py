@@ -10,8 +10,8 @@ import pytest
 import xarray
 
 from roughcontact.files.aside import WriteError
+from roughcontact.study.case import Positive, Pressure
 from roughcontact.study.export import assemble, export, write_export
-from roughcontact.study.parameters import Positive, Pressure
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study

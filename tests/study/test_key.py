@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.study.key import canonical, generator, key_of
+from roughcontact.study.task import canonical, generator, key_of
 from study.trial import CASE, NEWER, Trial
 
 

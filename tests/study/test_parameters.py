@@ -1,7 +1,7 @@
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from roughcontact.study.parameters import Area, Energy, Force, Length, Positive, Pressure, Stiffness
+from roughcontact.study.case import Area, Energy, Force, Length, Positive, Pressure, Stiffness
 
 
 class Body(BaseModel):

@@ -4,10 +4,9 @@ import threadpoolctl
 import xarray
 
 from roughcontact.study.case import Case, Parameters
-from roughcontact.study.key import generator
 from roughcontact.study.perform import perform
 from roughcontact.study.study import Study
-from roughcontact.study.task import Task
+from roughcontact.study.task import Task, generator
 from study.trial import CASE, NAME, WITH_FIELDS
 
 

@@ -6,8 +6,9 @@ import xarray
 from roughcontact.study.executors.serial import Serial
 from roughcontact.study.perform import perform
 from roughcontact.study.run import run
-from roughcontact.study.store import Store, Summary
+from roughcontact.study.store import Store
 from roughcontact.study.study import Study
+from roughcontact.study.task import Summary
 from study import trial
 from study.trial import NAME
 

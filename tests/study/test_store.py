@@ -9,10 +9,10 @@ import xarray
 from roughcontact import __version__
 from roughcontact.study.perform import perform
 from roughcontact.study.run import run
-from roughcontact.study.store import Store, Summary
+from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError
-from roughcontact.study.task import Outcome
+from roughcontact.study.task import Outcome, Summary
 from study.trial import NAME
 
 

@@ -8,8 +8,7 @@ import numpy as np
 import xarray
 from pydantic import Field
 
-from roughcontact.study.case import Case, Parameters
-from roughcontact.study.parameters import Length, Positive
+from roughcontact.study.case import Case, Length, Parameters, Positive
 
 NAME = "study.trial:CASE"
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughcontact.study.common import on_common
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.thesis.ensembles import (
     coarse_square_study,

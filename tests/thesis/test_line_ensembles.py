@@ -7,7 +7,7 @@ import roughcontact as rc
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.theory import gaussian_heights
 from roughcontact.thesis.ensembles import HURST as SQUARES

@@ -6,7 +6,7 @@ import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.mdr.calibration import calibrated_lambda
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.thesis import fig29_spectrum_factor as fig29
 from roughcontact.thesis import fig30_crossover as fig30
 from roughcontact.thesis.figures import drawn, verdicts

@@ -97,7 +97,7 @@ def conductance(
     json: options.JsonOption = False,
 ) -> None:
     """Tell what a contact conducts: electrical and thermal resistance against force."""
-    from roughcontact.contact.dataset import with_conductance
+    from roughcontact.contact.conduction import with_conductance
 
     with reported(file, out):
         conductors = Materials(resistivity, conductivity).conductors()
@@ -141,7 +141,7 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
 def _write(answer: xarray.Dataset, names: list[str], folder: Path) -> None:
     from roughcontact.files.write import write_csv, write_netcdf
     from roughcontact.plot.canvas import save
-    from roughcontact.plot.resistance import resistance_figure
+    from roughcontact.plot.curves import resistance_figure
 
     source: dict[str, str | float] = {"conductance_command": command_line()}
     with all_or_none(folder) as aside:

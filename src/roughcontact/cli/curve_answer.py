@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conduction import Conductors
-    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.contact.curve import Curve
+    from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
 
@@ -77,7 +78,9 @@ class CurveAnswer:
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """The curve with the columns of theories and conductance."""
-        from roughcontact.contact.dataset import curve_dataset, with_conductance, with_theories
+        from roughcontact.contact.compare import with_theories
+        from roughcontact.contact.conduction import with_conductance
+        from roughcontact.contact.dataset import curve_dataset
 
         dataset = with_theories(curve_dataset(self.curve), self.comparisons)
         return dataset if self.conductors is None else with_conductance(dataset, self.conductors)

@@ -21,7 +21,7 @@ __all__ = ["all_or_none", "command_line", "output"]
 
 def output(folder: Path | None) -> AbstractContextManager[Path | None]:
     """Return a context that checks the folder before the work, and undoes its creation if that fails."""
-    from roughcontact.files.write import output_folder
+    from roughcontact.files.aside import output_folder
 
     return nullcontext() if folder is None else output_folder(folder)
 

@@ -169,7 +169,7 @@ def _write(
 
 def _distribution(solution: Solution) -> Figure:
     from roughcontact.contact.theories import persson_pressures
-    from roughcontact.plot.pressures import pressure_distribution_figure
+    from roughcontact.plot.distributions import pressure_distribution_figure
 
     return pressure_distribution_figure(solution, {"Persson": persson_pressures(solution)})
 

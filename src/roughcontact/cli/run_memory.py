@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import psutil
-
 from roughcontact.cli.messages import UsageError, note
+from roughcontact.memory import free_memory, gigabytes, require_free
 
 __all__ = ["require_memory"]
 
@@ -27,15 +26,10 @@ def require_memory(need: int, shape: tuple[int, ...]) -> None:
         If the run needs more than the machine has free.
     """
     what = f"a grid of {' x '.join(str(n) for n in shape)} cells"
-    free = psutil.virtual_memory().available
-    if need > free:
-        raise UsageError(
-            f"{what} needs {_gigabytes(need)} of memory, and {_gigabytes(free)} are free: "
-            "use fewer points, or use a machine with more memory"
-        )
+    require_free(need, what, "use fewer points", _refusal)
     if need > _WORTH_SAYING:
-        note(f"{what} needs about {_gigabytes(need)} of memory; {_gigabytes(free)} are free")
+        note(f"{what} needs about {gigabytes(need)} of memory; {gigabytes(free_memory())} are free")
 
 
-def _gigabytes(size: float) -> str:
-    return f"{size / 1e9:.3g} GB"
+def _refusal(problem: str, remedy: str) -> UsageError:
+    return UsageError(f"{problem}: {remedy}")

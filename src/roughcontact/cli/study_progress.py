@@ -13,7 +13,7 @@ import typer
 from roughcontact.cli.report import screen
 
 if TYPE_CHECKING:
-    from roughcontact.study.summary import Summary
+    from roughcontact.study.task import Summary
 
 __all__ = ["Pace", "duration", "progress"]
 

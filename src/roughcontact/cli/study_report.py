@@ -12,9 +12,9 @@ from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.study_progress import duration
 
 if TYPE_CHECKING:
-    from roughcontact.study.store import Row
+    from roughcontact.study.record import Row
     from roughcontact.study.study import Study
-    from roughcontact.study.summary import Summary
+    from roughcontact.study.task import Summary
 
 __all__ = ["tell"]
 

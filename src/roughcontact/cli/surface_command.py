@@ -149,7 +149,7 @@ def _grid(size: str, points: str, periodic: bool) -> Grid:
 
 def _channels(file: Path) -> list[dict[str, Any]]:
     """Return the channels of a file as plain records."""
-    from roughcontact.files.inspect import channels
+    from roughcontact.files.read import channels
 
     with as_typed(file):
         return [asdict(channel) for channel in channels(file)]

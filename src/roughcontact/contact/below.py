@@ -50,7 +50,7 @@ class StressPeak:
     position : tuple of float
         Middle of the cell above it, ``(y, x)`` [m].
     resolved : bool
-        Whether it lies at least two cells below the surface. Nearer to it, the grid speaks: the stress is that of
+        Whether it lies at least two cells below the surface. Nearer to it the stress is that of
         uniformly loaded cells, and a finer grid has another.
     """
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import plain_values
 
 if TYPE_CHECKING:
-    from roughcontact.contact.curve import Curve
+    import xarray
 
-__all__ = ["Comparison", "Law", "compared"]
+__all__ = ["Comparison", "Law", "with_theories"]
 
 Array = npt.NDArray[np.float64]
 
@@ -146,8 +146,8 @@ class Comparison:
         return {
             "theory": self.name,
             "source": self.source,
-            "predicted": {name: _plain(values) for name, values in self.predicted.items()},
-            "deviation": {name: _plain(np.array(self.deviation(name))) for name in self.predicted},
+            "predicted": {name: plain_values(values) for name, values in self.predicted.items()},
+            "deviation": {name: plain_values(self.deviation(name)) for name in self.predicted},
             "loads_compared": {name: int(self.common(name).sum()) for name in self.predicted},
         }
 
@@ -156,36 +156,17 @@ class Comparison:
         return f"Comparison({self.name}: rms ln ratio {self.words()})"
 
 
-def compared(curve: Curve, law: Law, quantities: Sequence[str] | None = None) -> Comparison:
-    """Return a theory's quantities at the loads of a curve beside the computed ones.
+def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:
+    """Return the dataset of a curve with what theories say as further columns along ``load``.
 
-    Raises
-    ------
-    ValueError
-        If the theory is none, or silent about a quantity that is named, the curve is that of a line contact, or has no
-        such quantity.
+    A column is named by the key of its comparison and the quantity: ``persson_contact_area``. Where a theory does not
+    hold it is NaN.
     """
-    if not hasattr(law, "quantities"):
-        raise ValueError(f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {law!r}")
-    if curve.geometry is Geometry.LINE:
-        raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
-    names = (
-        [name for name in law.quantities if hasattr(curve, name)] if quantities is None else list(quantities)
-    )
-    for name in names:
-        if not hasattr(curve, name):
-            raise ValueError(f"a curve has no {name!r}; {law.name} speaks of {sorted(law.quantities)}")
-    return Comparison(
-        law.name,
-        law.source,
-        curve.force,
-        curve.resolved,
-        {name: np.asarray(getattr(curve, name), dtype=np.float64) for name in names},
-        {name: law.predict(name, curve.force) for name in names},
-    )
-
-
-def _plain(values: Array) -> Any:
-    finite = values.astype(object)
-    finite[~np.isfinite(values)] = None
-    return finite.tolist()
+    columns = {}
+    for key, comparison in comparisons.items():
+        for quantity, values in comparison.predicted.items():
+            attributes = dict(dataset[quantity].attrs)
+            attributes["long_name"] = f"{attributes['long_name']}, by {comparison.name}"
+            attributes["references"] = comparison.source
+            columns[f"{key.replace('-', '_')}_{quantity}"] = (("load",), values, attributes)
+    return dataset.assign(columns)

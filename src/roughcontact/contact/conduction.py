@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
-from roughcontact.contact.dataset import check_conducting, stiffness_for
 from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import variable
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
 from roughcontact.validation import number
 
-__all__ = ["Conductors", "conductance"]
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Conductors", "conductance", "with_conductance"]
 
 Array = npt.NDArray[np.float64]
 
@@ -107,7 +111,7 @@ def conductance(
     '2.0 mOhm'
     """
     materials = Conductors(resistivities, conductivities)
-    stiffness = stiffness_for(of)
+    stiffness = _stiffness_for(of)
     if not isinstance(contact, Curve | Solution):
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
@@ -117,5 +121,52 @@ def conductance(
         elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
-    check_conducting(scales.geometry, scales.hardness < math.inf)
+    _require_conducting(scales.geometry, scales.hardness < math.inf)
     return materials.of(np.asarray(getattr(contact, stiffness), dtype=np.float64), scales.modulus)
+
+
+def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = "total") -> xarray.Dataset:
+    """Return the dataset of a curve with what it conducts as further columns along ``load``.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As `roughcontact.Curve.to_dataset` makes it, or as it was read from a file.
+    conductors : Conductors
+        The two bodies.
+    of : {"total", "interface"}
+        See `roughcontact.conductance`.
+
+    Raises
+    ------
+    ValueError
+        If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
+    """
+    stiffness = _stiffness_for(of)
+    missing = [name for name in ("force", stiffness, "modulus") if name not in dataset]
+    if missing or dataset[stiffness].dims != ("load",):
+        raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
+    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
+    found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
+    return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
+
+
+def _stiffness_for(of: str) -> str:
+    """Return the name of the stiffness that a conductance follows from."""
+    names = {"total": "stiffness", "interface": "interfacial_stiffness"}
+    if of not in names:
+        raise ValueError(f"of must be 'total' or 'interface', not {of!r}")
+    return names[of]
+
+
+def _require_conducting(geometry: Geometry, yielding: bool) -> None:
+    """Refuse a curve that does not say what its contact conducts: that of a line, or of a body that gives way."""
+    if geometry is Geometry.LINE:
+        raise ValueError(
+            "a line contact has no conductance of its own: it depends on how far away the bodies end"
+        )
+    if yielding:
+        raise ValueError(
+            "under a hardness the cells that give way conduct, but the stiffness of a curve leaves them out: take "
+            "the conductance of each solution of loading_path"
+        )

@@ -11,28 +11,34 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import on_host
-from roughcontact.contact.compare import Comparison, Law, compared
+from roughcontact.contact.compare import Comparison, Law
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness, is_resolved
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
-from roughcontact.solver.status import Status
-from roughcontact.statistics.power_law import PowerLaw, fit_power_law
+from roughcontact.solver.control import Status
+from roughcontact.statistics.fit_window import is_resolved
+from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import number
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Curve", "PowerLaw", "collect"]
+__all__ = ["POINTS", "SCALES", "Curve", "collect"]
 
 Array = npt.NDArray[np.float64]
 
-ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 SUGGESTED = (1e-4, 0.07)  # dimensionless forces from the first cells to the end of the power law
 SUGGESTED_ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
-FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
+
+# What a curve takes over from each state, and what it is measured by.
+POINTS = (
+    *("force", "depth", "stiffness", "interfacial_stiffness"),
+    *("contact_area", "mean_gap", "elastic_energy"),
+)
+SCALES = ("modulus", "rms", "full_contact_stiffness", "cell_stiffness", "nominal_area")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -192,9 +198,29 @@ class Curve:
         Raises
         ------
         ValueError
-            If this is the curve of a line contact, has no such quantity, or the theory does not predict it.
+            If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
+            is that of a line contact.
         """
-        return compared(self, theory, quantities)
+        if not hasattr(theory, "quantities"):
+            raise ValueError(
+                f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {theory!r}"
+            )
+        if self.geometry is Geometry.LINE:
+            raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
+        names = list(theory.quantities if quantities is None else quantities)
+        if quantities is None:
+            names = [name for name in names if hasattr(self, name)]
+        for name in names:
+            if not hasattr(self, name):
+                raise ValueError(f"a curve has no {name!r}; {theory.name} gives {sorted(theory.quantities)}")
+        return Comparison(
+            theory.name,
+            theory.source,
+            self.force,
+            self.resolved,
+            {name: np.asarray(getattr(self, name), dtype=np.float64) for name in names},
+            {name: theory.predict(name, self.force) for name in names},
+        )
 
     def _remedy(self) -> str:
         """Say what would give more resolved points."""
@@ -249,23 +275,16 @@ def collect(path: Iterable[Solution]) -> Curve:
     problem: ContactProblem | None = None
     for solution in path:
         problem = solution.problem
-        points.append(_point(solution))
+        numbers = (getattr(solution, name) for name in POINTS)
+        points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
         status.append(solution.status)
     if problem is None:
         raise ValueError("a curve needs at least one load")
-    columns = np.array(points).T
+    *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
-        force=columns[0],
-        depth=columns[1],
-        stiffness=columns[2],
-        interfacial_stiffness=columns[3],
-        contact_area=columns[4],
-        mean_gap=columns[5],
-        elastic_energy=columns[6],
-        spots=columns[7].astype(np.intp),
-        residual=columns[8],
-        stiffness_residual=columns[9],
+        **dict(zip((*POINTS, "residual", "stiffness_residual"), columns, strict=True)),
+        spots=spots.astype(np.intp),
         status=tuple(status),
         modulus=problem.modulus,
         lengths=problem.grid.lengths,
@@ -286,18 +305,3 @@ def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
     if geometry is Geometry.RING:
         return math.sqrt(math.pi) * lengths[0]
     return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]
-
-
-def _point(s: Solution) -> tuple[float, ...]:
-    return (
-        s.force,
-        s.depth,
-        s.stiffness,
-        s.interfacial_stiffness,
-        s.contact_area,
-        s.mean_gap,
-        s.elastic_energy,
-        s.spot_count,
-        s.residual,
-        s.frozen.residual,
-    )

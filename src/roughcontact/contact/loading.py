@@ -19,8 +19,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Control, Force
-from roughcontact.solver.state import Solver, Tangent
+from roughcontact.solver.control import Control, Force, Solver, Tangent
 from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
 from roughcontact.validation import number, numeric
 
@@ -47,11 +46,21 @@ def loading_path(
 
     Parameters
     ----------
-    surface, modulus, operator, solver, tolerance, hardness
-        As for `press`.
-    forces, depths, pressures : array
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    forces, depths, pressures : array, shape (n,)
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 30
         forces from the first cells to the end of the power law, see `suggested_forces`.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`.
+    solver : Solver, optional
+        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
+    tolerance : float
+        Largest residual of each load.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
 
     Yields
     ------
@@ -62,6 +71,14 @@ def loading_path(
     ------
     ValueError
         If the input makes no sense, at once and not at the first load.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> path = rc.loading_path(ball, 1e9, forces=[1e-3, 2e-3])
+    >>> [f"{solution.force:.0e} N" for solution in path]
+    ['1e-03 N', '2e-03 N']
     """
     if forces is None and depths is None and pressures is None:
         forces = suggested_forces(surface, modulus, operator=operator)
@@ -84,7 +101,44 @@ def loading_curve(
     tolerance: float = 1e-8,
     hardness: float | None = None,
 ) -> Curve:
-    """Return stiffness, contact area, depth and more as functions of load; see `loading_path`."""
+    """Return stiffness, contact area, depth and more as functions of load.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    forces, depths, pressures : array, shape (n,)
+        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 30
+        forces from the first cells to the end of the power law, see `suggested_forces`.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`.
+    solver : Solver, optional
+        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
+    tolerance : float
+        Largest residual of each load.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+
+    Returns
+    -------
+    Curve
+        One point for each load, marked where a load missed its tolerance; fields are not kept, see `loading_path`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=[1e-3, 4e-3])
+    >>> f"{curve.contact_area[1] / curve.contact_area[0]:.1f}"  # about 4^(2/3)
+    '2.5'
+    """
     path = loading_path(
         surface,
         modulus,
@@ -107,16 +161,41 @@ def suggested_forces(
     count: int = 30,
     operator: Operator | None = None,
 ) -> Array:
-    """Return forces [N] over the range in which a rough surface is worth looking at.
+    """Return forces over the range in which a rough surface is worth a curve.
 
     From 1e-4 to 0.07 of E* h L in equal ratios: from the first cells in contact to where the thesis ends its
-    fits of the power law (section 4.5). On a line contact, of which the `operator` tells, from 0.03
-    to 3 of E* h.
+    fits of the power law (section 4.5). On a line contact from 0.03 to 3 of E* h.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    count : int
+        Number of forces.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid; it says whether the contact is that of a line.
+
+    Returns
+    -------
+    array, shape (count,)
+        Forces [N], on a line per unit length [N/m], increasing.
 
     Raises
     ------
     ValueError
-        If the surface is flat, so that its rms height h gives no scale.
+        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((32, 32), 1e-6)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> forces = rc.suggested_forces(surface, 1e9, count=3)
+    >>> (forces / (1e9 * 1e-7 * 32e-6)).round(6).tolist()
+    [0.0001, 0.002646, 0.07]
     """
     grid = grid_of(surface)
     if not surface.rms > 0:

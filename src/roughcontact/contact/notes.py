@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughcontact.arrays import namespace
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
+from roughcontact.statistics.fit_window import CELLS
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -42,7 +42,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     elif in_contact and not solution.above_cells:
         line = problem.geometry is Geometry.LINE
         small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
-        notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
+        notes.append(f"Not resolved: the contact is {small}, so that the grid decides its numbers.")
     touching = int(count(solution.touching))
     if in_contact and touching:
         notes.extend(_of_two_sides(solution, touching))

@@ -12,8 +12,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.solver.control import Control, Depth, Force
-from roughcontact.solver.state import Solver
+from roughcontact.solver.control import Control, Depth, Force, Solver
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import scalar
@@ -42,8 +41,8 @@ def press(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     force, depth, pressure : float
-        Exactly one: normal force [N], approach since first touch [m], or nominal pressure [Pa] (force over
-        the area of all cells). On a line, forces are per unit length [N/m].
+        Exactly one: normal force [N], indentation depth, the approach since first touch [m], or nominal pressure [Pa]
+        (force over the area of all cells). On a line, forces are per unit length [N/m].
     operator : Operator, optional
         Another body than the half-space on the surface's grid. A surface of one axis needs one: `line`, or the
         `foundation` of the method of dimensionality reduction.
@@ -52,11 +51,12 @@ def press(
     tolerance : float
         Largest residual; see docs/conventions.md.
     hardness : float, optional
-        Pressure that no cell exceeds [Pa]: there the softer body gives way.
+        Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body.
 
     Returns
     -------
     Solution
+        Pressure, depth and certificate; area, stiffness and more follow from it.
 
     Raises
     ------
@@ -64,6 +64,16 @@ def press(
         If the input makes no sense; the message names the value and the remedy.
     ConvergenceError
         If the tolerance was missed. It carries the solution.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> f"{solution.depth * 1e9:.0f} nm, Hertz: {(0.75 * 1e-3 / 1e9) ** (2 / 3) / 1e-4 ** (1 / 3) * 1e9:.0f} nm"
+    '177 nm, Hertz: 178 nm'
+    >>> solution.status.value
+    'converged'
     """
     control = control_of(grid_of(surface), force=force, depth=depth, pressure=pressure)
     solution = solve(
@@ -76,7 +86,7 @@ def press(
 
 
 def grid_of(surface: Body) -> AnyGrid:
-    """Return the grid of a surface, or say that it is none."""
+    """Return the grid of a surface; refuse what is not a surface."""
     if not isinstance(surface, Surface | RadialProfile):
         raise ValueError(f"a Surface is wanted (heights and a grid), not {type(surface).__name__}")
     return surface.grid

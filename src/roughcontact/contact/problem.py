@@ -63,6 +63,21 @@ class ContactProblem:
         Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
     hardness : float
         Pressure that no cell exceeds [Pa]: there the body gives way, and the flat may stand below its surface.
+
+    Raises
+    ------
+    ValueError
+        If the separation does not fit the operator's grid, the tolerance or hardness is out of range, or the control
+        cannot be met.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((32, 32), 1e-6)
+    >>> gap = -rc.shapes.paraboloid(grid, radius=1e-4).heights
+    >>> problem = rc.ContactProblem(gap - gap.min(), rc.half_space(grid, 1e9), rc.Force(1e-3))
+    >>> problem.missing, problem.geometry.value
+    (0, 'surface')
     """
 
     separation: Array
@@ -123,7 +138,7 @@ class ContactProblem:
 
     @property
     def geometry(self) -> Geometry:
-        """What the cells are: the units of the answers hang on it."""
+        """What the cells are: the units of the answers depend on it."""
         return geometry_of(self.operator)
 
     @property
@@ -136,7 +151,23 @@ class ContactProblem:
         return Measure(self.operator.weights)
 
     def under(self, control: Control) -> ContactProblem:
-        """Return the same bodies under another control."""
+        """Return the same bodies under another control.
+
+        Parameters
+        ----------
+        control : Force or Depth
+            What is prescribed instead.
+
+        Returns
+        -------
+        ContactProblem
+            It shares what has been computed of the bodies.
+
+        Raises
+        ------
+        ValueError
+            If the control cannot be met.
+        """
         other = replace(self, control=control)
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
         return other
@@ -162,7 +193,20 @@ class ContactProblem:
         return self.once("mean_separation", lambda: self._measure.mean(self.separation, self.measured))
 
     def once(self, name: str, compute: Callable[[], T]) -> T:
-        """Return what depends on the bodies alone, computed once for all loads on them."""
+        """Return what depends on the bodies alone, computed once for all loads on them.
+
+        Parameters
+        ----------
+        name : str
+            What the value is kept under.
+        compute : function
+            Without arguments; called if nothing is kept under the name.
+
+        Returns
+        -------
+        object
+            What `compute` returned first.
+        """
         if name not in self._memo:
             self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
         value: T = self._memo[name]

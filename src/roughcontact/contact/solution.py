@@ -15,21 +15,20 @@ from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
 from roughcontact.contact.stiffness import (
-    CELLS,
     FrozenContact,
     cell_stiffness,
     elastic_contact,
     frozen_contact,
     full_contact_stiffness,
-    is_resolved,
 )
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
+from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS
-from roughcontact.solver.status import Status
+from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import numeric
@@ -200,7 +199,13 @@ class Solution:
         return count_spots(self.contact, self.problem.grid)
 
     def on_host(self) -> Solution:
-        """Return the same solution in NumPy's memory, for spots, files and pictures."""
+        """Return the same solution in NumPy's memory, for spots, files and pictures.
+
+        Returns
+        -------
+        Solution
+            The same object if it is there already.
+        """
         if is_numpy(self.pressure):
             return self
         problem = self.problem
@@ -242,7 +247,7 @@ class Solution:
 
     @property
     def above_cells(self) -> bool:
-        """Whether the contact is so large that the surface speaks, and not the grid."""
+        """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell
 
@@ -263,25 +268,74 @@ class Solution:
 
     @numeric
     def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
-        """Return the probability density [1/Pa] of the pressure over the contact area, and the bin edges [Pa].
+        """Return the distribution of the pressure over the contact area.
 
-        Cells count by their area. On springs [m/N] and [N/m].
+        Cells count by their area.
+
+        Parameters
+        ----------
+        bins : int
+            Number of bins of equal width from zero to the largest value.
+
+        Returns
+        -------
+        density : array, shape (bins,)
+            Probability density [1/Pa]; on springs [m/N].
+        edges : array, shape (bins + 1,)
+            Edges of the bins [Pa]; on springs [N/m].
+
+        Raises
+        ------
+        ValueError
+            If there is not a bin.
         """
         return _density(*self._of_cells(self.pressure, self.contact), bins)
 
     @numeric
     def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
-        """Return the probability density [1/m] of the gap over the cells not in contact, and the edges [m]."""
+        """Return the distribution of the gap over the cells that are not in contact.
+
+        Cells count by their area.
+
+        Parameters
+        ----------
+        bins : int
+            Number of bins of equal width from zero to the largest value.
+
+        Returns
+        -------
+        density : array, shape (bins,)
+            Probability density [1/m].
+        edges : array, shape (bins + 1,)
+            Edges of the bins [m].
+
+        Raises
+        ------
+        ValueError
+            If there is not a bin.
+        """
         return _density(*self._of_cells(self.gap, ~self.contact & self.problem.measured), bins)
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names."""
+        """Return fields and numbers as an `xarray.Dataset` with units and long names.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
         from roughcontact.contact.dataset import solution_dataset
 
         return solution_dataset(self.on_host())
 
     def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON."""
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+        """
         from roughcontact.contact.dataset import solution_record
 
         return solution_record(self.on_host())

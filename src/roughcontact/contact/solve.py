@@ -9,10 +9,8 @@ from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Depth
+from roughcontact.solver.control import Depth, Solver, State, Status
 from roughcontact.solver.nested_iteration import nested_start
-from roughcontact.solver.state import Solver, State
-from roughcontact.solver.status import Status
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.threads import one_blas_thread
 

@@ -14,29 +14,23 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
-from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
-from roughcontact.solver.state import Tangent
 from roughcontact.validation import numeric
 
 __all__ = [
-    "CELLS",
-    "FULL_CONTACT_SHARE",
     "FrozenContact",
     "cell_stiffness",
     "contact_stiffness",
     "elastic_contact",
     "frozen_contact",
     "full_contact_stiffness",
-    "is_resolved",
 ]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the grid speaks, not the surface
-FULL_CONTACT_SHARE = 0.9  # above this part of the full-contact stiffness the finite size speaks (eq. 4.14)
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -116,9 +110,19 @@ def contact_stiffness(
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers, or if the tolerance is none.
+        If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
+        range.
     RuntimeError
         If the tolerance was not reached.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> disc = ~np.isnan(rc.shapes.flat_disc(grid, radius=20e-6).heights)
+    >>> f"{rc.contact_stiffness(disc, grid, 1e9) / (2 * 1e9 * 20e-6):.1f} of 2 E* a"
+    '1.0 of 2 E* a'
     """
     region, tolerance = checked_region(mask, grid.shape), checked_tolerance(tolerance)
     body = body_on(grid, modulus, operator)
@@ -128,11 +132,6 @@ def contact_stiffness(
             f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
         )
     return frozen.stiffness
-
-
-def is_resolved(size: Array, cell: float, whole: float) -> Mask:
-    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
-    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
 
 
 def cell_stiffness(operator: Operator) -> float:

@@ -124,7 +124,7 @@ def _waves(surface: Surface) -> Waves:
 
 
 def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[LoadingLaw]:
-    """Return laws that speak of the stiffness against the approach, those of them that speak of any."""
+    """Return laws that give the stiffness against the approach, where they give any."""
     of_interface = [
         "stiffness" not in law.quantities and "interfacial_stiffness" in law.quantities for law in found
     ]

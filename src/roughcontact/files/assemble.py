@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.file_memory import BYTES_TO_LOOK, require_memory
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
@@ -36,7 +36,7 @@ def assemble(
     size: Size | None,
     periodic: bool | tuple[bool, ...] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
-    """Return the surface of `found` and the doubts to speak aloud; the user's word goes before the file's."""
+    """Return the surface of `found` and the doubts to warn of; what the user states overrides the file."""
     _require(found, file, unit, size)
     require_memory(BYTES_TO_LOOK * found.heights.size, file)
     factor, unit_note = _factor(found, unit)
@@ -101,7 +101,7 @@ def _size_hint(found: HeightMap) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Remark:
-    """What the user states; spoken aloud where it contradicts the file."""
+    """What the user states; a warning where it contradicts the file."""
 
     text: str
     contradicts: bool

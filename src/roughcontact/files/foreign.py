@@ -15,13 +15,20 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from roughcontact.files.channels import Channel, describe, names_a_height, names_something_else, pick
+from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.file_memory import BYTES_PER_POINT, require_memory
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
-from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.heightmap import (
+    Array,
+    Channel,
+    HeightMap,
+    as_heights,
+    describe,
+    names_a_height,
+    names_something_else,
+    pick,
+)
 from roughcontact.files.length_units import is_length, length_factor
-from roughcontact.files.limited_stream import BoundedStream
 
 __all__ = ["list_foreign", "read_foreign"]
 
@@ -136,7 +143,7 @@ def _accept(format_name: str, file: str) -> None:
 
 
 def _channels(reader: Any, file: str) -> tuple[Channel, ...]:
-    """Return the channels with units that are checked; heights are told by name and unit."""
+    """Return the channels with units that are checked; heights are known by name and unit."""
     found: list[Channel] = []
     seen: Counter[str] = Counter()
     for info in reader.channels:
@@ -192,7 +199,7 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) ->
     if not any(map(_is_map, channels)):
         raise ReadError(
             file,
-            f"it holds no map but {describe(channels)}: a line scan cannot be pressed as a surface",
+            f"it holds no map but {describe(channels)}: a profile cannot be pressed as a surface",
             "give a two-dimensional map of heights",
         )
     heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
@@ -214,7 +221,7 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) ->
 
 
 def _doubts(channel: Channel) -> tuple[str, ...]:
-    """Return a doubt about a map that the user chose and that speaks of something else than heights."""
+    """Return a doubt about a map that the user chose and whose name or unit is not that of heights."""
     other_unit = channel.unit is not None and not is_length(channel.unit)
     if not _is_map(channel) or not (other_unit or names_something_else(channel.name)):
         return ()
@@ -248,7 +255,7 @@ def _heights(reader: Any, index: int) -> Array:
 def _map(reader: Any, index: int, channel: Channel, file: str) -> HeightMap:
     if len(channel.shape) != 2:
         raise ReadError(
-            file, f"channel {channel.name!r} is a line scan", "give a two-dimensional map of heights"
+            file, f"channel {channel.name!r} is a profile", "give a two-dimensional map of heights"
         )
     require_memory(BYTES_PER_POINT * math.prod(channel.shape), file)
     info = reader.channels[index]

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.file_memory import BYTES_PER_POINT, require_memory
 
 if TYPE_CHECKING:
     import h5py

@@ -1,7 +1,9 @@
-"""What a file says about a surface, before the user's keywords are applied."""
+"""What a file holds and what it says about a surface, before the user's keywords are applied."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +12,45 @@ import numpy.typing as npt
 
 from roughcontact.files.file_errors import ReadError
 
-__all__ = ["Array", "HeightMap", "as_heights", "require_line", "require_map"]
+__all__ = [
+    *("Array", "Channel", "HeightMap", "as_heights", "describe", "names_a_height", "names_something_else"),
+    *("pick", "require_line", "require_map"),
+]
 
 Array = npt.NDArray[np.float64]
+
+_MAP = "give a two-dimensional map of heights, rows by columns"
+_HEIGHT = re.compile(r"height|topograph|z.?axis|z.?sensor", re.IGNORECASE)
+_OTHER = re.compile(
+    r"phase|amplitude|deflection|friction|lateral|current|error|voltage|potential|adhesion|stiffness|modulus|force"
+    r"|dissipation|intensity|reflect|colou?r|mask",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """One channel of a file.
+
+    Parameters
+    ----------
+    name : str
+        Its name; the second of two equal names carries ``#2``.
+    shape : tuple of int
+        Number of points (ny, nx); one number for a profile.
+    unit : str or float, optional
+        Unit of its values, or metres per unit.
+    size : tuple of float, optional
+        Size (Ly, Lx) [m]; one length for a profile.
+    is_height : bool
+        Whether it can be read as heights.
+    """
+
+    name: str
+    shape: tuple[int, ...]
+    unit: str | float | None
+    size: tuple[float, ...] | None
+    is_height: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,7 +60,7 @@ class HeightMap:
     Parameters
     ----------
     heights : array, shape (ny, nx) or (n,)
-        Heights of a map or of a line scan in `unit`; the first row is the top of the picture; NaN where nothing
+        Heights of a map or of a profile in `unit`; the first row is the top of the picture; NaN where nothing
         was measured.
     format : str
         Name of the format, for the provenance.
@@ -39,7 +77,7 @@ class HeightMap:
     history : tuple of str
         The provenance that the file itself carries.
     notes, doubts : tuple of str
-        Lines for the provenance; doubts are spoken aloud as well.
+        Lines for the provenance; doubts are warned of as well.
     """
 
     heights: Array
@@ -52,6 +90,13 @@ class HeightMap:
     history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
+
+    def as_channel(self) -> Channel:
+        """Describe the heights as the only channel of a file."""
+        shape, size = self.heights.shape, None
+        if self.spacing is not None:
+            size = tuple(step * n for step, n in zip(self.spacing, shape, strict=True))
+        return Channel(self.channel or "heights", shape, self.unit, size, is_height=len(shape) == 2)
 
 
 def as_heights(values: npt.NDArray[Any], file: str) -> Array:
@@ -70,12 +115,12 @@ def require_map(found: HeightMap, file: str) -> None:
     """Refuse what is no map of at least 2 x 2 heights."""
     shape = found.heights.shape
     if len(shape) == 1:
-        raise ReadError(file, f"it is a line scan of {shape[0]} heights", f"{_MAP}, or use read_line")
+        raise ReadError(file, f"it is a profile of {shape[0]} heights", f"{_MAP}, or use read_line")
     if min(shape) < 2:
         points = " x ".join(map(str, shape))
         raise ReadError(
             file,
-            f"it holds {points} heights, a line scan at most",
+            f"it holds {points} heights, a profile at most",
             "give a two-dimensional map of at least 2 x 2 heights, or use read_line",
         )
 
@@ -85,9 +130,58 @@ def require_line(found: HeightMap, file: str) -> None:
     shape = found.heights.shape
     if len(shape) != 1:
         points = " x ".join(map(str, shape))
-        raise ReadError(file, f"it is a map of {points} heights, no line scan", "use read")
+        raise ReadError(file, f"it is a map of {points} heights, no profile", "use read")
     if shape[0] < 2:
-        raise ReadError(file, f"it holds {shape[0]} heights", "give a line scan of at least 2 heights")
+        raise ReadError(file, f"it holds {shape[0]} heights", "give a profile of at least 2 heights")
 
 
-_MAP = "give a two-dimensional map of heights, rows by columns"
+def names_a_height(name: str) -> bool:
+    """Whether the name of a channel is that of heights."""
+    return _HEIGHT.search(name) is not None and not names_something_else(name)
+
+
+def names_something_else(name: str) -> bool:
+    """Whether the name of a channel is that of another quantity."""
+    return _OTHER.search(name) is not None
+
+
+def describe(channels: Sequence[Channel]) -> str:
+    """Return the channels in one line, with their sizes and units, for a message."""
+    parts = []
+    for channel in channels:
+        points = " x ".join(map(str, channel.shape)) or "one number"
+        unit = "no unit" if channel.unit is None else channel.unit
+        parts.append(f"{channel.name!r} ({points}, {unit})")
+    return ", ".join(parts)
+
+
+def pick(channels: Sequence[Channel], wanted: str | int | None, file: str) -> int:
+    """Return the position of the `wanted` channel (a name or a position), or of the only height.
+
+    Raises
+    ------
+    ReadError
+        If no channel fits, or if several do and none is wanted.
+    """
+    if wanted is None:
+        heights = [k for k, channel in enumerate(channels) if channel.is_height]
+        if len(heights) == 1:
+            return heights[0]
+        problem = "several channels may be heights" if heights else "no channel is a map of heights"
+        remedy = (
+            "pass channel= with the name of one of them" if heights else "give a file with a map of heights"
+        )
+        raise ReadError(file, f"{problem}: {describe(channels)}", remedy)
+    if isinstance(wanted, int):
+        if 0 <= wanted < len(channels):
+            return wanted
+    else:
+        for same in (str.__str__, str.casefold):
+            for k, channel in enumerate(channels):
+                if same(channel.name) == same(wanted):
+                    return k
+    raise ReadError(
+        file,
+        f"it has no channel {wanted!r}, only {describe(channels)}",
+        "pass channel= with one of these names",
+    )

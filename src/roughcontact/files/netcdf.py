@@ -12,13 +12,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.channels import Channel, names_a_height, names_something_else, pick
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5, require_memory_for
-from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.heightmap import (
+    Channel,
+    HeightMap,
+    as_heights,
+    names_a_height,
+    names_something_else,
+    pick,
+)
 from roughcontact.files.length_units import is_length, length_factor
 
-__all__ = ["Variable", "list_netcdf", "opened", "read_netcdf"]
+__all__ = ["StoredVariable", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
 # Coordinates and lengths are often computed in single precision.
@@ -26,7 +32,7 @@ _EVEN = 1e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Variable:
+class StoredVariable:
     """One variable of an open file: what is said about it, and how to load it."""
 
     dimensions: tuple[str, ...]
@@ -60,7 +66,7 @@ class Variable:
 
 
 def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
-    """Return one variable of two dimensions, or of one for a line scan.
+    """Return one variable of two dimensions, or of one for a profile.
 
     It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
     rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
@@ -90,13 +96,13 @@ def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
 
 
 def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
-    """Return the variables that can be maps or line scans."""
+    """Return the variables that can be maps or profiles."""
     with opened(data, file) as (variables, _):
         return _channels(variables)
 
 
 @contextmanager
-def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mapping[str, Any]]]:
+def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str, Any]]]:
     """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
     try:
         if data.startswith(b"CDF"):
@@ -117,16 +123,16 @@ def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, Variable], Mappin
         raise ReadError(file, f"it is damaged ({reason})", _AGAIN) from error
 
 
-def _classic(file: Any) -> dict[str, Variable]:
+def _classic(file: Any) -> dict[str, StoredVariable]:
     return {
-        name: Variable(
+        name: StoredVariable(
             tuple(v.dimensions), tuple(v.shape), v.data.dtype, dict(v._attributes), partial(_values, v)
         )
         for name, v in file.variables.items()
     }
 
 
-def _modern(opened: Any, file: str) -> dict[str, Variable]:
+def _modern(opened: Any, file: str) -> dict[str, StoredVariable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
     for name, values in opened.items():
@@ -138,7 +144,7 @@ def _modern(opened: Any, file: str) -> dict[str, Variable]:
             axes = [name]
         attributes = {key: value for key, value in values.attrs.items() if not key.isupper()}
         load = partial(_stored, values, file)
-        found[name] = Variable(tuple(axes), values.shape, values.dtype, attributes, load)
+        found[name] = StoredVariable(tuple(axes), values.shape, values.dtype, attributes, load)
     return found
 
 
@@ -151,8 +157,8 @@ def _values(variable: Any) -> npt.NDArray[Any]:
     return np.array(variable[...])
 
 
-def _channels(variables: Mapping[str, Variable]) -> tuple[Channel, ...]:
-    """Return what can be pressed: maps, and the line scan named ``heights``."""
+def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
+    """Return what can be pressed: maps, and the profile named ``heights``."""
     maps = {
         name: v
         for name, v in variables.items()
@@ -170,7 +176,7 @@ def _channels(variables: Mapping[str, Variable]) -> tuple[Channel, ...]:
     )
 
 
-def _checked(variable: Variable, name: str, file: str) -> npt.NDArray[np.float64]:
+def _checked(variable: StoredVariable, name: str, file: str) -> npt.NDArray[np.float64]:
     values = variable.numbers()
     if values.shape != variable.shape:
         raise ReadError(
@@ -180,7 +186,7 @@ def _checked(variable: Variable, name: str, file: str) -> npt.NDArray[np.float64
 
 
 def _spacing(
-    variables: Mapping[str, Variable],
+    variables: Mapping[str, StoredVariable],
     axes: tuple[str, ...],
     shape: tuple[int, ...],
     unit: str | None,
@@ -199,7 +205,7 @@ def _spacing(
     return known if len(known) == len(steps) else None
 
 
-def _step(coordinate: Variable, axis: str, count: int, unit: str | None, file: str) -> float | None:
+def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None, file: str) -> float | None:
     """Return the step [m] of a coordinate from its length or its values, which must not contradict each other."""
     unit = coordinate.word("unit", "units") or unit
     if not is_length(unit) or coordinate.shape != (count,) or count < 2:
@@ -225,7 +231,7 @@ def _step(coordinate: Variable, axis: str, count: int, unit: str | None, file: s
     return abs(float(step)) * length_factor(unit or "")
 
 
-def _periodic(variables: Mapping[str, Variable], axes: tuple[str, ...]) -> tuple[bool, ...]:
+def _periodic(variables: Mapping[str, StoredVariable], axes: tuple[str, ...]) -> tuple[bool, ...]:
     own = variables.get("periodic")
     if own is not None and own.shape == (len(axes),) and own.dtype.kind in "biu":
         return tuple(bool(value) for value in own.load())

@@ -1,24 +1,89 @@
-"""Heights saved by NumPy: ``.npy`` and ``.npz``."""
+"""Heights saved by NumPy, ``.npy`` and ``.npz``: headers are checked before anything is allocated."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from io import BytesIO
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.archive import unzip
-from roughcontact.files.channels import Channel, pick
+from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.heightmap import HeightMap, as_heights
-from roughcontact.files.npy import read_npy_header
+from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
+from roughcontact.surface.surface import Surface
 
-__all__ = ["list_npz", "read_npy", "read_npz"]
+__all__ = ["list_npz", "npy_bytes", "npz_bytes", "read_npy", "read_npy_header", "read_npz"]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
 _MEANINGS = ("spacing", "size", "unit", "periodic", "history")
+_MAGIC = b"\x93NUMPY"
+_LONGEST = 10_000  # bytes of a header, as in NumPy
+# NumPy evaluates the header as Python; numbers need no more than these, and nothing that can warn. Python 2 wrote 3L.
+_DESCR = re.compile(r"""['"]descr['"]\s*:\s*['"]([<>|=]?[biufcSUVmM?]\d*(?:\[\w+\])?)['"]""")
+_ORDER = re.compile(r"""['"]fortran_order['"]\s*:\s*(True|False)""")
+_SHAPE = re.compile(r"""['"]shape['"]\s*:\s*\(((?:\d{1,18}L?\s*,\s*)*(?:\d{1,18}L?\s*)?)\)""")
+
+
+@dataclass(frozen=True, slots=True)
+class NpyHeader:
+    """Type and shape of an array, and where in the file its values begin."""
+
+    dtype: np.dtype[Any]
+    shape: tuple[int, ...]
+    fortran: bool
+    offset: int
+
+    @property
+    def points(self) -> int:
+        """Number of values."""
+        return math.prod(self.shape)
+
+    @property
+    def size(self) -> int:
+        """Size of header and values [bytes]."""
+        return self.offset + self.points * self.dtype.itemsize
+
+    def array(self, data: bytes) -> npt.NDArray[Any]:
+        """Return the values in `data`, the whole file, as they lie there."""
+        values: npt.NDArray[Any] = np.ndarray(
+            self.shape, self.dtype, data, self.offset, order="F" if self.fortran else "C"
+        )
+        return values
+
+
+def read_npy_header(stream: IO[bytes]) -> NpyHeader:
+    """Return the header at the beginning of `stream`.
+
+    Raises
+    ------
+    ValueError
+        If it is damaged, or of an array of objects or named fields.
+    """
+    start = stream.read(12)
+    version = start[6:8]
+    if not start.startswith(_MAGIC) or version not in (b"\1\0", b"\2\0", b"\3\0"):
+        raise ValueError("it does not begin as one")
+    wide = version != b"\1\0"
+    length = int.from_bytes(start[8:12] if wide else start[8:10], "little")
+    offset = length + (12 if wide else 10)
+    if length > _LONGEST:
+        raise ValueError(f"a header of {length} bytes")
+    text = (start + stream.read(offset - len(start)))[:offset].decode("latin-1")
+    found = [pattern.search(text) for pattern in (_DESCR, _ORDER, _SHAPE)]
+    if len(text) < offset or None in found:
+        raise ValueError("its header is damaged, or of values of no plain type")
+    descr, order, shape = (match[1] for match in found if match is not None)
+    counts = tuple(int(n.strip().rstrip("L")) for n in shape.split(",") if n.strip())
+    try:
+        dtype = np.dtype(descr)
+    except TypeError as error:
+        raise ValueError(f"values of type {descr}") from error
+    return NpyHeader(dtype, counts, order == "True", offset)
 
 
 def read_npy(data: bytes, file: str) -> HeightMap:
@@ -149,3 +214,24 @@ def _spacing(
             counts = (shape[-1],) * len(shape) if value.size == 1 else shape
             return tuple(length / n for length, n in zip(given, counts, strict=True))
     return None
+
+
+def npy_bytes(surface: Surface) -> bytes:
+    """Return the heights of a surface as a ``.npy`` file."""
+    stream = BytesIO()
+    np.save(stream, surface.heights)
+    return stream.getvalue()
+
+
+def npz_bytes(surface: Surface) -> bytes:
+    """Return a surface with all that it knows as a ``.npz`` file."""
+    stream = BytesIO()
+    np.savez_compressed(
+        stream,
+        heights=surface.heights,
+        spacing=np.array(surface.grid.spacing),
+        unit=np.array("m"),
+        periodic=np.array(surface.grid.periodic),
+        history=np.array(surface.provenance, dtype=np.str_),
+    )
+    return stream.getvalue()

@@ -1,4 +1,4 @@
-"""A line scan in a text: heights, or places and heights, under any number of lines of words."""
+"""A profile in a text: heights, or places and heights, under any number of lines of words."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _REMEDY = "give one column of heights, or two: places along the line and heights
 
 
 def read_profile(data: bytes, file: str) -> HeightMap:
-    """Return the heights of a line scan.
+    """Return the heights of a profile.
 
     Lines of words come first; their last one may name the units of two columns, in brackets or as last words
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
@@ -36,7 +36,7 @@ def read_profile(data: bytes, file: str) -> HeightMap:
     values = np.array([[float(field) for field in row] for row in rows])
     if values.shape[1] == 1:
         unit = _header_units(words, 1)[0]
-        return HeightMap(as_heights(values[:, 0], file), "text line scan", unit=unit, doubts=doubts)
+        return HeightMap(as_heights(values[:, 0], file), "text profile", unit=unit, doubts=doubts)
     step, note = _step(values[:, 0], [row[0] for row in rows], file)
     lateral, unit = _header_units(words, 2)
     factor = length_factor(lateral) if lateral is not None else None
@@ -44,7 +44,7 @@ def read_profile(data: bytes, file: str) -> HeightMap:
         doubts += _announced(words, step * factor * (len(values) - 1))
     return HeightMap(
         as_heights(values[:, 1], file),
-        "text line scan",
+        "text profile",
         unit=unit,
         spacing=None if factor is None else (step * factor,),
         steps=(step,) if factor is None else None,

@@ -1,4 +1,4 @@
-"""Read a measured surface, or a line scan, from a file."""
+"""Read a measured surface, or a profile, from a file."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterable
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
 from roughcontact.files.content import content
-from roughcontact.files.dispatch import either, height_map, line_scan
+from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.heightmap import HeightMap
+from roughcontact.files.heightmap import Channel, HeightMap
 from roughcontact.files.length_units import length_factor
 from roughcontact.surface.surface import Surface
 
-__all__ = ["read", "read_either", "read_line"]
+__all__ = ["channels", "read", "read_either", "read_line"]
 
 
 def read(
@@ -130,7 +130,7 @@ def read_line(
     >>> rc.read_line("wave.npz").grid.lengths == wave.grid.lengths
     True
     """
-    return _read(path, line_scan, 1, channel, unit, size, periodic)
+    return _read(path, profile_of, 1, channel, unit, size, periodic)
 
 
 def read_either(
@@ -141,12 +141,24 @@ def read_either(
     size: Size | None = None,
     periodic: bool | None = None,
 ) -> Surface:
-    """Return the map of heights in a file, or the line scan where it holds one instead.
+    """Return the map of heights in a file, or the profile where it holds one instead.
 
     For what serves both alike. The arguments, errors and warnings are those of `read` and `read_line`; a file that
     may be either, such as a text of two columns under a header of a map, counts as a map.
     """
     return _read(path, either, None, channel, unit, size, periodic)
+
+
+def channels(path: str | os.PathLike[str]) -> tuple[Channel, ...]:
+    """Return the channels of a file in its order: name, shape, unit, size [m], and whether they are heights.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    """
+    file, data = content(path)
+    return channels_of(data, file)
 
 
 def _read(

@@ -11,20 +11,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import Curve
+from roughcontact.contact.curve import POINTS, SCALES, Curve
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.netcdf import Variable, opened
+from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 
 __all__ = ["read_curve"]
 
-_POINTS = (
-    *("force", "depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy"),
-    *("residual", "stiffness_residual"),
-)
-_SCALES = ("modulus", "rms", "cell_stiffness", "full_contact_stiffness", "nominal_area")
+_ARRAYS = (*POINTS, "residual", "stiffness_residual")
 _SIZES = ("lengths", "spacing", "periodic")
 _REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
 
@@ -61,7 +57,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
     if Path(path).suffix.casefold() != ".nc":
         raise ReadError(file, "loading curves are read from NetCDF files (.nc) only", _REMEDY)
     with opened(data, file) as (variables, attributes):
-        missing = [name for name in (*_POINTS, *_SCALES, *_SIZES, "spots", "status") if name not in variables]
+        missing = [name for name in (*_ARRAYS, *SCALES, *_SIZES, "spots", "status") if name not in variables]
         if missing or variables["force"].dimensions != ("load",):
             raise ReadError(file, f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
         kind = _word(attributes.get("geometry", ""))
@@ -69,8 +65,8 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
             raise ReadError(file, f"its geometry is {kind!r}", _REMEDY)
         geometry = Geometry(kind)
         shape, axes = variables["force"].shape, (len(geometry.axes),)
-        values: dict[str, Any] = {name: _numbers(variables, name, shape, file) for name in _POINTS}
-        values |= {name: float(_numbers(variables, name, (), file)) for name in _SCALES}
+        values: dict[str, Any] = {name: _numbers(variables, name, shape, file) for name in _ARRAYS}
+        values |= {name: float(_numbers(variables, name, (), file)) for name in SCALES}
         sizes = {name: _numbers(variables, name, axes, file).tolist() for name in _SIZES}
         hardness = float(_numbers(variables, "hardness", (), file)) if "hardness" in variables else math.inf
         return Curve(
@@ -86,7 +82,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
 
 
 def _numbers(
-    variables: Mapping[str, Variable], name: str, shape: tuple[int, ...], file: str
+    variables: Mapping[str, StoredVariable], name: str, shape: tuple[int, ...], file: str
 ) -> npt.NDArray[np.float64]:
     variable = variables[name]
     if variable.shape != shape or variable.dtype.kind not in "biuf":
@@ -99,7 +95,7 @@ def _numbers(
     return np.asarray(variable.load(), dtype=np.float64)
 
 
-def _statuses(variable: Variable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
+def _statuses(variable: StoredVariable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
     words = [_word(value) for value in variable.load().reshape(-1).tolist()]
     known = {status.value: status for status in Status}
     unknown = [word for word in words if word not in known]

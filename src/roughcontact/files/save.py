@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import struct
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import numpy.typing as npt
@@ -14,12 +17,16 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
-from roughcontact.files.vti import vti_bytes
-from roughcontact.files.write import write_csv, write_netcdf
-from roughcontact.files.write_text import text_of
-from roughcontact.files.write_x3p import x3p_bytes
+from roughcontact.files.numpy_files import npy_bytes, npz_bytes
+from roughcontact.files.provenance import provenance
+from roughcontact.files.text import text_bytes
+from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf
+from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
+from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
 from roughcontact.surface.surface import Surface
 
 __all__ = ["require_surface_file", "write"]
@@ -66,20 +73,19 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    if isinstance(what, Surface):
-        require_surface_file(path)
-        with written_aside(path) as aside:
-            _OF_A_SURFACE[_kind(path)](what, aside)
-    elif isinstance(what, Solution | TangentialSolution):
-        hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
-        _require_kind(path, type(what).__name__, _OF_A_SOLUTION, hint)
-        with written_aside(path) as aside:
-            _OF_A_SOLUTION[_kind(path)](what, aside)
-    elif isinstance(what, Curve | SlipCurve):
-        _require_kind(path, type(what).__name__, _OF_A_CURVE)
-        _OF_A_CURVE[_kind(path)](what.to_dataset(), path)
-    else:
+    if isinstance(what, Curve | SlipCurve):
+        kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
+        _OF_A_CURVE[kind](what.to_dataset(), path)
+        return
+    if not isinstance(what, Surface | Solution | TangentialSolution):
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
+    formats: Mapping[str, Callable[[Any], bytes]] = (
+        _OF_A_SURFACE if isinstance(what, Surface) else _OF_A_SOLUTION
+    )
+    hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
+    kind = _require_kind(path, type(what).__name__, formats, hint)
+    with written_aside(path) as aside:
+        aside.write_bytes(formats[kind](what))
 
 
 def require_surface_file(path: str | os.PathLike[str]) -> None:
@@ -94,88 +100,36 @@ def require_surface_file(path: str | os.PathLike[str]) -> None:
     require_target(path)
 
 
-def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> None:
-    if _kind(path) not in known:
+def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> str:
+    kind = Path(path).suffix.casefold()
+    if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
+    return kind
 
 
-def _kind(path: str | os.PathLike[str]) -> str:
-    return Path(path).suffix.casefold()
+def _vti(surface: Surface) -> bytes:
+    return _vti_bytes({"heights": surface.heights}, surface.grid)
 
 
-def _x3p(surface: Surface, aside: Path) -> None:
-    aside.write_bytes(x3p_bytes(surface))
-
-
-def _vti(surface: Surface, aside: Path) -> None:
-    aside.write_bytes(vti_bytes({"heights": surface.heights}, surface.grid))
-
-
-def _text(surface: Surface, aside: Path) -> None:
-    aside.write_text(text_of(surface), encoding="utf-8", newline="\n")
-
-
-def _npy(surface: Surface, aside: Path) -> None:
-    with open(aside, "wb") as stream:  # a stream, since a path would be given an extension
-        np.save(stream, surface.heights)
-
-
-def _npz(surface: Surface, aside: Path) -> None:
+def _netcdf(surface: Surface) -> bytes:
     grid = surface.grid
-    with open(aside, "wb") as stream:
-        np.savez_compressed(
-            stream,
-            heights=surface.heights,
-            spacing=np.array(grid.spacing),
-            unit=np.array("m"),
-            periodic=np.array(grid.periodic),
-            history=np.array(surface.provenance, dtype=np.str_),
-        )
+    geometry = Geometry.of(grid)
+    data = sizes(grid) | {"heights": variable("heights", geometry.axes, surface.heights)}
+    dataset = dataset_of(data, centres(grid, geometry), "heights of a surface", geometry)
+    return netcdf_bytes(dataset.assign_attrs(provenance(surface)))
 
 
-def _netcdf(surface: Surface, aside: Path) -> None:
-    import xarray
-
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_netcdf
-    from roughcontact.labels.variables import VARIABLES
-
-    grid = surface.grid
-    axes = ("y", "x")[-grid.ndim :]
-
-    def variable(name: str, dimensions: tuple[str, ...], values: object) -> tuple[object, ...]:
-        known = VARIABLES[name]
-        attributes = {"long_name": known.long_name} | ({"units": known.unit} if known.unit else {})
-        return dimensions, np.asarray(values), attributes
-
-    scales = {"lengths": grid.lengths, "spacing": grid.spacing, "periodic": grid.periodic}
-    data = {name: variable(name, ("axis",), values) for name, values in scales.items()}
-    data["heights"] = variable("heights", axes, surface.heights)
-    places = {
-        axis: variable(axis, (axis,), (np.arange(n) + 0.5) * step)
-        for axis, n, step in zip(axes, grid.shape, grid.spacing, strict=True)
-    }
-    dataset = xarray.Dataset(
-        data,
-        places | {"axis": ("axis", list(axes))},
-        {"Conventions": "CF-1.11", "title": "heights of a surface"},
-    )
-    write_netcdf(dataset, aside, provenance(surface))
-
-
-def _solution(solution: Solution | TangentialSolution, aside: Path) -> None:
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_netcdf
-
+def _solution(solution: Solution | TangentialSolution) -> bytes:
     problem = _pressed(solution).problem
-    write_netcdf(solution.to_dataset(), aside, provenance(problem.surface, modulus=problem.modulus))
+    lines = provenance(problem.surface, modulus=problem.modulus)
+    return netcdf_bytes(solution.to_dataset().assign_attrs(lines))
 
 
-def _solution_vti(solution: Solution | TangentialSolution, aside: Path) -> None:
+def _solution_vti(solution: Solution | TangentialSolution) -> bytes:
     fields = _fields(_pressed(solution))
     if isinstance(solution, TangentialSolution):
         fields |= _tangential_fields(solution)
-    aside.write_bytes(vti_bytes(fields, _pressed(solution).problem.grid))
+    return _vti_bytes(fields, _pressed(solution).problem.grid)
 
 
 def _pressed(solution: Solution | TangentialSolution) -> Solution:
@@ -203,10 +157,55 @@ def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
     return parts | {"slipping": on_host(solution.slipping).astype(bool)}
 
 
-_OF_A_SURFACE: Mapping[str, Callable[[Surface, Path], None]] = MappingProxyType(
-    {".npz": _npz, ".nc": _netcdf, ".x3p": _x3p, ".txt": _text, ".npy": _npy, ".vti": _vti}
+def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
+    """Return cell fields, each of the shape of the grid, as ImageData of VTK: an XML header, and the numbers appended.
+
+    NaN stays NaN, truth values are 0 and 1.
+    The first row is the top of the picture: rows are turned round, so that y counts upwards from the lower left
+    corner of the map.
+
+    Raises
+    ------
+    ValueError
+        If the grid is one of rings, which image data cannot hold.
+    """
+    if isinstance(grid, RadialGrid):
+        raise ValueError("ParaView's image data hold cells in rows, not rings; write another format")
+    ny, nx = (1, *grid.shape)[-2:]
+    dy, dx = (grid.spacing[-1], *grid.spacing)[-2:]
+    extent = f"0 {nx} 0 {ny if grid.ndim == 2 else 0} 0 0"
+    arrays, blocks, offset = [], [], 0
+    for name, values in fields.items():
+        kind, dtype = ("UInt8", "u1") if values.dtype.kind == "b" else ("Float64", "<f8")
+        numbers = np.ascontiguousarray(values[::-1] if grid.ndim == 2 else values, dtype=dtype).tobytes()
+        arrays.append(
+            f'<DataArray type="{kind}" Name={quoteattr(name)} format="appended" offset="{offset}"/>'
+        )
+        blocks += [struct.pack("<Q", len(numbers)), numbers]
+        offset += 8 + len(numbers)
+    head = (
+        '<?xml version="1.0"?>\n'
+        '<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+        f'<ImageData WholeExtent="{extent}" Origin="0 0 0" Spacing="{dx!r} {dy!r} {min(dx, dy)!r}">\n'
+        f'<Piece Extent="{extent}">\n<CellData>\n'
+        + "\n".join(arrays)
+        + "\n</CellData>\n</Piece>\n</ImageData>\n"
+        '<AppendedData encoding="raw">\n_'
+    )
+    return b"".join([head.encode(), *blocks, b"\n</AppendedData>\n</VTKFile>\n"])
+
+
+_OF_A_SURFACE: Mapping[str, Callable[[Surface], bytes]] = MappingProxyType(
+    {
+        ".npz": npz_bytes,
+        ".nc": _netcdf,
+        ".x3p": x3p_bytes,
+        ".txt": text_bytes,
+        ".npy": npy_bytes,
+        ".vti": _vti,
+    }
 )
-_OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution, Path], None]] = MappingProxyType(
+_OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

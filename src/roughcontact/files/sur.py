@@ -1,4 +1,4 @@
-"""Digital Surf's format, ``.sur`` for maps and ``.pro`` for line scans, plain or compressed."""
+"""Digital Surf's format, ``.sur`` for maps and ``.pro`` for profiles, plain or compressed."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.file_memory import BYTES_PER_POINT, require_memory
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 
@@ -49,7 +49,7 @@ _AGAIN = "copy the file again, or export it as X3P"
 
 
 def read_sur(data: bytes, file: str) -> HeightMap:
-    """Return the one map or line scan of the file; its heights are whole numbers of a stated step."""
+    """Return the one map or profile of the file; its heights are whole numbers of a stated step."""
     header = _header(data, file)
     ny, nx = int(header["ny"]), int(header["nx"])
     counts = _counts(data, header, file).reshape(ny, nx)
@@ -86,7 +86,7 @@ def read_sur(data: bytes, file: str) -> HeightMap:
 
 
 def _header(data: bytes, file: str) -> Any:
-    """Return the header, each of its statements that the data hang on checked."""
+    """Return the header; each of its statements on which the data depend is checked."""
     if not data.startswith((b"DIGITAL SURF", b"DSCOMPRESSED")) or len(data) < _HEADER.itemsize:
         raise ReadError(file, "it has no whole header of Digital Surf", _AGAIN)
     header = np.frombuffer(data, dtype=_HEADER, count=1)[0]

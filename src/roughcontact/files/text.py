@@ -10,8 +10,9 @@ from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import parse_length
 from roughcontact.files.numbers import last_digit, parse_table, stated_rows
+from roughcontact.surface.surface import Surface
 
-__all__ = ["read_text"]
+__all__ = ["read_text", "text_bytes"]
 
 # The words of Gwyddion's header in the languages of its menus that Western files come in.
 _LABELS = {
@@ -45,7 +46,7 @@ def read_text(data: bytes, file: str) -> HeightMap:
         raise ReadError(
             file,
             f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
-            "name a list of x, y, z .xyz; read a line scan by read_line",
+            "name a list of x, y, z .xyz; read a profile by read_line",
         )
     spacing = None
     if header.width is not None and header.height is not None:
@@ -99,3 +100,30 @@ def _rounding(text: str) -> float:
     if number is None or float(number[0]) == 0:
         return 0.0
     return 0.5 * last_digit(number[0]) / float(number[0])
+
+
+def text_bytes(surface: Surface) -> bytes:
+    """Return the heights [m] as rows separated by tabs, under the header that Gwyddion writes; NaN as ``nan``.
+
+    A profile becomes two columns, places of the cells' centres and heights. Every number has all its digits. The
+    provenance follows the header for people to read.
+    """
+    history = [f"# History: {' | '.join(line.splitlines())}" for line in surface.provenance]
+    if surface.grid.ndim == 1:
+        places = surface.grid.coordinates[0].tolist()
+        rows: Iterable[tuple[float, ...]] = zip(places, surface.heights.tolist(), strict=True)
+        # The line above the numbers names their units.
+        header = [f"# Rows: {surface.grid.size}", *history, "x [m]\tz [m]"]
+    else:
+        height, width = surface.grid.lengths
+        rows = surface.heights.tolist()
+        header = [
+            "# Channel: heights",
+            f"# Width: {width!r} m",
+            f"# Height: {height!r} m",
+            "# Value units: m",
+            f"# Rows: {surface.grid.shape[0]}",
+            *history,
+        ]
+    lines = [*header, *("\t".join(map(repr, row)) for row in rows), ""]
+    return "\n".join(lines).encode()

@@ -6,16 +6,21 @@ import csv
 import io
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.aside import WriteError, output_folder, written_aside
-from roughcontact.files.netcdf_bytes import netcdf_bytes
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.files.aside import written_aside
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["WriteError", "output_folder", "write_csv", "write_json", "write_netcdf", "written_aside"]
+__all__ = [
+    *("netcdf_bytes", "plain_cells", "scale_remark", "units_remark"),
+    *("write_csv", "write_json", "write_netcdf", "write_table"),
+]
 
 Attributes = Mapping[str, str | float]
 
@@ -36,6 +41,29 @@ def write_netcdf(
     whole = dataset.assign_attrs(dict(provenance or {}))
     with written_aside(path) as aside:
         aside.write_bytes(netcdf_bytes(whole))
+
+
+def netcdf_bytes(dataset: xarray.Dataset) -> bytes:
+    """Return a dataset as the bytes of a NetCDF-4 file; maps are compressed without loss.
+
+    They are made in memory since HDF5 does not survive a disk that fills up: it takes the process down with it.
+    """
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
+    # Shuffled bytes compress better; level 4 is where more time stops buying size.
+    maps = [name for name, values in dataset.variables.items() if values.ndim > 1 and values.size]
+    encoding: dict[Any, dict[str, Any]] = {
+        name: {"zlib": True, "complevel": 4, "shuffle": True} for name in maps
+    }
+    # CF wants a fill value only where something can be missing: coordinates never are.
+    encoding |= {
+        name: {"_FillValue": None} for name, values in dataset.coords.items() if values.dtype.kind == "f"
+    }
+    stream = io.BytesIO()
+    with h5netcdf.File(stream, "w") as file:
+        dataset.dump_to_store(H5NetCDFStore(file), encoding=encoding)
+    return stream.getvalue()
 
 
 def write_csv(
@@ -84,25 +112,47 @@ def write_csv(
             parts = values["component"].to_numpy().tolist()
             columns |= {f"{name}_{part}": values.sel(component=part) for part in parts}
     # Words go last, so that readers of pure numbers can ask for the columns before them.
-    names = sorted(columns, key=lambda name: columns[name].dtype.kind in "OUT")
-    units = [f"{name} [{columns[name].attrs['units']}]" for name in names if "units" in columns[name].attrs]
-    remarks = [f"units: {', '.join(units)}"]
-    remarks += [
-        _scale(str(n), v)
-        for n, v in dataset.data_vars.items()
-        if v.dims in ((), ("axis",)) and v.dims != along
-    ]
+    columns = dict(sorted(columns.items(), key=lambda each: each[1].dtype.kind in "OUT"))
+    scales = [v for v in dataset.data_vars.values() if v.dims in ((), ("axis",)) and v.dims != along]
+    remarks = [units_remark(columns), *map(scale_remark, scales)]
     remarks += [f"{name} = {value}" for name, value in (dataset.attrs | dict(provenance or {})).items()]
+    cells = (plain_cells(values.to_numpy()).reshape(-1).tolist() for values in columns.values())
+    write_table(path, columns, remarks, zip(*cells, strict=True))
 
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(names)
-    # A remark is one line: a break within it becomes a bar.
-    text.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
-    table.writerows(
-        zip(*(map(_cell, columns[name].to_numpy().reshape(-1).tolist()) for name in names), strict=True)
-    )
-    _write_text(path, text.getvalue())
+
+def write_table(
+    path: str | os.PathLike[str],
+    columns: Iterable[str],
+    remarks: Iterable[str],
+    rows: Iterable[Iterable[Any]],
+) -> None:
+    """Write the names of columns, remarks that start with ``#``, and rows; the file appears whole or not at all."""
+    # Line ends as they are, on every system, so that equal results are equal files.
+    with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="\n") as file:
+        table = csv.writer(file, lineterminator="\n")  # of a real number it writes all digits, by `repr`
+        table.writerow(columns)
+        # A remark is one line: a break within it becomes a bar.
+        file.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
+        table.writerows(rows)
+
+
+def units_remark(columns: Mapping[str, xarray.DataArray]) -> str:
+    """Return the units of the columns that have one."""
+    units = {name: values.attrs["units"] for name, values in columns.items() if "units" in values.attrs}
+    return f"units: {', '.join(f'{name} [{unit}]' for name, unit in units.items())}"
+
+
+def scale_remark(values: xarray.DataArray) -> str:
+    """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
+    numbers = ", ".join(map(str, plain_cells(values.to_numpy()).reshape(-1).tolist()))
+    axes = f" ({', '.join(map(str, values['axis'].to_numpy()))})" if values.dims else ""
+    unit = values.attrs.get("units", "1")
+    return f"{values.name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
+
+
+def plain_cells(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return values with 1 and 0 for truths."""
+    return values.astype(np.int8) if values.dtype.kind == "b" else values
 
 
 def write_json(
@@ -117,25 +167,6 @@ def write_json(
     """
     whole = dict(record) | ({"provenance": dict(provenance)} if provenance else {})
     # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
-    _write_text(path, json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
-
-
-def _cell(value: Any) -> str:
-    """Return one value of a table; `repr` keeps every digit of a number."""
-    if isinstance(value, bool):
-        return "1" if value else "0"
-    return value if isinstance(value, str) else repr(value)
-
-
-def _scale(name: str, values: xarray.DataArray) -> str:
-    """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
-    numbers = ", ".join(_cell(value) for value in values.to_numpy().reshape(-1).tolist())
-    axes = f" ({', '.join(values['axis'].to_numpy().tolist())})" if values.dims else ""
-    unit = values.attrs.get("units", "1")
-    return f"{name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
-
-
-def _write_text(path: str | os.PathLike[str], text: str) -> None:
+    text = json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     with written_aside(path) as aside:
-        # Line ends as they are, on every system, so that equal results are equal files.
         aside.write_text(text, encoding="utf-8", newline="\n")

@@ -3,28 +3,36 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import math
 import posixpath
+import xml.etree.ElementTree as ElementTree
+import zipfile
 from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from types import SimpleNamespace
 from typing import Any
+from xml.sax.saxutils import escape
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.archive import unzip
+from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
-from roughcontact.files.xmlnode import Node, local_name, parse_xml
+from roughcontact.surface.surface import Surface
 
-__all__ = ["read_x3p"]
+__all__ = ["parse_xml", "read_x3p", "x3p_bytes"]
 
 _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 _AGAIN = "export the surface again"
+_POINTS = "bindata/data.bin"
 
 
 def read_x3p(data: bytes, file: str) -> HeightMap:
     """Return the surface in an X3P file; heights and spacing are in metres by definition."""
-    folder, main = _main(data, file)
+    folder, main = _main_of(data, file)
     root = parse_xml(main, file)
     axes = root.child("Record1/Axes")
     shape = _shape(root, file)
@@ -55,7 +63,7 @@ def read_x3p(data: bytes, file: str) -> HeightMap:
     )
 
 
-def _main(data: bytes, file: str) -> tuple[str, bytes]:
+def _main_of(data: bytes, file: str) -> tuple[str, bytes]:
     """Return the folder and the content of the uppermost ``main.xml``."""
     found = unzip(data, file, lambda member: posixpath.basename(member) == "main.xml")
     if not found:
@@ -64,7 +72,7 @@ def _main(data: bytes, file: str) -> tuple[str, bytes]:
     return posixpath.dirname(member), found[member]
 
 
-def _shape(root: Node, file: str) -> tuple[int, int]:
+def _shape(root: _Node, file: str) -> tuple[int, int]:
     """Return (SizeY, SizeX)."""
     sizes = []
     for name in ("SizeY", "SizeX", "SizeZ"):
@@ -78,7 +86,7 @@ def _shape(root: Node, file: str) -> tuple[int, int]:
 
 
 def _values(
-    data: bytes, file: str, folder: str, main: bytes, root: Node, shape: tuple[int, int]
+    data: bytes, file: str, folder: str, main: bytes, root: _Node, shape: tuple[int, int]
 ) -> tuple[Array, tuple[str, ...]]:
     """Return the numbers of the data list or the linked file as float64, NaN where invalid, and remarks."""
     kind = root.child("Record1/Axes").text("CZ/DataType")
@@ -128,10 +136,10 @@ def _binary(points: bytes, dtype: str, shape: tuple[int, int], file: str) -> Arr
         return np.frombuffer(points, dtype=dtype).reshape(shape).astype(np.float64)
 
 
-def _listed(data_list: Node, shape: tuple[int, int], file: str) -> Array:
+def _listed(data_list: _Node, shape: tuple[int, int], file: str) -> Array:
     """Return the heights written out in the XML; an empty entry is a missing point."""
     values = []
-    for index, datum in enumerate(d for d in data_list.element if local_name(d) == "Datum"):
+    for index, datum in enumerate(d for d in data_list.element if _local_name(d) == "Datum"):
         text = (datum.text or "").strip()
         try:
             values.append(float(text) if text else math.nan)
@@ -177,3 +185,123 @@ def _check_main(stated: bytes | None, main: bytes, points: bytes, file: str) -> 
     raise ReadError(
         file, "the checksum of main.xml is wrong: the file is damaged", f"copy it again, or {_AGAIN}"
     )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Node:
+    """An element, its descendants found by paths of local names: writers disagree about the namespace."""
+
+    element: ElementTree.Element
+    file: str
+
+    def find(self, path: str) -> ElementTree.Element | None:
+        """Return the element at `path`, or None."""
+        element: ElementTree.Element | None = self.element
+        for part in path.split("/"):
+            if element is not None:
+                element = next((child for child in element if _local_name(child) == part), None)
+        return element
+
+    def child(self, path: str) -> _Node:
+        """Return the element at `path`, which must be there."""
+        element = self.find(path)
+        if element is None:
+            raise ReadError(self.file, f"its main.xml has no {path}", _AGAIN)
+        return _Node(element, self.file)
+
+    def text(self, path: str, default: str = "") -> str:
+        """Return the text at `path`, or `default` where it is absent or empty."""
+        element = self.find(path)
+        text = "" if element is None else (element.text or "").strip()
+        return text or default
+
+    def number(self, path: str, default: float | None = None) -> float:
+        """Return the finite number at `path`, or `default` where it is absent or empty."""
+        text = self.text(path)
+        if not text and default is not None:
+            return default
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise ReadError(self.file, f"its main.xml states {text!r} for {path}", _AGAIN)
+        return value
+
+
+def _local_name(element: ElementTree.Element) -> str:
+    """Return the name of an element without its namespace."""
+    return str(element.tag).rpartition("}")[2]
+
+
+def parse_xml(main: bytes, file: str) -> _Node:
+    """Return the root of ``main.xml``."""
+
+    def refuse(*_: str | None) -> None:
+        raise ReadError(file, "its main.xml declares a document type, which X3P does not know", _AGAIN)
+
+    builder = ElementTree.TreeBuilder()
+    # The parser knows a document type in any encoding; it comes before all that could be made to grow.
+    target = SimpleNamespace(
+        start=builder.start, end=builder.end, data=builder.data, close=builder.close, doctype=refuse
+    )
+    try:
+        return _Node(ElementTree.fromstring(main, ElementTree.XMLParser(target=target)), file)
+    except ReadError:
+        raise
+    except Exception as error:  # ParseError, but also LookupError and ValueError over the declared encoding
+        raise ReadError(file, f"its main.xml is damaged ({error})", _AGAIN) from error
+
+
+def x3p_bytes(surface: Surface) -> bytes:
+    """Return the surface, or a profile, as the bytes of an ``.x3p`` file.
+
+    Heights are little-endian doubles [m], NaN where nothing was measured. ``md5checksum.hex`` holds the checksum of
+    ``main.xml``, as in the samples of the standard, and ``main.xml`` that of the heights. The format has no word
+    for a surface that repeats itself; the provenance becomes its comment.
+    """
+    points = np.ascontiguousarray(surface.heights, dtype="<f8").tobytes()
+    main = _written(surface, hashlib.md5(points, usedforsecurity=False).hexdigest()).encode()
+    checksum = f"{hashlib.md5(main, usedforsecurity=False).hexdigest()} *main.xml\n".encode()
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, content in (("main.xml", main), (_POINTS, points), ("md5checksum.hex", checksum)):
+            # Of heights only a few bytes in eight repeat: more effort than level 1 buys little.
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 1)
+    return stream.getvalue()
+
+
+def _written(surface: Surface, digest: str) -> str:
+    from roughcontact import __version__
+
+    grid = surface.grid
+    ny, nx = (1, *grid.shape)[-2:]
+    dy, dx = (grid.spacing[-1], *grid.spacing)[-2:]
+    axes = "".join(
+        f"<{name}><AxisType>{kind}</AxisType><DataType>D</DataType>"
+        f"<Increment>{step!r}</Increment><Offset>0</Offset></{name}>\n"
+        for name, kind, step in (("CX", "I", dx), ("CY", "I", dy), ("CZ", "A", 1))
+    )
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
+<Record1><Revision>ISO5436 - 2000</Revision><FeatureType>{"SUR" if grid.ndim == 2 else "PRF"}</FeatureType>
+<Axes>
+{axes}</Axes></Record1>
+<Record2><Date>{datetime.now(UTC).isoformat(timespec="seconds")}</Date>
+<Creator>roughcontact {__version__}</Creator>
+<Instrument><Manufacturer>not stated</Manufacturer><Model>not stated</Model><Serial>not stated</Serial>
+<Version>not stated</Version></Instrument>
+<CalibrationDate>{datetime.now(UTC).isoformat(timespec="seconds")}</CalibrationDate>
+<ProbingSystem><Type>Software</Type><Identification>not stated</Identification></ProbingSystem>
+<Comment>{_plain("; ".join(surface.provenance))}</Comment></Record2>
+<Record3><MatrixDimension><SizeX>{nx}</SizeX><SizeY>{ny}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+<DataLink><PointDataLink>{_POINTS}</PointDataLink>
+<MD5ChecksumPointData>{digest.upper()}</MD5ChecksumPointData></DataLink></Record3>
+<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4>
+</p:ISO5436_2>
+"""
+
+
+def _plain(text: str) -> str:
+    """Return a text for XML, without the control characters that it must not hold."""
+    return escape("".join(c if c.isprintable() else " " for c in text))

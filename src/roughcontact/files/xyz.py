@@ -74,7 +74,7 @@ def _places(coordinates: Array, file: str, axis: str) -> tuple[npt.NDArray[np.in
     if len(levels) < 2:
         raise ReadError(
             file,
-            f"all its points share one {axis}: it is a line scan",
+            f"all its points share one {axis}: it is a profile",
             "give a two-dimensional map, or use read_line on places and heights",
         )
     gaps = np.diff(levels)

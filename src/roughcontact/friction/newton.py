@@ -11,7 +11,7 @@ from roughcontact.arrays import namespace
 from roughcontact.friction.descent import descended
 from roughcontact.friction.slip_cg import Freedom, corrected
 from roughcontact.friction.slip_step import Slipped, SlipState, SlipStep
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 
 __all__ = ["SlipNewton"]
 

@@ -25,7 +25,7 @@ from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, number, numeric
 

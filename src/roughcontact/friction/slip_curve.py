@@ -13,7 +13,7 @@ from roughcontact.friction.slide import Loads, slide_path
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.validation import Array, numeric
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.arrays import on_host
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_of, variable, word, words
+from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 
 if TYPE_CHECKING:
     import xarray
@@ -48,12 +48,10 @@ def tangential_dataset(solution: TangentialSolution) -> xarray.Dataset:
     stiffness = on_host(solution.stiffness)
     data["tangential_stiffness"] = variable("tangential_stiffness", ("component", "direction"), stiffness)
     data |= {name: variable(name, (), value) for name, value in _scalars(solution).items()}
-    data["status"] = variable("status", (), word(solution.status))
-    data |= sizes(grid.lengths, grid.spacing, grid.periodic)
-    places = zip(axes, grid.coordinates, strict=True)
-    coordinates = {axis: variable(axis, (axis,), values) for axis, values in places}
+    data["status"] = variable("status", (), solution.status.value)
+    data |= sizes(grid)
     moved = (("direction",), ["x", "y"], {"long_name": "component of the displacement"})
-    coordinates |= {"component": _COMPONENT, "direction": moved}
+    coordinates = centres(grid, Geometry.SURFACE) | {"component": _COMPONENT, "direction": moved}
     dataset = dataset_of(
         data, coordinates, "contact of a rough surface under a tangential load", Geometry.SURFACE
     )
@@ -71,7 +69,7 @@ def tangential_record(solution: TangentialSolution) -> dict[str, Any]:
     whole = _vectors(solution) | {"tangential_stiffness": on_host(solution.stiffness)} | _scalars(solution)
     whole |= {name: getattr(grid, name) for name in ("shape", "lengths", "spacing", "periodic")}
     record = {name: plain_values(value) for name, value in whole.items()}
-    record |= {"status": word(solution.status), "sliding": solution.sliding, "notes": list(solution.notes)}
+    record |= {"status": solution.status.value, "sliding": solution.sliding, "notes": list(solution.notes)}
     return record | {"units": units_of(record, Geometry.SURFACE)}
 
 
@@ -82,7 +80,7 @@ def slip_curve_dataset(curve: SlipCurve) -> xarray.Dataset:
     """
     data = {name: variable(name, ("load", "component"), values) for name, values in _vectors(curve).items()}
     data |= {name: variable(name, ("load",), values) for name, values in _taken(_POINTS, curve).items()}
-    data["status"] = variable("status", ("load",), words(curve.status))
+    data["status"] = variable("status", ("load",), [each.value for each in curve.status])
     data["capacity"] = variable("capacity", (), curve.capacity)
     title = "tangential force against displacement of a rough contact"
     return dataset_of(data, {"component": _COMPONENT}, title, Geometry.SURFACE)
@@ -94,7 +92,7 @@ def slip_curve_record(curve: SlipCurve) -> dict[str, Any]:
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
     record = {name: plain_values(value) for name, value in (_vectors(curve) | _taken(_POINTS, curve)).items()}
-    record |= {"status": words(curve.status), "capacity": plain_values(curve.capacity)}
+    record |= {"status": [each.value for each in curve.status], "capacity": plain_values(curve.capacity)}
     return record | {"units": units_of(record, Geometry.SURFACE)}
 
 

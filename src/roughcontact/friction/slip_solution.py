@@ -16,7 +16,7 @@ from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
 from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
 from roughcontact.material import Solid
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
 

@@ -17,8 +17,8 @@ from roughcontact.friction.coulomb import (
     violations,
     within,
 )
+from roughcontact.solver.control import Status
 from roughcontact.solver.optimality import UNITS
-from roughcontact.solver.status import Status
 from roughcontact.validation import Array
 
 __all__ = ["SlipState", "SlipStep", "Slipped"]

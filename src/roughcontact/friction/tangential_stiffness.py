@@ -83,12 +83,13 @@ def tangential_stiffness(
     Returns
     -------
     TangentialStiffness
+        The matrix of force per displacement [N/m] and its residual.
 
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or is told by other numbers than ones and zeros, if the grid has not two
-        axes, or if the tolerance is none.
+        If the mask does not fit the grid or holds other numbers than ones and zeros, if the grid has not two
+        axes, or if the tolerance is out of range.
     RuntimeError
         If the tolerance was not reached.
 

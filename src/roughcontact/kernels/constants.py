@@ -1,11 +1,12 @@
 """What machine code and those who call it agree on."""
 
-__all__ = ["APART", "HALF", "NEVER", "REACH", "ROUNDINGS", "SIDE", "WIDTH"]
+__all__ = ["APART", "CHUNK", "HALF", "NEVER", "REACH", "ROUNDINGS", "SIDE", "WIDTH"]
 
 WIDTH = 32  # bytes of numbers that are taken at a time, one a lane: a register of most processors
 REACH = 2  # cells to either side that a sum over near ones looks at
 SIDE = 8  # cells of a tile
 HALF = 0  # in place of a radix: four, of which the last two numbers are zero
 NEVER = -1e30  # residual of a cell that never comes into contact
+CHUNK = 4  # registers of sums that are filled at a time
 APART = 8  # counters in a line of the cache
 ROUNDINGS = 8  # units in the last place: a pressure that several steps took to zero is no larger

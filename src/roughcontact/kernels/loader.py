@@ -88,9 +88,16 @@ def takes(field: Any) -> bool:
 
 def _families() -> Mapping[str, Any]:
     """Return the modules of kernels, imported late and by names that bundlers of programs see."""
-    from roughcontact.kernels import block_kernels, fft, plane_kernels, tile_kernels, vector_kernels
+    from roughcontact.kernels import (
+        block_kernels,
+        fft,
+        near_kernels,
+        plane_kernels,
+        tile_kernels,
+        vector_kernels,
+    )
 
-    families = block_kernels, fft, plane_kernels, tile_kernels, vector_kernels
+    families = block_kernels, fft, near_kernels, plane_kernels, tile_kernels, vector_kernels
     return {family.__name__.rpartition(".")[2]: family for family in families}
 
 

@@ -1,14 +1,13 @@
-"""The pieces that labelled answers are made of: variables with units, words, plain values."""
+"""The pieces that labelled answers are made of: variables with units, plain values."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-__all__ = ["dataset_of", "plain_values", "sizes", "units_of", "variable", "word", "words"]
+__all__ = ["centres", "dataset_of", "described", "plain_values", "sizes", "units_of", "variable"]
 
 
 def variable(
@@ -28,10 +27,24 @@ def variable(
     return dimensions, np.asarray(values), attributes
 
 
-def sizes(lengths: Any, spacing: Any, periodic: Any) -> dict[str, Any]:
-    """Return the size of the grid, one value for each axis."""
-    values = {"lengths": lengths, "spacing": spacing, "periodic": periodic}
-    return {name: variable(name, ("axis",), value) for name, value in values.items()}
+def described(
+    dimensions: str | tuple[str, ...], values: Any, words: str, unit: str = "1"
+) -> tuple[Any, Any, Any]:
+    """Return the triple that xarray takes as a variable, of a quantity that no table names."""
+    return dimensions, values, {"units": unit, "long_name": words}
+
+
+def sizes(grid: Any) -> dict[str, Any]:
+    """Return ``lengths``, ``spacing`` and ``periodic`` of a grid, or of a curve on one: a value for each axis."""
+    return {
+        name: variable(name, ("axis",), getattr(grid, name)) for name in ("lengths", "spacing", "periodic")
+    }
+
+
+def centres(grid: AnyGrid, geometry: Geometry) -> dict[str, Any]:
+    """Return the centres of the cells along each axis of a grid [m], as coordinates."""
+    places = zip(geometry.axes, grid.coordinates, strict=True)
+    return {axis: variable(axis, (axis,), values) for axis, values in places}
 
 
 def dataset_of(
@@ -40,8 +53,8 @@ def dataset_of(
     """Return the variables and coordinates as a dataset, with the names of the grid's axes."""
     import xarray
 
-    told = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
-    axis = (("axis",), list(geometry.axes), {"long_name": told})
+    words = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
+    axis = (("axis",), list(geometry.axes), {"long_name": words})
     attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
     return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
 
@@ -50,16 +63,6 @@ def units_of(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
     """Return the units of those names in a record that have one."""
     units = {name: unit_of(name, geometry) for name in record if name in VARIABLES}
     return {name: unit for name, unit in units.items() if unit}
-
-
-def word(status: Enum) -> str:
-    """Return the word that a file holds for how a solve ended."""
-    return str(status.value)
-
-
-def words(statuses: Iterable[Enum]) -> list[str]:
-    """Return `word` of each."""
-    return [word(status) for status in statuses]
 
 
 def plain_values(value: Any) -> Any:

@@ -9,9 +9,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
-from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
 from roughcontact.validation import Array, pair
 
 __all__ = ["LineCurves", "Mean"]

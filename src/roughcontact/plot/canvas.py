@@ -14,12 +14,13 @@ from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
 from roughcontact.plot.engineering_units import written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window
-from roughcontact.plot.raster import LABEL
+from roughcontact.plot.ticks import LABEL
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
+    from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
 
 __all__ = ["curve_figure", "save", "solution_figure", "surface_figure"]

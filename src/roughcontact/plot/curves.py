@@ -1,34 +1,44 @@
-"""Loading curves, drawn on axes that the caller owns."""
+"""Loading curves and theories beside them, drawn on axes that the caller owns.
+
+All are logarithmic, with force along x. Points that the grid resolves are filled, the others open.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import cycle
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.engineering_units import Scale
-from roughcontact.plot.points import Column, draw_points
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.theory_lines import draw_laws
-from roughcontact.plot.ticks import readable_ticks
+from roughcontact.plot.engineering_units import Scale, scale
+from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
+from roughcontact.statistics.fit_window import CELLS
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
     from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve, PowerLaw
+    from roughcontact.contact.curve import Curve
+    from roughcontact.statistics.power_law import PowerLaw
 
-__all__ = ["area_curve", "depth_curve", "stiffness_curve"]
+__all__ = ["area_curve", "depth_curve", "resistance_curve", "resistance_figure", "stiffness_curve"]
 
 Array = npt.NDArray[Any]
 
 _POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
+_RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
+# Colours that every eye tells from the points and from each other, and dashes for eyes that see no colours. Five
+# colours and four dashes have no common period: of twenty laws no two look the same.
+_LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
+_DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
+_SMOOTH = 200  # points of a line
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
@@ -51,7 +61,7 @@ def stiffness_curve(
     readable_ticks(axes.yaxis, high / low)
     if law is not None:
         _draw_law(axes, curve, law, (x, y))
-    draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
+    _draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
     beside = axes.get_yaxis_transform()
     for level, place, side, text in limits:
         axes.axhline(level * y.factor, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
@@ -66,17 +76,36 @@ def stiffness_curve(
 
 
 def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the real contact area against force, both logarithmic; the right axis is its share of the map."""
+    """Draw the real contact area against force, both logarithmic; the right axis gives the relative one."""
     x, y = _draw(axes, curve, "contact_area")
-    draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
-    right = axes.secondary_yaxis("right", functions=_shares_of(curve.nominal_area * y.factor))
-    right.set_ylabel("share of the map", fontsize=LABEL)
-    right.tick_params(labelsize=TICK, which="both")
+    _draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
+    outer_axis(axes, "right", "relative real contact area", _parts_of(curve.nominal_area * y.factor))
 
 
 def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     """Draw the depth since first touch against force, both logarithmic."""
-    draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+    _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+
+
+def resistance_figure(dataset: xarray.Dataset) -> Figure:
+    """Return the electrical and the thermal resistance against force, those that the dataset holds."""
+    names = [name for name in _RESISTANCES if name in dataset]
+    figure = Figure(figsize=(4.8 * len(names), 4.0), layout="constrained")
+    for axes, name in zip(np.ravel(figure.subplots(1, len(names))), names, strict=True):
+        resistance_curve(axes, dataset, name)
+    return figure
+
+
+def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
+    """Draw one resistance against force, both logarithmic; what is infinite has no place on the axis."""
+    numbers = (dataset["force"].to_numpy(), dataset[name].to_numpy())
+    words = [
+        (VARIABLES["force"].label, VARIABLES["force"].unit),
+        (name.replace("_", " "), VARIABLES[name].unit),
+    ]
+    _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), _RESISTANCES[name])
+    if axes.lines:
+        axes.legend(fontsize=TICK, frameon=False)
 
 
 def _limits(curve: Curve) -> list[tuple[float, float, Literal["left", "right"], str]]:
@@ -99,11 +128,77 @@ def _forces(curve: Curve) -> tuple[float, float]:
 
 def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
     """Draw one quantity of the curve against force; return the scales of both axes."""
-    force, column = (
-        Column(np.asarray(getattr(curve, n)), VARIABLES[n].label, unit_of(n, curve.geometry))
-        for n in ("force", name)
+    force, values = (np.asarray(getattr(curve, n)) for n in ("force", name))
+    words = [(VARIABLES[n].label, unit_of(n, curve.geometry)) for n in ("force", name)]
+    return _draw_points(axes, (force, values), words, np.asarray(curve.resolved), _POINTS)
+
+
+def _draw_points(
+    axes: Axes,
+    numbers: tuple[Array, Array],
+    words: Sequence[tuple[str, str]],
+    resolved: npt.NDArray[np.bool_],
+    colour: str,
+) -> tuple[Scale, Scale]:
+    """Draw values against forces and label both axes by their names and SI units; return their scales.
+
+    A logarithmic axis has no place for zero, and none for infinity: such points are left out.
+    """
+    loads, values = numbers
+    x, y = (
+        scale(float(np.max(each, initial=0.0, where=np.isfinite(each))), unit)
+        for each, (_, unit) in zip(numbers, words, strict=True)
     )
-    return draw_points(axes, force, column, np.asarray(curve.resolved), _POINTS)
+    axes.set(xscale="log", yscale="log")
+    shown = np.isfinite(values) & (values > 0) & (loads > 0)
+    size = 4.5 if loads.size <= 60 else 3.0
+    for chosen, fill, text in ((resolved, colour, "resolved"), (~resolved, "white", "not resolved")):
+        points = shown & chosen
+        if points.any():
+            axes.plot(
+                loads[points] * x.factor,
+                values[points] * y.factor,
+                "o",
+                markersize=size,
+                color=colour,
+                markerfacecolor=fill,
+                label=text,
+                zorder=3,
+            )
+    for axis, drawn in ((axes.xaxis, loads[shown]), (axes.yaxis, values[shown])):
+        if drawn.size:
+            readable_ticks(axis, float(drawn.max() / drawn.min()))
+    (force, _), (name, _) = words
+    label_axes(axes, f"{force} [{x.unit}]", f"{name} [{y.unit}]", grid=True)
+    return x, y
+
+
+def _draw_laws(
+    axes: Axes, laws: Sequence[Law], quantity: str, forces: tuple[float, float], scales: tuple[Scale, Scale]
+) -> None:
+    """Draw what each of the theories says about a quantity between two `forces` [N].
+
+    A theory keeps its style from one picture to the next, whether or not it gives every quantity. The
+    axes keep the limits that the computed points gave them.
+    """
+    x, y = scales
+    force = np.geomspace(*forces, _SMOOTH)
+    limits = axes.get_ylim()
+    for law, colour, dashes in zip(laws, cycle(_LAWS), cycle(_DASHES), strict=False):
+        if quantity not in law.quantities:
+            continue
+        values = law.predict(quantity, force)
+        shown = np.isfinite(values) & (values > 0)
+        axes.plot(
+            force[shown] * x.factor,
+            values[shown] * y.factor,
+            color=colour,
+            linestyle=dashes,
+            linewidth=1.4,
+            zorder=2.5,
+            label=law.name,
+        )
+    axes.set_ylim(limits)
 
 
 def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scale]) -> None:
@@ -120,15 +215,13 @@ def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scal
 
 def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:
     """Put the quantities without dimension on the upper and the right axis."""
-    outer = [axes.secondary_yaxis("right", functions=_shares_of(curve.stiffness_scale * scales[1].factor))]
-    outer[0].set_ylabel(rf"$\bar{{k}}$ = {VARIABLES['dimensionless_stiffness'].label}", fontsize=LABEL)
+    name = rf"$\bar{{k}}$ = {VARIABLES['dimensionless_stiffness'].label}"
+    outer_axis(axes, "right", name, _parts_of(curve.stiffness_scale * scales[1].factor))
     if curve.force_scale > 0:  # a flat surface has no height to compare with
-        outer.append(axes.secondary_xaxis("top", functions=_shares_of(curve.force_scale * scales[0].factor)))
-        outer[1].set_xlabel(rf"$\bar{{F}}$ = {VARIABLES['dimensionless_force'].label}", fontsize=LABEL)
-    for each in outer:
-        each.tick_params(labelsize=TICK, which="both")
+        name = rf"$\bar{{F}}$ = {VARIABLES['dimensionless_force'].label}"
+        outer_axis(axes, "top", name, _parts_of(curve.force_scale * scales[0].factor))
 
 
-def _shares_of(unit: float) -> Any:
+def _parts_of(unit: float) -> Any:
     """Return the two functions of an axis that counts in `unit`: there and back."""
-    return (lambda value: value / unit), (lambda share: share * unit)
+    return (lambda value: value / unit), (lambda part: part * unit)

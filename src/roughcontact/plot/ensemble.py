@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import pretty
-from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import TICK, label_axes
 
 if TYPE_CHECKING:
     import xarray
@@ -41,7 +41,7 @@ def mean_curves(
     mean : DataArray
         Along the points and at most one dimension more, whose values tell the groups apart.
     error : DataArray, optional
-        Half the width of a band about the mean, such as `roughcontact.study.statistics.standard_error`, or the
+        Half the width of a band about the mean, such as `roughcontact.statistics.samples.standard_error`, or the
         standard deviation where the scatter of samples is meant.
     resolved : DataArray of bool, optional
         Points outside it are drawn thin and dotted.
@@ -70,7 +70,7 @@ def mean_curves(
     for *numbers, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
         _curve(axes, (numbers[0], numbers[1], numbers[2]), kept, name, colour)
     axes.set(xscale="log", yscale="log")
-    _label(axes, force, mean)
+    label_axes(axes, _words(force), _words(mean), grid=True)
     if groups and len(names) <= len(_COLOURS):
         axes.legend(title=_words(mean[groups[0]]), fontsize=TICK, title_fontsize=TICK, frameon=False)
 
@@ -85,7 +85,7 @@ def fitted_values(
     colour: str = _COLOURS[0],
     shift: float = 0.0,
 ) -> None:
-    """Draw what `roughcontact.study.fit.fit_power_laws` found against a parameter, with its intervals.
+    """Draw what `roughcontact.statistics.fit.fit_power_laws` found against a parameter, with its intervals.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def fitted_values(
         label=label or None,
         zorder=3,
     )
-    _label(axes, fits[along], fits[name])
+    label_axes(axes, _words(fits[along]), _words(fits[name]), grid=True)
 
 
 def _curve(
@@ -167,11 +167,3 @@ def _words(values: xarray.DataArray) -> str:
     name = str(values.name)
     known = VARIABLES[name].label if name in VARIABLES else name.replace("_", " ")
     return f"{known} [{unit}]" if unit else known
-
-
-def _label(axes: Axes, x: xarray.DataArray, y: xarray.DataArray) -> None:
-    axes.set_xlabel(_words(x), fontsize=LABEL)
-    axes.set_ylabel(_words(y), fontsize=LABEL)
-    axes.tick_params(labelsize=TICK, which="both")
-    axes.grid(True, which="major", color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale
-from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,7 +21,7 @@ _LINE = "#0072b2"
 
 
 def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
-    """Draw the heights along a row of a surface, or a line scan; the curve is broken where points are missing.
+    """Draw the heights along a row of a surface, or a profile; the curve is broken where points are missing.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
             raise ValueError(f"row must lie between {-rows} and {rows - 1}, not at {chosen}")
         heights = heights[chosen]
     elif row is not None:
-        raise ValueError(f"a line scan has no row {row}: leave row out")
+        raise ValueError(f"a profile has no row {row}: leave row out")
     step = surface.grid.spacing[-1]
     places = (np.arange(heights.size) + 0.5) * step
     x = scale(heights.size * step, VARIABLES["lengths"].unit)
@@ -52,8 +52,4 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
     z = scale(float(np.nanmax(np.abs(surface.heights))), VARIABLES["heights"].unit)
     axes.plot(places * x.factor, heights * z.factor, color=_LINE, linewidth=1.0)
     axes.set_xlim(0.0, heights.size * step * x.factor)
-    axes.set_xlabel(f"x [{x.unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"{VARIABLES['heights'].label} [{z.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
-    axes.grid(True, color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
+    label_axes(axes, f"x [{x.unit}]", f"{VARIABLES['heights'].label} [{z.unit}]", grid=True)

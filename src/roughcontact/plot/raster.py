@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import Scale, scale
+from roughcontact.plot.ticks import LABEL, TICK, label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,8 +33,6 @@ __all__ = [
 
 Array = npt.NDArray[Any]
 Window = tuple[slice, slice]
-
-LABEL, TICK = 9, 8  # sizes of text [points]
 
 # More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
 # leaves out some rows could leave out the contact.
@@ -90,9 +89,7 @@ def show(
     )
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     unit = length_scale(grid).unit
-    axes.set_xlabel(f"x [{unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"y [{unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
+    label_axes(axes, f"x [{unit}]", f"y [{unit}]")
     axes.locator_params(nbins=6)
     return image
 

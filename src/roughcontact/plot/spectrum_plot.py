@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.plot.engineering_units import Scale, scale
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
+from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +52,7 @@ def spectrum_curve(
     """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
 
     Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
-    averaged to forty a decade. `law` is laid over the band that it was fitted in; vertical lines mark where it ends.
+    averaged to forty a decade. `law` is drawn over the band that it was fitted in; vertical lines mark where it ends.
     `label` says in the legend where the spectrum comes from.
     """
     shown = spectrum.rebinned(_DRAWN)
@@ -102,18 +101,13 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
     density = scale(float(densities.max()), f"m{power}")
     axes.set(xscale="log", yscale="log")
     dimension = kind[1:]
-    axes.set_xlabel(f"wavenumber q [rad/{length.unit}]", fontsize=LABEL)
-    axes.set_ylabel(rf"power spectrum $C_{{\mathrm{{{dimension}}}}}$ [{density.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK, which="both")
-    axes.grid(True, which="major", color="0.92", linewidth=0.8)
-    axes.set_axisbelow(True)
+    power_name = rf"power spectrum $C_{{\mathrm{{{dimension}}}}}$ [{density.unit}]"
+    label_axes(axes, f"wavenumber q [rad/{length.unit}]", power_name, grid=True)
     low, high = (2 * math.pi / (w * length.factor) for w in (wavelengths.max(), wavelengths.min()))
     axes.set_xlim(low / 1.3, high * 1.3)
-    top = axes.secondary_xaxis("top", functions=(_other, _other))
+    top = outer_axis(axes, "top", f"wavelength [{length.unit}]", (_other, _other))
     for axis in (axes.xaxis, top.xaxis):
         readable_ticks(axis, high / low)
-    top.set_xlabel(f"wavelength [{length.unit}]", fontsize=LABEL)
-    top.tick_params(labelsize=TICK, which="both")
     return SpectrumScales(1 / length.factor, density, length)
 
 

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from roughcontact.contact.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.halfspace.subsurface.fields_below import stress
 from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.raster import LABEL, TICK, colour_bar, length_scale
+from roughcontact.plot.raster import colour_bar, length_scale
+from roughcontact.plot.ticks import LABEL, label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -100,9 +101,7 @@ def von_mises_section(
         f"largest in this section {written(float(values.max()), 'Pa')}, {written(float(depths[deep]), 'm')} deep",
         fontsize=LABEL,
     )
-    axes.set_xlabel(f"x [{length.unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"depth [{length.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
+    label_axes(axes, f"x [{length.unit}]", f"depth [{length.unit}]")
     colour_bar(axes, image, f"von Mises stress [{unit.unit}]")
 
 

@@ -1,13 +1,16 @@
-"""Ticks of logarithmic axes: enough numbers to read by, few enough to stand apart."""
+"""Labels and ticks of axes: enough numbers to read by, few enough to stand apart."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
-__all__ = ["readable_ticks"]
+__all__ = ["LABEL", "TICK", "label_axes", "outer_axis", "readable_ticks"]
+
+LABEL, TICK = 9, 8  # sizes of text [points]
 
 _DECADES = 100.0  # from this ratio on, powers of ten are enough
 _STEPS = 5.0  # below it, not even 1, 2 and 5 times a power of ten are sure to occur twice
@@ -28,3 +31,26 @@ def readable_ticks(axis: Axis, ratio: float) -> None:
         axis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
         axis.set_minor_locator(ticker.NullLocator())
     axis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+
+
+def label_axes(axes: Axes, x: str, y: str, *, grid: bool = False) -> None:
+    """Write the names of both axes, in the size of all pictures; with `grid` lines at the larger ticks."""
+    axes.set_xlabel(x, fontsize=LABEL)
+    axes.set_ylabel(y, fontsize=LABEL)
+    axes.tick_params(labelsize=TICK, which="both")
+    if grid:
+        axes.grid(True, which="major", color="0.92", linewidth=0.8)
+        axes.set_axisbelow(True)
+
+
+def outer_axis(axes: Axes, side: Literal["right", "top"], name: str, functions: Any) -> Any:
+    """Return a second axis on the right or on top; two `functions` lead from the numbers of the first to its own."""
+    outer: Any
+    if side == "right":
+        outer = axes.secondary_yaxis(side, functions=functions)
+        outer.set_ylabel(name, fontsize=LABEL)
+    else:
+        outer = axes.secondary_xaxis(side, functions=functions)
+        outer.set_xlabel(name, fontsize=LABEL)
+    outer.tick_params(labelsize=TICK, which="both")
+    return outer

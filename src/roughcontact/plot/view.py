@@ -9,7 +9,8 @@ import numpy as np
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale
-from roughcontact.plot.raster import LABEL, TICK, length_scale
+from roughcontact.plot.raster import length_scale
+from roughcontact.plot.ticks import LABEL, label_axes
 
 if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
@@ -45,7 +46,7 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     from matplotlib.colors import LightSource
 
     if surface.grid.ndim != 2:
-        raise ValueError("a line scan has no view from aside: draw it with profile_curve")
+        raise ValueError("a profile has no view from aside: draw it with profile_curve")
     small = _reduced(surface)
     grid = small.grid
     length, z = length_scale(grid), scale(float(np.nanmax(np.abs(small.heights))), VARIABLES["heights"].unit)
@@ -105,8 +106,6 @@ def _box(
     if not frame:
         axes.set_axis_off()
         return
-    axes.set_xlabel(f"x [{length[1]}]", fontsize=LABEL)
-    axes.set_ylabel(f"y [{length[1]}]", fontsize=LABEL)
+    label_axes(axes, f"x [{length[1]}]", f"y [{length[1]}]")
     axes.set_zlabel(f"{VARIABLES['heights'].label} [{unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
     axes.locator_params(nbins=4)

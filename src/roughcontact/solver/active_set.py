@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.bound_constrained_cg import inner_solve
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import State, Status, Tangent, Terms
 from roughcontact.solver.direct import press_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
@@ -31,8 +31,6 @@ from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, pr
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
-from roughcontact.solver.state import State, Tangent
-from roughcontact.solver.status import Status
 from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
@@ -51,6 +49,21 @@ class ActiveSet:
     the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. For
     the half-space the influence matrix is an inverse M-matrix and the method is finite; for other operators nothing
     proves that, so that a run without progress is continued by Polonsky and Keer's method.
+
+    Parameters
+    ----------
+    max_steps : int
+        Largest number of products with the operator.
+    dense_limit : int
+        Free sets of up to so many cells are factorised.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3, solver=rc.ActiveSet(dense_limit=0))
+    >>> solution.status.value
+    'converged'
     """
 
     max_steps: int = 5000
@@ -60,7 +73,24 @@ class ActiveSet:
         require_numbers(self)
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-        """Solve for the pressure from an `initial` one, on the given terms."""
+        """Solve for the pressure.
+
+        Parameters
+        ----------
+        operator : Operator
+            Displacement [m] from pressure [Pa].
+        separation : array, shape ``operator.grid.shape``
+            Undeformed gap at first touch [m], infinite where nothing was measured.
+        terms : Terms
+            Prescribed force or depth, tolerance and hardness.
+        initial : array, shape ``operator.grid.shape``
+            Pressure to start from [Pa]; zeros will do.
+
+        Returns
+        -------
+        State
+            Pressure, depth, status, residual and number of products.
+        """
         if terms.hardness < math.inf:
             return self._run_plastic(operator, separation, terms, initial)
         conditions = Optimality.of(operator, terms)

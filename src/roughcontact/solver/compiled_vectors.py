@@ -30,7 +30,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 class CompiledVectors:
-    """The vectors of one inner solve; fields with `Operand` addresses, and F as a list of groups of cells."""
+    """The vectors of one inner solve; fields as operands of kernels, and F as a list of groups of cells."""
 
     upper = None
 

@@ -24,11 +24,9 @@ import numpy.typing as npt
 from roughcontact.arrays import beside, largest, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, self_influences
 from roughcontact.kernels import planes
-from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.control import Force, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
-from roughcontact.solver.state import State
-from roughcontact.solver.status import Status
 
 __all__ = ["SLIGHT", "resolve_contact", "weakly_active"]
 

@@ -1,19 +1,43 @@
-"""What is prescribed, and what is asked of a solver."""
+"""What a solver takes and returns: control, tolerance and hardness; pressure, residual and status."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from enum import Enum
+from typing import Any, Protocol
 
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.validation import scalar
 
-__all__ = ["Control", "Depth", "Force", "Terms", "checked_tolerance"]
+__all__ = ["Control", "Depth", "Force", "Solver", "State", "Status", "Tangent", "Terms", "checked_tolerance"]
+
+Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """Press until the contact carries `value` [N] (per unit length on a line [N/m])."""
+    """A prescribed normal force.
+
+    Parameters
+    ----------
+    value : float
+        Force that the contact carries [N], positive; on a line per unit length [N/m].
+
+    Raises
+    ------
+    ValueError
+        If the force is not positive and finite.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.Force(1.5)
+    Force(value=1.5)
+    """
 
     value: float
 
@@ -24,7 +48,24 @@ class Force:
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """Press until the bodies have approached by `value` [m] since first touch."""
+    """A prescribed indentation depth: the approach of the bodies since first touch.
+
+    Parameters
+    ----------
+    value : float
+        Depth [m], 0 or more.
+
+    Raises
+    ------
+    ValueError
+        If the depth is negative or not finite.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.Depth(1e-6)
+    Depth(value=1e-06)
+    """
 
     value: float
 
@@ -74,3 +115,65 @@ def checked_tolerance(tolerance: Any) -> float:
     if not 1e-14 < value < 1e-2:
         raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
     return value
+
+
+class Status(Enum):
+    """The outcome of a solve; `message` says it in a sentence."""
+
+    CONVERGED = "converged"
+    NO_CONTACT = "no contact"
+    MAX_STEPS = "step limit"
+    STAGNATED = "stagnated"
+
+    @property
+    def converged(self) -> bool:
+        """Whether the answer meets the tolerance that was asked for."""
+        return self in (Status.CONVERGED, Status.NO_CONTACT)
+
+    @property
+    def message(self) -> str:
+        """What happened and, where something is amiss, what to do."""
+        return _MESSAGES[self]
+
+
+_MESSAGES = {
+    Status.CONVERGED: "The answer meets the tolerance.",
+    Status.NO_CONTACT: "The bodies do not touch at this depth.",
+    Status.MAX_STEPS: "The solver ran out of steps above the tolerance; allow it more steps.",
+    Status.STAGNATED: (
+        "The residual stopped falling above the tolerance. Often rounding allows no more: ask for a larger "
+        "tolerance, or take a large offset out of the heights before they are stored; else try another solver."
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tangent:
+    """Pressure per unit depth [Pa/m] of the cells in contact, zero elsewhere, and its largest error inside."""
+
+    pressure: Array
+    error: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """The end of a solver's run over the cells of its operator.
+
+    `tangent` and `displacement`, that of the pressure, are there where the solver found them on the way.
+    """
+
+    pressure: Array
+    depth: float
+    residual: float
+    steps: int
+    status: Status
+    tangent: Tangent | None = None
+    displacement: Array | None = None
+
+
+class Solver(Protocol):
+    """Frozen settings with one method; everything that changes during a run stays inside the run."""
+
+    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given terms."""
+        ...

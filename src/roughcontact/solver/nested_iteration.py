@@ -11,9 +11,8 @@ from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Control, Depth, Terms
+from roughcontact.solver.control import Control, Depth, Solver, Terms
 from roughcontact.solver.projection import elastic_control
-from roughcontact.solver.state import Solver
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 
 __all__ = ["block_minimum", "block_separation", "coarse_operator", "nested_start"]

@@ -10,11 +10,10 @@ import numpy.typing as npt
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Depth, Terms
+from roughcontact.solver.control import Depth, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.state import State
 
 __all__ = ["press_plastic"]
 

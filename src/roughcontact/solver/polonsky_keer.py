@@ -10,12 +10,10 @@ import numpy.typing as npt
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
-from roughcontact.solver.state import State
-from roughcontact.solver.status import Status
 from roughcontact.validation import require_numbers
 
 __all__ = ["PolonskyKeer"]
@@ -25,7 +23,23 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class PolonskyKeer:
-    """Settings of the projected method: robust, and the reference for the other solver."""
+    """Settings of the projected method of Polonsky and Keer (Wear 231, 206, 1999).
+
+    Robust, and the reference for the other solver.
+
+    Parameters
+    ----------
+    max_steps : int
+        Largest number of products with the operator.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> depths = [rc.press(ball, 1e9, force=1e-3, solver=solver).depth for solver in (None, rc.PolonskyKeer())]
+    >>> f"{depths[1] / depths[0]:.6f}"
+    '1.000000'
+    """
 
     max_steps: int = 20000
 
@@ -33,12 +47,28 @@ class PolonskyKeer:
         require_numbers(self)
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-        """Solve for the pressure from an `initial` one, on the given terms.
+        """Solve for the pressure.
 
         Differs from the paper: any control, a stop by the conditions of contact instead of the step, and,
         where a step leaves too large a force, the projection on the pressures of the right one instead of a
         common factor, with which the method can cycle between two iterates. A hardness bounds the pressure from above
         as zero does from below.
+
+        Parameters
+        ----------
+        operator : Operator
+            Displacement [m] from pressure [Pa].
+        separation : array, shape ``operator.grid.shape``
+            Undeformed gap at first touch [m], infinite where nothing was measured.
+        terms : Terms
+            Prescribed force or depth, tolerance and hardness.
+        initial : array, shape ``operator.grid.shape``
+            Pressure to start from [Pa]; zeros will do.
+
+        Returns
+        -------
+        State
+            Pressure, depth, status, residual and number of products.
         """
         measure = Measure(operator.weights)
         optimality = Optimality.of(operator, terms)

@@ -76,17 +76,23 @@ def prescribed_displacement(
 
     Parameters
     ----------
-    mask : bool array
+    mask : bool array, shape ``operator.grid.shape``
         The region: the cells that carry pressure, at least one.
     displacement : float or array
         Their displacement [m]; values outside the region do not matter.
     operator : Operator
+        Displacement [m] from pressure [Pa].
     tolerance : float
         Largest error of the displacement, relative to its largest value; between 1e-14 and 1e-2.
     max_steps : int
-        Largest number of products with the operator, two at least: one for a step, one to tell how far it came.
+        Largest number of products with the operator, two at least: one for a step, one for its error.
     initial : array, optional
         A pressure [Pa] to start from.
+
+    Returns
+    -------
+    Prescribed
+        Pressure [Pa], force [N] and work [J] with the residual.
 
     Raises
     ------
@@ -96,6 +102,16 @@ def prescribed_displacement(
         of them does not fit the region, or if the operator, the tolerance or the number of steps is not one.
     RuntimeError
         If the tolerance was missed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> disc = ~np.isnan(rc.shapes.flat_disc(grid, radius=20e-6).heights)
+    >>> punch = rc.prescribed_displacement(disc, 1e-9, operator=rc.half_space(grid, 1e9))
+    >>> f"{punch.force / (2 * 1e9 * 20e-6 * 1e-9):.1f} of 2 E* a d"
+    '1.0 of 2 E* a d'
     """
     answer = prescribe(operator, mask, displacement, tolerance, max_steps, initial)
     if not answer.residual <= tolerance:

@@ -11,12 +11,10 @@ import numpy.typing as npt
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, exact_of
 from roughcontact.solver.complementarity import resolve_contact
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import Solver, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import force_multiplier
-from roughcontact.solver.state import Solver, State
-from roughcontact.solver.status import Status
 
 __all__ = ["solve_refined"]
 

@@ -16,10 +16,9 @@ from roughcontact.arrays import is_numpy
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import Solver, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.refinement import solve_refined
-from roughcontact.solver.state import Solver, State
 
 __all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict"]
 

@@ -9,9 +9,12 @@ import numpy.typing as npt
 
 from roughcontact.validation import numeric
 
-__all__ = ["PowerLaw", "fit_power_law"]
+__all__ = ["FORCE_LIMIT", "ROUNDING", "PowerLaw", "fit_power_law"]
 
 Array = npt.NDArray[np.float64]
+
+FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
+ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,22 +1,28 @@
-"""A case: what one sample of a study computes, as a pure function of its parameters and a random generator."""
+"""A case: what one sample of a study computes, as a pure function of its parameters and a random generator.
+
+Parameters are numbers in SI, or text with a unit: a model that has a field ``size: Length`` takes ``1e-3`` as well as
+``"1 mm"``, and holds 0.001 in both cases.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Case", "Parameters"]
+__all__ = ["Area", "Case", "Energy", "Force", "Length", "Parameters", "Positive", "Pressure", "Stiffness"]
 
 
 class Parameters(BaseModel):
-    """What a case may be told: a model whose fields have types and limits; unknown names are refused."""
+    """The parameters of a case: a model whose fields have types and limits; unknown names are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -47,3 +53,30 @@ class Case:
     parameters: type[Parameters]
     run: Callable[[Any, np.random.Generator], xarray.Dataset]
     fields: tuple[str, ...] = ()
+
+
+_T = TypeVar("_T")
+Positive = Annotated[_T, Field(gt=0)]
+"""``Positive[Length]``: a length above zero."""
+
+
+def _quantity(kind: Kind) -> BeforeValidator:
+    """Return what turns text with a unit of that kind into its number, and leaves numbers as they are."""
+    return BeforeValidator(_reader(kind))
+
+
+def _reader(kind: Kind) -> Callable[[Any], Any]:
+    def read(value: Any) -> Any:
+        if isinstance(value, bool):
+            raise ValueError(f"{value} is not {kind.name}; expected {kind.name} such as {kind.example!r}")
+        return parse(value, kind) if isinstance(value, str) else value
+
+    return read
+
+
+Length = Annotated[float, _quantity(LENGTH)]
+Pressure = Annotated[float, _quantity(PRESSURE)]
+Force = Annotated[float, _quantity(FORCE)]
+Area = Annotated[float, _quantity(Kind("an area", "m**2", "1mm**2"))]
+Stiffness = Annotated[float, _quantity(Kind("a stiffness", "N/m", "1MN/m"))]
+Energy = Annotated[float, _quantity(Kind("an energy", "J", "1mJ"))]

@@ -2,52 +2,38 @@
 
 from __future__ import annotations
 
+import itertools
+import json
+import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from roughcontact import __version__
-from roughcontact.files.write import WriteError, write_netcdf
+from roughcontact.files.aside import WriteError
+from roughcontact.files.write import write_netcdf
+from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
 from roughcontact.study.gathering import Gathering
-from roughcontact.study.layout import layout_of
 from roughcontact.study.long_table import write_long_csv
+from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.study.case import Parameters
+    from roughcontact.study.record import Row
     from roughcontact.study.store import Store
     from roughcontact.study.study import Study
 
-__all__ = ["CaseRow", "assemble", "export", "write_export"]
+__all__ = ["assemble", "export", "write_export"]
 
 _CONVENTIONS = {"Conventions": "CF-1.11"}
-
-
-class CaseRow(Protocol):
-    """What is known of one case, such as a row of a store."""
-
-    @property
-    def key(self) -> str:
-        """Its key."""
-
-    @property
-    def status(self) -> str:
-        """Either ``"done"`` or ``"failed"``."""
-
-    @property
-    def seconds(self) -> float:
-        """Wall time of the computation."""
-
-    @property
-    def version(self) -> str:
-        """The roughcontact that computed it."""
-
-    @property
-    def record(self) -> xarray.Dataset | None:
-        """What was computed; None of a failed case."""
+_UNITS = ((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J"))
+Triple = tuple[tuple[str, ...], Any, dict[str, str]]
 
 
 def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
@@ -63,7 +49,7 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     return assemble(store.study, store.rows(), seconds=seconds)
 
 
-def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) -> xarray.Dataset:
+def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xarray.Dataset:
     """Return the records of a study side by side.
 
     Dimensions are the names of the study's table in their order (``row`` first, where it has rows), ``sample``, and
@@ -80,7 +66,7 @@ def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) ->
     Parameters
     ----------
     study : Study
-    rows : iterable of CaseRow
+    rows : iterable of Row
         In any order; what does not belong to the study is left out.
     seconds : bool
         Whether to have the time that each case took. Without, exports of the same study are the same wherever and
@@ -93,7 +79,7 @@ def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) ->
     """
     import xarray
 
-    layout = layout_of(study)
+    layout = _layout_of(study)
     outer, cases = tuple(layout.sizes), tuple(layout.sizes.values())
     status = np.full(cases, "missing")
     times = np.full(cases, np.nan)
@@ -114,11 +100,14 @@ def assemble(study: Study, rows: Iterable[CaseRow], *, seconds: bool = False) ->
     data["case_status"] = (outer, status, {"long_name": "whether the case is done, failed or missing"})
     if seconds:
         data["case_seconds"] = (outer, times, {"long_name": "wall time of the case", "units": "s"})
-    told = {"source": f"roughcontact {', '.join(sorted(versions)) or __version__}", "study": study.to_toml()}
+    source = {
+        "source": f"roughcontact {', '.join(sorted(versions)) or __version__}",
+        "study": study.to_toml(),
+    }
     return xarray.Dataset(
         data,
         {**layout.coordinates, **coordinates, **constants},
-        {**_CONVENTIONS, **gathering.attributes, **told},
+        {**_CONVENTIONS, **gathering.attributes, **source},
     )
 
 
@@ -139,3 +128,99 @@ def write_export(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         write_long_csv(dataset, path)
     else:
         raise WriteError(f"cannot write {path}: a study is exported as .nc or .csv")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Layout:
+    """The dimensions of a study: its rows, its table, its samples.
+
+    Attributes
+    ----------
+    sizes : dict of int
+        By name, in order; ``sample`` is the last.
+    coordinates : dict
+        What varies, by name: dimensions, values and attributes.
+    constants : dict
+        What does not, in the same form.
+    places : dict
+        Of every case, by its key.
+    """
+
+    sizes: Mapping[str, int]
+    coordinates: Mapping[str, Triple]
+    constants: Mapping[str, Triple]
+    places: Mapping[str, tuple[int, ...]]
+
+
+def _layout_of(study: Study) -> _Layout:
+    """Return the layout of a study.
+
+    A name of its table is a dimension, in the order of the table. Combinations spelt out as rows make a dimension
+    ``row``, along which lie the values of all names that occur in them.
+
+    Raises
+    ------
+    StudyError
+        If a parameter that varies is called ``row`` or ``sample``.
+    """
+    found = study.combinations()
+    combinations = [each.model_dump(mode="json") for each in found]
+    in_rows = list(dict.fromkeys(name for row in study.rows for name in row))
+    if taken := sorted({"row", "sample"} & {*in_rows, *study.table}):
+        raise StudyError(
+            f"a parameter that varies cannot be called {taken[0]!r}: this is a dimension of its own"
+        )
+
+    units = _units_of(type(found[0]))
+    values = {name: _distinct([each[name] for each in combinations]) for name in study.table}
+    sizes = {name: len(each) for name, each in values.items()}
+    in_one_row = math.prod(sizes.values())
+    coordinates = {name: _coordinate((name,), each, units.get(name)) for name, each in values.items()}
+    if study.rows:
+        sizes = {"row": len(study.rows)} | sizes
+        coordinates["row"] = (("row",), np.arange(len(study.rows)), {"long_name": "row of the study"})
+        for name in in_rows:
+            along = [each[name] for each in combinations[::in_one_row]]
+            coordinates[name] = _coordinate(("row",), along, units.get(name))
+    coordinates["sample"] = (("sample",), np.arange(study.samples), {"long_name": "number of the sample"})
+    constants = {
+        name: _coordinate((), value, units.get(name))
+        for name, value in combinations[0].items()
+        if name not in coordinates and isinstance(value, bool | int | float | str)
+    }
+    shape = tuple(sizes.values())
+    places = {}
+    for number, task in enumerate(study.tasks()):
+        place = np.unravel_index(number % len(combinations), shape) if shape else ()
+        places[task.key] = (*map(int, place), task.sample)
+    return _Layout(sizes | {"sample": study.samples}, coordinates, constants, places)
+
+
+def _units_of(model: type[Parameters]) -> dict[str, str]:
+    """Return the SI units of those parameters that are declared as quantities."""
+    units: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        # A quantity that may be none carries its marks one level down.
+        parts = [getattr(part, "__metadata__", ()) for part in get_args(field.annotation)]
+        marks = [*field.metadata, *itertools.chain(*parts)]
+        units.update((name, unit) for kind, unit in _UNITS if get_args(kind)[1] in marks)
+    return units
+
+
+def _distinct(values: Sequence[Any]) -> list[Any]:
+    """Return values in the order in which they first occur."""
+    return list({json.dumps(each, sort_keys=True): each for each in values}.values())
+
+
+def _coordinate(dimensions: tuple[str, ...], values: Any, unit: str | None) -> Triple:
+    """Return values as numbers, truths or words; what is none of these, alone or among others, as JSON."""
+    each = values if dimensions else [values]
+    kinds = {type(value) for value in each}
+    if kinds <= {int, float, type(None)} and kinds != {type(None)}:
+        values = np.array([math.nan if value is None else value for value in each])
+    elif kinds in ({bool}, {str}):
+        values = np.array(each)
+    else:
+        values = np.array([value if isinstance(value, str) else json.dumps(value) for value in each])
+    attributes = {"long_name": "parameter of the case"} | ({"units": unit} if unit else {})
+    return dimensions, values if dimensions else values[0], attributes

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.files.netcdf_bytes import netcdf_bytes
+from roughcontact.files.write import netcdf_bytes
 from roughcontact.study.study_errors import StoreError, computed_again, disk_trouble
 
 if TYPE_CHECKING:

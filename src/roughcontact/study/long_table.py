@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.aside import written_aside
+from roughcontact.files.write import plain_cells, scale_remark, units_remark, write_table
 
 if TYPE_CHECKING:
     import xarray
@@ -38,17 +37,14 @@ def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> Non
     columns, left_out = _columns(dataset, points)
     sizes = {d: dataset.sizes[d] for d in points} or {"": 1}  # scalars alone make one line
     cells = {name: _laid(values.variable, sizes) for name, values in columns.items()}
-    with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="\n") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        # A remark is one line: a break within it becomes a bar.
-        remarks = _remarks(dataset, columns, left_out)
-        file.writelines(f"# {' | '.join(each.splitlines())}\n" for each in remarks)
-        kept = np.flatnonzero(_kept(dataset, points, sizes))
+    kept = np.flatnonzero(_kept(dataset, points, sizes))
+
+    def rows() -> Iterator[tuple[Any, ...]]:
         for start in range(0, len(kept), _AT_ONCE):
             chunk = np.unravel_index(kept[start : start + _AT_ONCE], tuple(sizes.values()))
-            # Of a real number the writer writes all digits, by `repr`.
-            table.writerows(zip(*(_plain(values[chunk]).tolist() for values in cells.values()), strict=True))
+            yield from zip(*(plain_cells(values[chunk]).tolist() for values in cells.values()), strict=True)
+
+    write_table(path, columns, _remarks(dataset, columns, left_out), rows())
 
 
 def _points(dataset: xarray.Dataset) -> tuple[Any, ...]:
@@ -82,14 +78,10 @@ def _columns(
 def _remarks(
     dataset: xarray.Dataset, columns: dict[str, xarray.DataArray], left_out: list[xarray.DataArray]
 ) -> Iterator[str]:
-    units = {name: values.attrs["units"] for name, values in columns.items() if "units" in values.attrs}
-    yield f"units: {', '.join(f'{name} [{unit}]' for name, unit in units.items())}"
+    yield units_remark(columns)
     for name, values in {**dataset.coords, **dataset.data_vars}.items():
         if values.dims in ((), ("axis",)) and name != "axis" and str(name) not in columns:
-            numbers = ", ".join(str(value) for value in _plain(values.to_numpy()).reshape(-1).tolist())
-            axes = f" ({', '.join(map(str, values['axis'].to_numpy()))})" if values.dims else ""
-            unit = values.attrs.get("units", "1")
-            yield f"{name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
+            yield scale_remark(values)
     for values in left_out:
         yield f"not in this table: {values.name} ({', '.join(map(str, values.dims))})"
     if "case_status" in dataset:
@@ -114,8 +106,3 @@ def _laid(variable: xarray.Variable, sizes: dict[Any, int]) -> npt.NDArray[Any]:
     known = variable.transpose(*(d for d in sizes if d in variable.dims)).to_numpy()
     shaped = known[tuple(slice(None) if d in variable.dims else np.newaxis for d in sizes)]
     return np.broadcast_to(shaped, tuple(sizes.values()))
-
-
-def _plain(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return values with 1 and 0 for truths."""
-    return values.astype(np.int8) if values.dtype.kind == "b" else values

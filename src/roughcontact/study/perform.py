@@ -10,9 +10,8 @@ from contextlib import AbstractContextManager
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from roughcontact.study.key import generator
 from roughcontact.study.record import require_record
-from roughcontact.study.task import Outcome, Task
+from roughcontact.study.task import Outcome, Task, generator
 from roughcontact.threads import controller, limit_threads
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from roughcontact.study.store import Store
 
 if TYPE_CHECKING:
     from roughcontact.study.study import Study
-    from roughcontact.study.summary import Summary
-    from roughcontact.study.task import Executor, Outcome
+    from roughcontact.study.task import Executor, Outcome, Summary
 
 __all__ = ["run"]
 

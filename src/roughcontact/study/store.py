@@ -11,26 +11,27 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from filelock import FileLock, Timeout
+
 from roughcontact import __version__
 from roughcontact.files.aside import WriteError
+from roughcontact.study.cases import find_case
 from roughcontact.study.field_files import parted, read_fields, tidied, write_fields
-from roughcontact.study.growth import require_growth
-from roughcontact.study.lock import locked
-from roughcontact.study.record import encode, residual_of
-from roughcontact.study.row import COLUMNS, Row, checksum
+from roughcontact.study.record import COLUMNS, Row, checksum, encode, residual_of
 from roughcontact.study.schema import DATABASE, connected, guarded, made, patiently
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError, StudyError, computed_again, disk_trouble
-from roughcontact.study.summary import Summary
+from roughcontact.study.task import Summary, canonical
 
 if TYPE_CHECKING:
     import xarray
 
     from roughcontact.study.task import Outcome, Task
 
-__all__ = ["STUDY", "Row", "Store", "Summary"]
+__all__ = ["STUDY", "Store"]
 
 STUDY = "study.toml"
+_ELSEWHERE = "choose another folder for this one"
 _INSERT = f"""
 INSERT INTO cases ({", ".join(COLUMNS)}) VALUES ({", ".join("?" * len(COLUMNS))})
 ON CONFLICT (key) DO UPDATE SET {", ".join(f"{name} = excluded.{name}" for name in COLUMNS)}
@@ -88,10 +89,10 @@ class Store:
                 place.mkdir(parents=True, exist_ok=True)
             except OSError as error:
                 raise disk_trouble(place, "there is no such folder, and it cannot be made", error) from error
-            held.callback(locked(place).release)
+            held.callback(_locked(place).release)
             before = _kept(place) if (place / STUDY).exists() else None
             if before is not None:
-                require_growth(place, before, study)
+                _require_growth(place, before, study)
             made(place)
             connection = connected(place, write=True)
             held.callback(connection.close)
@@ -249,3 +250,57 @@ def _keep(folder: Path, study: Study) -> None:
         study.write(folder / STUDY)
     except WriteError as error:
         raise disk_trouble(folder, f"{STUDY} cannot be written", error.__cause__ or error) from error
+
+
+def _locked(folder: Path) -> FileLock:
+    """Return the lock of a store, taken.
+
+    Raises
+    ------
+    StoreError
+        If another process holds it, or the folder cannot be written.
+    """
+    lock = FileLock(folder / "lock")
+    try:
+        lock.acquire(timeout=0)
+    except Timeout:
+        raise StoreError(
+            folder,
+            "another process is running a study in this folder",
+            "wait for its end, or stop it with Ctrl-C; 'roughcontact study status' works meanwhile",
+        ) from None
+    except (OSError, NotImplementedError) as error:  # the latter where a file system has no locks
+        raise disk_trouble(folder, "the folder cannot be locked for writing", error) from error
+    return lock
+
+
+def _require_growth(folder: Path, before: Study, now: Study) -> None:
+    """Refuse a study that is another than `before`, or less of it.
+
+    Raises
+    ------
+    StoreError
+        If name, case or seed differ, or if samples or combinations are gone.
+    """
+    for what, one, other in (
+        ("name", before.name, now.name),
+        ("case", find_case(before.case).name, find_case(now.case).name),
+        ("seed", before.seed, now.seed),
+    ):
+        if one != other:
+            raise StoreError(folder, f"it holds a study with the {what} {one!r}, not {other!r}", _ELSEWHERE)
+    if now.samples < before.samples:
+        raise StoreError(
+            folder,
+            f"it holds {before.samples} samples, and this study has {now.samples}",
+            f"give {before.samples} or more, run the folder itself, or {_ELSEWHERE}",
+        )
+    kept = {canonical(each) for each in now.combinations()}
+    for each in before.combinations():
+        text = canonical(each)
+        if text not in kept:
+            raise StoreError(
+                folder,
+                f"it holds cases that this study has not ({text})",
+                f"add to its table and leave what is there, run the folder itself, or {_ELSEWHERE}",
+            )

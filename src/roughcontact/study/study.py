@@ -5,8 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 import os
+import re
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -23,20 +24,82 @@ from pydantic import (
 )
 
 from roughcontact.files.aside import written_aside
-from roughcontact.study.case import Parameters
+from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
-from roughcontact.study.explain import explained, meant
-from roughcontact.study.given import case_name, entry, plain, study_name
-from roughcontact.study.key import canonical, key_of
 from roughcontact.study.ranges import Range
-from roughcontact.study.study_errors import StudyError
-from roughcontact.study.task import Task
+from roughcontact.study.study_errors import StudyError, explained, meant
+from roughcontact.study.task import Task, canonical, key_of
 from roughcontact.study.toml import toml_of
 
 __all__ = ["Study"]
 
 MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
 _TOO_DEEP = "its values are nested too deeply to be read: no parameter needs more than a list or two"
+
+
+def _study_name(name: str) -> str:
+    """Return the name of a study, which must do as the name of a folder on every system.
+
+    Raises
+    ------
+    ValueError
+        If it does not.
+    """
+    if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name, re.ASCII) is None:
+        raise ValueError(
+            f"{name!r} is no name for a study: use letters, digits, '-', '_' and '.', and begin with a letter or digit"
+        )
+    return name
+
+
+def _case_name(case: Any) -> Any:
+    """Return the name of a case; other processes need it to find the case.
+
+    Raises
+    ------
+    ValueError
+        If it is a case itself.
+    """
+    if isinstance(case, Case):
+        raise ValueError(
+            f"name the case {case.name!r} by its module, such as 'mycases:CASE', so that other processes can import it"
+        )
+    return case
+
+
+def _plain(value: Any) -> Any:
+    """Return arrays and numbers of NumPy, at any depth, as lists and numbers of Python."""
+    if isinstance(value, Mapping):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(each) for each in value]
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
+def _entry(value: Any) -> Range | tuple[Any, ...]:
+    """Return the values of one parameter of a table.
+
+    Raises
+    ------
+    ValueError
+        If they are neither a list nor a range.
+    """
+    value = _plain(value)
+    if isinstance(value, Range):
+        return value
+    if isinstance(value, Mapping):
+        try:
+            return Range.model_validate(value)
+        except ValidationError as error:
+            raise ValueError(explained(error, Range.model_fields)) from None
+    if not isinstance(value, list):
+        raise ValueError(
+            f"{value!r} is neither a list nor a range: a single value is given under parameters, a range as "
+            "{ start = 0.1, stop = 0.9, count = 9 }"
+        )
+    if not value:
+        raise ValueError("the list is empty: give one value or more")
+    return tuple(value)
 
 
 class Study(BaseModel):
@@ -67,13 +130,13 @@ class Study(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    name: Annotated[str, AfterValidator(study_name)]
-    case: Annotated[str, BeforeValidator(case_name)]
-    seed: Annotated[int, BeforeValidator(plain), Field(ge=0, strict=True)] = 0
-    samples: Annotated[int, BeforeValidator(plain), Field(ge=1, strict=True)] = 1
-    parameters: Annotated[dict[str, Any], BeforeValidator(plain)] = {}
-    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(entry)]] = {}
-    rows: Annotated[tuple[dict[str, Any], ...], BeforeValidator(plain)] = ()
+    name: Annotated[str, AfterValidator(_study_name)]
+    case: Annotated[str, BeforeValidator(_case_name)]
+    seed: Annotated[int, BeforeValidator(_plain), Field(ge=0, strict=True)] = 0
+    samples: Annotated[int, BeforeValidator(_plain), Field(ge=1, strict=True)] = 1
+    parameters: Annotated[dict[str, Any], BeforeValidator(_plain)] = {}
+    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(_entry)]] = {}
+    rows: Annotated[tuple[dict[str, Any], ...], BeforeValidator(_plain)] = ()
 
     def __init__(self, **values: Any) -> None:
         try:

@@ -1,17 +1,21 @@
-"""One case of a study to be computed, and what came of it."""
+"""One case of a study to be computed: what names it, what its randomness is made of, and what came of it."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
 
 if TYPE_CHECKING:
     import xarray
 
     from roughcontact.study.case import Case, Parameters
 
-__all__ = ["Executor", "Outcome", "Perform", "Task"]
+__all__ = ["Executor", "Outcome", "Perform", "Summary", "Task", "canonical", "generator", "key_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,3 +83,52 @@ class Executor(Protocol):
         WorkersError
             If the workers do not start, cannot load the case, or are gone for good.
         """
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """How far a study is.
+
+    Parameters
+    ----------
+    done, failed, left : int
+        Cases.
+    seconds : float
+        Time that the run has taken.
+    """
+
+    done: int
+    failed: int
+    left: int
+    seconds: float = 0.0
+
+    @property
+    def total(self) -> int:
+        """Number of cases of the study."""
+        return self.done + self.failed + self.left
+
+    def after(self, *, failed: bool, seconds: float) -> Summary:
+        """Return how far it is with one case more."""
+        return Summary(self.done + (not failed), self.failed + failed, self.left - 1, seconds)
+
+    def with_failed_left(self) -> Summary:
+        """Return the same with the failed cases among those that are left, to be tried again."""
+        return Summary(self.done, 0, self.left + self.failed, self.seconds)
+
+
+def canonical(parameters: Parameters) -> str:
+    """Return parameters as JSON that is the same for equal ones: names sorted, no blanks, every digit of a number."""
+    return json.dumps(
+        parameters.model_dump(mode="json"), sort_keys=True, separators=(",", ":"), allow_nan=False
+    )
+
+
+def key_of(case: Case, parameters: str, *, seed: int, sample: int) -> str:
+    """Return the key of one sample of a case with `canonical` parameters: 64 hexadecimal digits."""
+    text = json.dumps([case.name, case.version, seed, sample], separators=(",", ":")) + parameters
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def generator(seed: int, sample: int) -> np.random.Generator:
+    """Return the generator of a sample: of the seed of the study and its number alone, so that samples are paired."""
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(sample,)))

@@ -12,9 +12,9 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.study import statistics
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import force_window
+from roughcontact import statistics
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.theory import greenwood_williamson
 from roughcontact.thesis import drawing

@@ -11,25 +11,24 @@ from typing import Any
 import numpy as np
 import xarray
 
-from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.ensemble_mean import Mean
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import Window, window_of
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE, Window, window_of
+from roughcontact.statistics.samples import count
 from roughcontact.study.ranges import Range
-from roughcontact.study.statistics import count
 from roughcontact.study.study import Study
+from roughcontact.thesis.averaging import converged, curve_statistics, surface_study, without_parameters
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import WINDOWED, line_averages, line_fits
-from roughcontact.thesis.samples import converged, curve_statistics, surface_study, without_parameters
 
 __all__ = [
     "HURST",
     "coarse_square_study",
     "curve_averages",
     "curve_fits",
+    "full_contact_study",
     "laws",
     "resolution_studies",
-    "full_contact_study",
     "sphere_study",
     "square_study",
 ]

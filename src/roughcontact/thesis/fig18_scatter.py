@@ -6,12 +6,12 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.contact.stiffness import CELLS
+from roughcontact.statistics.fit_window import CELLS
 from roughcontact.thesis import drawing
+from roughcontact.thesis.averaging import without_parameters
 from roughcontact.thesis.ensembles import curve_averages, square_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_averages, line_studies
-from roughcontact.thesis.samples import without_parameters
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged
 
 __all__ = ["averages", "draw", "studies", "verdicts"]

@@ -8,7 +8,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.contact.stiffness import CELLS
+from roughcontact.statistics.fit_window import CELLS
 from roughcontact.theory.punch.polygon import SQUARE
 from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import curve_averages, curve_fits, full_contact_study

@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.theory import gaussian_heights
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import Scale, Studies

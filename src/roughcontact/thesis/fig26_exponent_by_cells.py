@@ -6,12 +6,12 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.study.common import on_common
-from roughcontact.study.fit_window import force_window
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit_window import force_window
 from roughcontact.thesis import drawing
+from roughcontact.thesis.averaging import without_parameters
 from roughcontact.thesis.ensembles import curve_averages, curve_fits, resolution_studies
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.samples import without_parameters
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]

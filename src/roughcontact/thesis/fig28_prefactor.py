@@ -9,13 +9,13 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughcontact.study.common import on_common
+from roughcontact.statistics.common_forces import on_common
 from roughcontact.theory import pohrt_popov
 from roughcontact.thesis import drawing
+from roughcontact.thesis.averaging import without_parameters
 from roughcontact.thesis.ensembles import coarse_square_study, curve_averages, laws, square_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_averages, line_studies
-from roughcontact.thesis.samples import without_parameters
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, series, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]

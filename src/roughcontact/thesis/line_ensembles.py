@@ -10,13 +10,13 @@ import numpy as np
 import xarray
 
 from roughcontact.statistics.ensemble_mean import Mean
-from roughcontact.study.fit import fit_power_laws
-from roughcontact.study.fit_window import Window, resolved_window
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import Window, resolved_window
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
 from roughcontact.theory import gaussian_heights
+from roughcontact.thesis.averaging import curve_statistics
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.samples import curve_statistics
 
 __all__ = [
     "HURST",

@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 import xarray
 
-from roughcontact.contact.stiffness import CELLS
 from roughcontact.mdr.calibration import force_ratio
+from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
-from roughcontact.study.bootstrap import counts_of
-from roughcontact.thesis.samples import converged
+from roughcontact.statistics.fit_window import CELLS
+from roughcontact.thesis.averaging import converged
 
 __all__ = ["Ensemble", "Match", "match", "pairs"]
 

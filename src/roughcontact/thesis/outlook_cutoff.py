@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from scipy.special import erf
 
 import roughcontact as rc
-from roughcontact.contact.stiffness import CELLS
-from roughcontact.study.common import on_common
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit_window import CELLS
 from roughcontact.study.study import Study
 from roughcontact.theory import persson
-from roughcontact.thesis import drawing, samples
+from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, plus_minus
 
@@ -50,7 +50,7 @@ def cutoff_study(scale: Scale) -> Study:
     waves = [8 * 2**i for i in range(5)]
     pairs = [(points, count) for points in sizes for count in waves if points >= LEAST * count]
     forces = {"lowest_force": 1e-3, "highest_force": 0.3, "loads": 16, "tolerance": 1e-6}
-    return samples.outlook_study(
+    return averaging.outlook_study(
         "cutoff",
         scale,
         {"drawn_on": sizes[-1]} | forces,
@@ -72,7 +72,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``area_change``, these over those with all waves on the finest grid, sample by sample; ``slope`` g, and
         ``persson`` his A/L^2; ``cell_stiffness`` k/(E* L) of a cell. NaN where a wave has too few cells.
     """
-    given = samples.converged(exported)
+    given = averaging.converged(exported)
     whole = _whole(given)
     # Higher waves on the same body: a surface of any amplitude has the same contact at a force in proportion.
     curves = given[["stiffness"]].assign(
@@ -82,14 +82,16 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     )
     common = on_common(curves, FORCES, at="force")
     changes = {f"{name}_change": common[name] / common[name].isel(row=-1) for name in ("stiffness", "area")}
-    found = samples.means({name: common[name] for name in ("stiffness", "area", "spread")} | changes)
-    slope = samples.same_for_all(given["rms_slope"]) * whole
+    found = averaging.means({name: common[name] for name in ("stiffness", "area", "spread")} | changes)
+    slope = averaging.same_for_all(given["rms_slope"]) * whole
     found["slope"] = slope.assign_attrs(long_name="rms slope", units="1")
-    found["cell_stiffness"] = samples.same_for_all(given["cell_stiffness"])
+    found["cell_stiffness"] = averaging.same_for_all(given["cell_stiffness"])
     found["persson"] = _persson(found["force"] * float(given["rms"].mean()), slope)
     waves = (1 / given["short_cutoff"]).round().astype(int)
     indexed = (
-        samples.without_parameters(found).drop_vars("short_cutoff").assign_coords(waves=("row", waves.values))
+        averaging.without_parameters(found)
+        .drop_vars("short_cutoff")
+        .assign_coords(waves=("row", waves.values))
     )
     rows = indexed.set_index(row=["points", "waves"])
     return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])

@@ -11,7 +11,7 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughcontact.thesis import drawing, samples
+from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, spanned
 
@@ -39,7 +39,7 @@ def studies(scale: Scale) -> Studies:
     """Return the one study: free and periodic, with and without a roll-off."""
     points = _POINTS[scale]
     forces = {"lowest_force": LOADS[0], "highest_force": LOADS[1], "loads": 41, "tolerance": 1e-8}
-    study = samples.outlook_study(
+    study = averaging.outlook_study(
         "energy",
         scale,
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
@@ -82,7 +82,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``by_gap_interfacial``, the latter with the interfacial energy; ``between`` is the force in the middle.
         ``whole_by_approach`` and ``whole_by_gap`` are the former two from the first load to the last.
     """
-    given = samples.without_parameters(samples.converged(exported))
+    given = averaging.without_parameters(averaging.converged(exported))
     # Without contact the gap is the mean separation. A periodic body does not sink in, and has the same heights.
     separation = (given["mean_gap"] + given["depth"]).sel(periodic=True).isel(load=0)
     sunk = given["mean_gap"] + given["depth"] - separation.drop_vars("periodic")
@@ -92,7 +92,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     closing = work(force, -given["mean_gap"], given["interfacial_stiffness"])
     whole = _grown(energy).sum("interval")
     height = float(exported["rms"].mean())
-    found = samples.means(
+    found = averaging.means(
         {
             "length": energy / force / height,
             "interfacial_length": interfacial / force / height,
@@ -108,7 +108,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     loads = given["dimensionless_force"]
     found["force"] = loads
     found["between"] = np.sqrt(_first(loads) * (_first(loads) + _grown(loads)))
-    return found.assign_attrs(samples.counts(exported))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

@@ -17,10 +17,10 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.interaction import SQUARE
-from roughcontact.thesis import drawing, samples
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import RMS, logarithm
 from roughcontact.thesis.cell_law import cells_stiffness, exponential_rate, single_cell_stiffness
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.samples import RMS, logarithm
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, listed, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -58,7 +58,7 @@ def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
     points = _POINTS[scale]
     forces = {"lowest_force": 1e-3, "highest_force": 3.0, "loads": 17, "tolerance": 1e-6}
-    study = samples.outlook_study(
+    study = averaging.outlook_study(
         "flat",
         scale,
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
@@ -84,30 +84,30 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``long`` (row), L over the longest wave, and ``kind``, "cut-off" or "roll-off"; ``force`` F/(E* h L);
         ``window``.
     """
-    given = samples.without_parameters(samples.converged(exported))
+    given = averaging.without_parameters(averaging.converged(exported))
     force = given["dimensionless_force"]
     interfacial, area = given["interfacial_stiffness"], given["contact_area"]
     cutoff, rolloff = given["long_cutoff"], given["rolloff"]
     length = cutoff.fillna(rolloff)
     model = _of_cells(given["below"].isel(periodic=1, drop=True) / RMS, length, force)
     cells, decay = model["cells"], model["decay"]
-    floor = 20 * samples.same_for_all(given["cell_stiffness"])
+    floor = 20 * averaging.same_for_all(given["cell_stiffness"])
     window = (force >= MANY * length) & (area.mean("sample") <= FULL) & (interfacial.mean("sample") > floor)
     held = interfacial.where(window)
     alone = xarray.apply_ufunc(single_cell_stiffness, length, force, HURST)
     nearest = abs(logarithm(force / length / pohrt_popov.FORCE_LIMIT)).argmin("load")
 
     def typical(ratio: xarray.DataArray) -> xarray.DataArray:
-        return samples.exponential(logarithm(ratio).mean("load"))
+        return averaging.exponential(logarithm(ratio).mean("load"))
 
-    found = samples.means(
+    found = averaging.means(
         {
             "stiffness": given["stiffness"],
             "interfacial": interfacial,
             "area": area,
             "cells": cells,
             "decay": decay,
-            "exponent": samples.slope(logarithm(held), logarithm(force), "load"),
+            "exponent": averaging.slope(logarithm(held), logarithm(force), "load"),
             "level": typical(held / force),
             "over_decay": typical(held / force / decay),
             "alone": (given["stiffness"] / alone).isel(load=nearest),

@@ -9,8 +9,8 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.study.common import on_common
-from roughcontact.thesis import drawing, samples
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, plus_minus, spanned
 
@@ -56,7 +56,7 @@ def studies(scale: Scale) -> Studies:
         rows.append({"short_cutoff": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
     depths = {"lowest_depth": 0.2, "highest_depth": 2.8, "loads": 16}
     parameters = {"points": points, "hurst": HURST} | depths
-    study = samples.outlook_study(
+    study = averaging.outlook_study(
         "hardness", scale, parameters, case="yielding", seed=SEED, samples=_SAMPLES, rows=rows
     )
     return (study,)
@@ -75,7 +75,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         those without a ceiling and with all waves. ``elastic_..._grown`` and ``ceiling_..._grown``: by which part
         stiffness of the region and area grow from the fewest waves to all. ``slope`` along ``waves``.
     """
-    given = samples.converged(exported)
+    given = averaging.converged(exported)
     points = int(given["points"])
     heights = {each: _moments(points, each).rms_height for each in np.unique(given["short_cutoff"].values)}
     whole = given["short_cutoff"].copy(data=[heights[each] for each in given["short_cutoff"].values])
@@ -99,7 +99,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         for name in ("region_stiffness", "area"):
             first, last = (common[name].isel(row=rows[i], drop=True) for i in (0, -1))
             values[f"{kind}_{name}_grown"] = last / first - 1
-    every = samples.without_parameters(samples.means(values))
+    every = averaging.without_parameters(averaging.means(values))
     ceilings = [np.inf, *CEILINGS]
     found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
     waves = (1 / given["short_cutoff"].values).round().astype(int)
@@ -108,10 +108,10 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)], "kind"
     )
     along = along.assign_coords(waves=waves[elastic], kind=["elastic", "ceiling"])
-    slope = (samples.same_for_all(given["rms_slope"]) * whole).values[elastic]
+    slope = (averaging.same_for_all(given["rms_slope"]) * whole).values[elastic]
     found = found.assign({f"waves_{name}": each for name, each in along.data_vars.items()})
     found["slope"] = "waves", slope, {"long_name": "rms slope", "units": "1"}
-    return found.assign_attrs(samples.counts(exported))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:

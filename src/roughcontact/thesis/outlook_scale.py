@@ -11,10 +11,10 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.thesis import drawing, samples
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import logarithm
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.outlook_cutoff import cutoff_study
-from roughcontact.thesis.samples import logarithm
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, plus_minus
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -51,7 +51,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         window with all waves; ``same_force``, the logarithm of the stiffness over that of the smallest size at one
         force.
     """
-    given = samples.without_parameters(samples.converged(exported))
+    given = averaging.without_parameters(averaging.converged(exported))
     fine = given.isel(row=np.flatnonzero(given["points"] == given["points"].max()))
     fine = fine.assign_coords(row=(1 / fine["short_cutoff"]).round().astype(int).values).rename(row="waves")
     fine = fine.drop_vars(["points", "short_cutoff"])
@@ -63,20 +63,20 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     mean_log = log_zeta.isel(load=inside).mean("load")
     octave = mean_log + logarithm(_octave(exported)) / (hurst + 1)
     sizes, forces = logarithm(waves), logarithm(loads.isel(load=inside))
-    found = samples.means(
+    found = averaging.means(
         {
             "zeta_at": zeta,
             "same_force": _at_one_force(log_zeta, logarithm(loads)),
-            "zeta": samples.exponential(mean_log),
-            "zeta_octave": samples.exponential(octave),
-            "growth": samples.slope(mean_log, sizes, "waves"),
-            "growth_octave": samples.slope(octave, sizes, "waves"),
-            "steepness": samples.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
+            "zeta": averaging.exponential(mean_log),
+            "zeta_octave": averaging.exponential(octave),
+            "growth": averaging.slope(mean_log, sizes, "waves"),
+            "growth_octave": averaging.slope(octave, sizes, "waves"),
+            "steepness": averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
         }
     )
     found["force"] = loads * waves.astype(float) ** (hurst + 1)
     found["dimensionless_force"] = loads
-    return found.assign_attrs(samples.counts(exported))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _at_one_force(log_zeta: xarray.DataArray, log_loads: xarray.DataArray) -> xarray.DataArray:

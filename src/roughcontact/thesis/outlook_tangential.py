@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicHermiteSpline
 
 from roughcontact.theory import mindlin, pohrt_popov
-from roughcontact.thesis import drawing, samples
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import RMS
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.samples import RMS
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -43,7 +43,7 @@ _SAMPLES = {"small": 10, "thesis": 20}
 def studies(scale: Scale) -> Studies:
     """Return the one study: three Hurst exponents, three Poisson's ratios."""
     forces = {"lowest_force": 3e-3, "highest_force": 0.3, "loads": 9, "pulls": 10}
-    study = samples.outlook_study(
+    study = averaging.outlook_study(
         "tangential",
         scale,
         {"points": _POINTS[scale], "friction": FRICTION} | forces,
@@ -68,12 +68,12 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         the parts ``pulled`` of mu F, and ``path_by_depth`` what the normal loading curve says. ``force`` F/(E* h L);
         ``resolved`` where k stands above 20 cells.
     """
-    given = samples.without_parameters(samples.converged(exported))
+    given = averaging.without_parameters(averaging.converged(exported))
     disc = given["poisson_ratio"].copy(data=[mindlin.ratio(float(nu)) for nu in given["poisson_ratio"]])
     force, depth = given["dimensionless_force"], given["depth"]
     moved = given["tangential_displacement"] / (FRICTION * disc * depth)
     principal = given["principal_stiffness"]
-    found = samples.means(
+    found = averaging.means(
         {
             "ratio": given["stiffness"] / given["tangential_stiffness"] / disc,
             "axes": principal.isel(principal=1) / principal.isel(principal=0),
@@ -88,9 +88,9 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     shape = ("hurst", "poisson_ratio", "load")
     for name, values in _laws(given["hurst"].values, disc.values, force.values).items():
         found[name] = shape, values
-    found["resolved"] = found["stiffness"] > 20 * samples.same_for_all(given["cell_stiffness"])
+    found["resolved"] = found["stiffness"] > 20 * averaging.same_for_all(given["cell_stiffness"])
     found["force"], found["pulled"], found["disc"] = force, given["pulled"], disc
-    return found.assign_attrs(samples.counts(exported))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _by_depth(given: xarray.Dataset) -> xarray.DataArray:

@@ -12,8 +12,7 @@ from roughcontact.study.export import export
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
-from roughcontact.study.summary import Summary
-from roughcontact.study.task import Executor
+from roughcontact.study.task import Executor, Summary
 from roughcontact.thesis.figures import EnsembleFigure, Scale, Studies
 
 __all__ = ["STUDIES", "averages_of", "planned", "run_study", "store_of"]

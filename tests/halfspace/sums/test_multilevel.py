@@ -1,17 +1,14 @@
 """Multi-level multi-integration: its error, its symmetry, and what it is made of."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.halfspace.sums import compiled
-from roughcontact.halfspace.sums.levels import Hierarchy, Kernel, bound_constrained_cg
+from roughcontact.halfspace.sums import near_sum
+from roughcontact.halfspace.sums.levels import Hierarchy, Kernel, descend
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.transfer import Nodes, coarse_count, interpolation, offset_weights
-from roughcontact.kernels.processor import VARIABLE, is_off
+from roughcontact.kernels import loader
 
 # What is said of order 8 with near 10: of the largest displacement, and of every displacement by itself under a
 # pressure that is nowhere negative.
@@ -82,7 +79,7 @@ def test_error_of_every_entry():
 
     That they are positive, too, is what the window of contact rests on.
     """
-    operator = rc.half_space(rc.Grid((36, 30), (1.0, 1.2)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((36, 30), (1.0, 1.2)), 2.0, method="multilevel")
     assert len(operator._hierarchy.levels) == 2
     loads = np.eye(operator.grid.size).reshape(-1, *operator.grid.shape)
     matrix = np.array([operator.apply(load).ravel() for load in loads])
@@ -105,7 +102,7 @@ def test_error_falls_with_order_and_reach():
 
 @pytest.mark.parametrize("shape", [(90, 70), (40, 300)])
 def test_symmetric_and_linear_to_rounding(shape):
-    operator = rc.half_space(rc.Grid(shape, (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid(shape, (0.3, 0.5)), 2.0, method="multilevel")
     p, q = np.random.default_rng(0).standard_normal((2, *shape))
     u, v = operator.apply(p), operator.apply(q)
     size = np.linalg.norm(p) * np.linalg.norm(u)
@@ -116,7 +113,7 @@ def test_symmetric_and_linear_to_rounding(shape):
 
 
 def test_equal_to_its_restriction():
-    operator = rc.half_space(rc.Grid((80, 90), (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((80, 90), (0.3, 0.5)), 2.0, method="multilevel")
     window = (slice(20, 80), slice(5, 71))
     inside = np.zeros((80, 90))
     inside[window] = np.random.default_rng(0).random((60, 66))
@@ -126,7 +123,7 @@ def test_equal_to_its_restriction():
 
 def test_what_else_it_can_do_is_exact():
     """Matrices, lists of cells and inverses are those of the transforms; coarser cells are summed the same way."""
-    operator = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, "multilevel")
+    operator = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, method="multilevel")
     cells = np.array([3, 77, 500, 1199])
     np.testing.assert_array_equal(operator.as_matrix(cells), operator.exact.as_matrix(cells))
     np.testing.assert_array_equal(operator.submatrix(cells).as_matrix(), operator.exact.as_matrix(cells))
@@ -139,8 +136,8 @@ def test_what_else_it_can_do_is_exact():
 
 def test_scale_laws():
     p = np.random.default_rng(0).random((40, 30))
-    base = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, "multilevel").apply(p)
-    small = rc.half_space(rc.Grid((40, 30), (3e-7, 5e-7)), 2e11, "multilevel").apply(p)
+    base = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, method="multilevel").apply(p)
+    small = rc.half_space(rc.Grid((40, 30), (3e-7, 5e-7)), 2e11, method="multilevel").apply(p)
     np.testing.assert_allclose(small, 1e-17 * base, rtol=1e-12)
 
 
@@ -148,7 +145,7 @@ def operations(n, shape):
     """Multiplications of a product: of the near pairs and of the coarsest matrix."""
     nodes, kernel, count = Nodes(shape(n), (1.0, 1.0)), Kernel(lambda y, x: 1 / np.hypot(y, x + 0.5)), 0
     while nodes.size > 512:
-        level, coarser, kernel = bound_constrained_cg(nodes, kernel, 8, 10)
+        level, coarser, kernel = descend(nodes, kernel, 8, 10)
         count += nodes.size * np.count_nonzero(level.taps) / 2
         nodes = coarser
     return count + nodes.size**2
@@ -247,57 +244,30 @@ class TestNearField:
             down = weights[y % taps[0], x % taps[1]]
             expected[y, x] += (down * box[reach:]).sum() + sign * (down[1:] * box[:reach][::-1]).sum()
         if way == "compiled":
-            if is_off():
-                pytest.skip("no machine code is wanted")
-            compiled.compiled_loops()(field, weights, sign, total)
+            if not loader.is_available():
+                pytest.skip("no machine code here")
+            near_sum.add_near(field, weights, sign, total)
         else:
-            compiled.add_near_by_products(field, weights, sign, total)
+            near_sum.add_near_by_products(field, weights, sign, total)
         np.testing.assert_allclose(total, expected, rtol=0, atol=1e-14 * weights.sum())
 
 
-def test_the_same_without_numba(monkeypatch):
-    operator = rc.half_space(rc.Grid((80, 60), 1.0), 1.0, "multilevel")
+def test_rows_in_several_portions_are_summed_as_in_one(monkeypatch):
+    rng = np.random.default_rng(0)
+    field, weights = rng.random((70, 45)), rng.random((2, 2, 5, 7))
+    totals = np.zeros((2, 70, 45))
+    near_sum.add_near(field, weights, -1, totals[0])
+    monkeypatch.setattr(near_sum, "CELLS", 1)
+    near_sum.add_near(field, weights, -1, totals[1])
+    np.testing.assert_array_equal(*totals)
+
+
+def test_the_same_without_machine_code(monkeypatch):
+    operator = rc.half_space(rc.Grid((80, 60), 1.0), 1.0, method="multilevel")
     pressure = np.random.default_rng(0).random((80, 60))
-    with_numba = operator.apply(pressure)
-    monkeypatch.setattr(compiled, "compiled_loops", lambda: None)
-    np.testing.assert_allclose(operator.apply(pressure), with_numba, rtol=1e-13)
-
-
-def test_without_numba_there_are_no_loops(monkeypatch):
-    monkeypatch.setitem(sys.modules, "numba", None)
-    assert compiled.compiled_loops.__wrapped__() is None
-
-
-def test_no_loops_are_compiled_where_no_machine_code_is_wanted(monkeypatch):
-    monkeypatch.setenv(VARIABLE, "off")
-    assert compiled.compiled_loops.__wrapped__() is None
-
-
-def test_code_that_cannot_be_kept_is_compiled_anew(monkeypatch):
-    """Numba says so where it may write neither beside the module nor into a folder of the user's."""
-
-    def njit(cache=False, **settings):
-        if cache:
-            raise RuntimeError("no locator available")
-        return lambda function: function
-
-    monkeypatch.delenv(VARIABLE, raising=False)
-    monkeypatch.setattr("numba.njit", njit)
-    loops, total = compiled.compiled_loops.__wrapped__(), np.zeros((2, 3))
-    loops(np.ones((2, 3)), np.ones((1, 1, 2, 3)), 1, total)
-    np.testing.assert_array_equal(total, [[4, 6, 4], [4, 6, 4]])
-
-
-def test_numba_is_loaded_by_the_first_product_and_not_before():
-    script = (
-        "import sys, roughcontact as rc\n"
-        "rc.press, rc.line\n"
-        "operator = rc.half_space(rc.Grid((40, 30), 1.0), 1.0, 'multilevel')\n"
-        "operator.exact.apply(__import__('numpy').ones((40, 30)))\n"
-        "sys.stdout.write(str('numba' in sys.modules))"
-    )
-    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert answer.stdout == "False"
+    with_code = operator.apply(pressure)
+    monkeypatch.setattr(loader, "is_available", lambda: False)
+    np.testing.assert_allclose(operator.apply(pressure), with_code, rtol=1e-13)
 
 
 @pytest.mark.parametrize(

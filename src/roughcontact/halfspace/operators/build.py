@@ -35,13 +35,32 @@ def half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
         free grid by shifting the influence function from cell to cell (the time of the matrix without its memory),
-        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`, and
-        fastest with Numba: ``pip install 'roughcontact[compiled]'``).
+        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`).
+
+    Returns
+    -------
+    Operator
+        Displacement [m] from pressure [Pa] on the cells of the grid.
 
     Raises
     ------
     ValueError
         If the grid has one axis, or the method is not for it.
+
+    Notes
+    -----
+    Free: cells of constant pressure and displacements in their middles, by Love's influence function
+    (`roughcontact.halfspace.influence.love`). Periodic: each wave of wavenumber q is answered by 2/(E* q), mean
+    displacement zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((33, 33), 1e-6)
+    >>> body = rc.half_space(grid, 1e9)
+    >>> f"{body.apply(np.full(grid.shape, 1e6))[16, 16] / 33e-9:.4f} = 4/pi ln(1 + sqrt 2)"
+    '1.1222 = 4/pi ln(1 + sqrt 2)'
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 2:
@@ -69,7 +88,8 @@ def body_on(
     Raises
     ------
     ValueError
-        If the operator is none, lies on another grid or has another modulus, or is not given and the grid is a line.
+        If this is not an operator, it lies on another grid or has another modulus, or is not given and the grid is a
+        line.
     """
     if operator is None:
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)

@@ -23,7 +23,18 @@ class Geometry(Enum):
 
     @classmethod
     def of(cls, grid: AnyGrid) -> Geometry:
-        """Return the geometry that a grid suggests."""
+        """Return the geometry that a grid suggests.
+
+        Parameters
+        ----------
+        grid : Grid or RadialGrid
+            The cells.
+
+        Returns
+        -------
+        Geometry
+            RING of a `RadialGrid`, SURFACE of two axes, LINE of one.
+        """
         if isinstance(grid, RadialGrid):
             return cls.RING
         return cls.SURFACE if grid.ndim == 2 else cls.LINE

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
@@ -19,6 +18,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.transforms import Convolution
 from roughcontact.validation import moderate, numeric
 
 __all__ = ["LayerOperator", "layer"]
@@ -128,7 +128,7 @@ def layer(
         A rigid base on which the layer slides or to which it is bonded, or an elastic half-space to which it is
         bonded.
     against : Solid, optional
-        The other body, an elastic half-space; without, it is rigid.
+        The other body, an elastic half-space; by default it is rigid.
 
     Returns
     -------
@@ -150,6 +150,15 @@ def layer(
     integral plus the integral of the difference of both bodies, a Hankel transform tabulated to 1e-13 of
     Love's. A layer may rise beside a load, so that contact need not lie where the bodies overlap: only layers
     that do not on this grid are `positive`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((16, 16), 1e-6, periodic=True)
+    >>> thin = rc.layer(grid, 1e9, thickness=1e-6, base="rigid-frictionless")
+    >>> f"{thin.apply(np.full(grid.shape, 1e6)).mean() * 1e9:.3f} nm"  # p thickness / E*
+    '1.000 nm'
     """
     if not isinstance(modulus, Solid) and np.ndim(modulus) != 0:
         raise ValueError(

@@ -108,11 +108,16 @@ def line(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     reference_length : float, optional
-        Of a free line: distance from a load at which its displacement is zero [m]; the grid's length without.
-        Depths hang on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
+        Of a free line: distance from a load at which its displacement is zero [m]; by default the grid's length.
+        Depths depend on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
         Pressures at given force do not.
     method : {"fft", "moving-grid", "multilevel"}
         How the sum over the cells is done, see `half_space`; the latter two on a free line.
+
+    Returns
+    -------
+    LineOperator
+        Displacement [m] from pressure [Pa] on the cells of the line.
 
     Raises
     ------
@@ -124,6 +129,17 @@ def line(
     -----
     Strips of constant pressure, and means of the displacement over strips (thesis, eqs A.37 to A.46 as
     corrected); a periodic line answers each wave by 2/(E* q), mean displacement zero.
+
+    Examples
+    --------
+    >>> import math
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid(256, 1e-6)
+    >>> solution = rc.press(rc.shapes.paraboloid(grid, 1e-3), 1e9, force=1e2, operator=rc.line(grid, 1e9))
+    >>> f"half width {math.sqrt(4 * 1e2 * 1e-3 / (math.pi * 1e9)) * 1e6:.1f} um by Hertz"
+    'half width 11.3 um by Hertz'
+    >>> f"width {solution.contact_area * 1e6:.0f} um"
+    'width 22 um'
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 1:

@@ -69,15 +69,48 @@ class Operator(Protocol):
         ...
 
     def apply(self, pressure: Array) -> Array:
-        """Return the displacement [m] under `pressure` [Pa], both of the grid's shape."""
+        """Return the displacement under a pressure.
+
+        Parameters
+        ----------
+        pressure : array, shape ``grid.shape``
+            [Pa]
+
+        Returns
+        -------
+        array, shape ``grid.shape``
+            [m]
+        """
         ...
 
     def as_matrix(self, cells: npt.NDArray[np.intp] | None = None) -> Array:
-        """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
+        """Return the matrix between cells.
+
+        Parameters
+        ----------
+        cells : array of int, shape (n,), optional
+            Flat indices of cells; by default all.
+
+        Returns
+        -------
+        array, shape (n, n)
+            Displacement of each cell per unit pressure on each [m/Pa].
+        """
         ...
 
     def restrict(self, window: tuple[slice, ...]) -> Operator:
-        """Return the map between the cells of `window`, with no pressure outside."""
+        """Return the map between the cells of a window, with no pressure outside.
+
+        Parameters
+        ----------
+        window : tuple of slice
+            A box of cells, one slice of step 1 for each axis.
+
+        Returns
+        -------
+        Operator
+            On the window's grid.
+        """
         ...
 
 
@@ -126,6 +159,13 @@ class Capabilities:
         Without arguments; returns a sum over near cells that does about the same.
     particle_mesh : function
         Without arguments; returns what makes particle-mesh operators on the tiles of a region.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> body = rc.half_space(rc.Grid((8, 8), 1e-6), 1e9)
+    >>> body.capabilities.modulus, body.capabilities.exact is None
+    (1000000000.0, True)
     """
 
     exact: Operator | None = None

@@ -25,10 +25,23 @@ def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> Dens
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
 
+    Returns
+    -------
+    DenseOperator
+        Mean displacement of each ring [m] from the pressures on the rings [Pa].
+
     Raises
     ------
     ValueError
         If the grid is not one of rings.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(50, radius=1e-5)
+    >>> body = rc.ring(rings, 1e9)
+    >>> body.as_matrix().shape
+    (50, 50)
     """
     if not isinstance(grid, RadialGrid):
         raise ValueError(f"rings need a RadialGrid, not {type(grid).__name__}")

@@ -9,9 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import fast_even_length
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
 from roughcontact.halfspace.influence.tables import Love, Tables
@@ -19,6 +17,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.transforms import Convolution, fast_even_length, padded_length
 from roughcontact.validation import numeric
 
 __all__ = ["Row", "SinglyPeriodicOperator", "singly_periodic"]
@@ -189,10 +188,15 @@ def singly_periodic(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     reference_length : float, optional
-        Distance from the row of loads at which its displacement vanishes on the mean [m]; without, the longest
-        distance on the grid, half a period and the whole of the other axis. Depths hang on it, by
+        Distance from the row of loads at which its mean displacement vanishes [m]; by default the longest
+        distance on the grid, half a period and the whole of the other axis. Depths depend on it, by
         ``2 F ln(L2/L1)/(pi E* period)``: a row of loads sinks without bound into an endless body. Pressures at given
         force do not.
+
+    Returns
+    -------
+    SinglyPeriodicOperator
+        Displacement [m] from pressure [Pa] on the cells of the grid.
 
     Raises
     ------
@@ -204,6 +208,15 @@ def singly_periodic(
     Forces are those on one period. Cells under constant pressure and displacements in their middles, as on a free
     grid, and all images of them (`roughcontact.halfspace.influence.love_singly_periodic`). A constant
     pressure is no exception: it presses the body down.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((16, 16), 1e-6, periodic=(True, False))
+    >>> displacement = rc.singly_periodic(grid, 1e9).apply(np.ones(grid.shape))
+    >>> bool(np.allclose(displacement, displacement[:1], rtol=1e-9, atol=0))  # every row alike
+    True
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 2 or sum(grid.periodic) != 1:

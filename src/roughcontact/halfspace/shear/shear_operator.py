@@ -42,22 +42,63 @@ class ShearOperator(Protocol):
         ...
 
     def apply(self, traction: Array) -> Array:
-        """Return the displacement [m] under `traction` [Pa], both of shape ``(2, ny, nx)``."""
+        """Return the displacement under a traction.
+
+        Parameters
+        ----------
+        traction : array, shape (2, ny, nx)
+            [Pa]
+
+        Returns
+        -------
+        array, shape (2, ny, nx)
+            [m]
+        """
         ...
 
     def approximate_inverse(self, displacement: Array) -> Array:
-        """Return a traction [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
+        """Return a traction that would cause about a displacement; symmetric and definite.
+
+        Parameters
+        ----------
+        displacement : array, shape (2, ny, nx)
+            [m]
+
+        Returns
+        -------
+        array, shape (2, ny, nx)
+            [Pa]
+        """
         ...
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
-        """Return the matrix [m/Pa] between n `cells` (flat indices; all cells without), shape ``(2 n, 2 n)``.
+        """Return the matrix between cells.
 
-        The x components of all cells come first, then the y components.
+        Parameters
+        ----------
+        cells : array of int, shape (n,), optional
+            Flat indices of cells; by default all.
+
+        Returns
+        -------
+        array, shape (2 n, 2 n)
+            [m/Pa]. The x components of all cells come first, then the y components.
         """
         ...
 
     def restrict(self, window: tuple[slice, ...]) -> ShearOperator:
-        """Return the map between the cells of `window`, with no traction outside."""
+        """Return the map between the cells of a window, with no traction outside.
+
+        Parameters
+        ----------
+        window : tuple of slice
+            A box of cells, one slice of step 1 for each axis.
+
+        Returns
+        -------
+        ShearOperator
+            On the window's grid.
+        """
         ...
 
 
@@ -84,11 +125,25 @@ def shear_half_space(
         n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
         (inexact by some 1e-6, see `MultilevelShear`; what drives with it is certified by the exact sum).
 
+    Returns
+    -------
+    ShearOperator
+        Tangential displacement of body 1 against body 2 [m] from the traction [Pa].
+
     Raises
     ------
     ValueError
         If the grid has one axis, is one of rings, or periodic along one axis only; if the method is not for it; if both
         bodies are rigid.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((16, 16), 1e-6)
+    >>> operator = rc.shear_half_space(grid, rc.Solid(1e9, 0.3))
+    >>> operator.apply(np.ones((2, 16, 16))).shape
+    (2, 16, 16)
     """
     if not isinstance(grid, Grid) or grid.ndim != 2:
         raise ValueError("tangential traction needs a grid of two axes; lines and rings are not offered")

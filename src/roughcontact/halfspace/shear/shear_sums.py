@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, fast_even_length, namespace
+from roughcontact.arrays import Placed, namespace
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.shear.shear_influence import ShearInfluence, ShearWaves
 from roughcontact.halfspace.shear.shear_transform import convolve_pair, tensor_multiplier
 from roughcontact.halfspace.subsurface.field_transform import padded_lengths
+from roughcontact.transforms import fast_even_length
 
 __all__ = ["DenseShear", "FreeShear", "PeriodicShear"]
 

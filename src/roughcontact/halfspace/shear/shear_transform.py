@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, filtered, namespace
+from roughcontact.arrays import Placed, namespace
 from roughcontact.halfspace.subsurface.field_transform import parity_multiplier
+from roughcontact.transforms import filtered
 
 __all__ = ["convolve_pair", "tensor_multiplier"]
 

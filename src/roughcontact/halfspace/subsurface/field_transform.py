@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.arrays import SLAB, fast_even_length
+from roughcontact.transforms import SLAB, fast_even_length
 
 __all__ = ["Parity", "convolve_each", "padded_lengths", "parity_multiplier"]
 
@@ -77,8 +77,8 @@ def convolve_each(
 
     Notes
     -----
-    As `roughcontact.arrays.convolve`: only rows that hold data are transformed along x, and the padded columns exist
-    for one slab at a time. The field is transformed once.
+    As in `roughcontact.transforms.convolve`, only rows that hold data are transformed along x, and the padded columns
+    exist for one slab at a time. The field is transformed once.
     """
     ny, nx = field.shape
     my, mx = padded

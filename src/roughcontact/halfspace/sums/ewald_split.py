@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import erf, erfc
 
-from roughcontact.arrays import even_multiplier
 from roughcontact.halfspace.influence.tables import Love, Periodic, wavenumbers
+from roughcontact.transforms import even_multiplier
 
 __all__ = ["DECAY", "FreeSplit", "PeriodicSplit"]
 

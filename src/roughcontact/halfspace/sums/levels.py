@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_array
 
-from roughcontact.halfspace.sums.compiled import add_near
+from roughcontact.halfspace.sums.near_sum import add_near
 from roughcontact.halfspace.sums.transfer import Nodes, interpolation, offset_weights
 
 __all__ = ["Hierarchy", "Kernel", "Level", "descend"]

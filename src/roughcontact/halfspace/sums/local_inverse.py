@@ -20,12 +20,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import fast_even_length
-from roughcontact.convolution import Convolution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import definite, wavenumbers
 from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
+from roughcontact.transforms import Convolution, fast_even_length
 
 __all__ = ["RELIEF", "LocalInverse", "local_inverse"]
 

@@ -17,7 +17,6 @@ import numpy.typing as npt
 
 from roughcontact.arrays import over
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.sums.direct_sum import DirectSum
@@ -29,6 +28,7 @@ from roughcontact.halfspace.sums.tiles import SIDE, TileMap, Tiles, count, list_
 from roughcontact.kernels import loader
 from roughcontact.kernels.loader import functions
 from roughcontact.threads import spread
+from roughcontact.transforms import Convolution, padded_length
 
 __all__ = ["ListPatches", "PatchOperator", "Patches", "patches_of"]
 

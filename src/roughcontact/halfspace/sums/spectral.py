@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import even_multiplier, fast_even_length, less, namespace, require_floating
+from roughcontact.arrays import less, namespace, require_floating
 from roughcontact.cached import cached_property
-from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.local_inverse import LocalInverse, local_inverse
 from roughcontact.halfspace.sums.particle_mesh import Patches, patches_of
+from roughcontact.transforms import Convolution, even_multiplier, fast_even_length, padded_length
 
 __all__ = ["FreeOperator", "PeriodicOperator"]
 

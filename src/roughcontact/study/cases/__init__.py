@@ -9,8 +9,7 @@ from types import MappingProxyType, ModuleType
 from typing import TYPE_CHECKING
 
 from roughcontact.study.case import Case
-from roughcontact.study.explain import meant
-from roughcontact.study.study_errors import StudyError
+from roughcontact.study.study_errors import StudyError, meant
 
 if TYPE_CHECKING:  # bundlers of programs read this
     from roughcontact.study.cases import (

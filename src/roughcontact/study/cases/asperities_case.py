@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from roughcontact.grid import Grid
+from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
 from roughcontact.study.cases.force_range import ForceRange
 from roughcontact.surface.analysis.summits import find_summits
@@ -60,20 +61,17 @@ def run(parameters: AsperityParameters, rng: np.random.Generator) -> xarray.Data
     together = [press(asperities, force=float(force)) for force in forces]
     alone = [press(asperities, force=float(force), interaction=False) for force in forces]
 
-    def along(
-        values: list[float] | list[int], words: str
-    ) -> tuple[str, list[float] | list[int], dict[str, str]]:
-        return "load", values, {"units": "1", "long_name": words}
-
     return xarray.Dataset(
         {
-            "dimensionless_force": along(list(forces), "force / (E* L h)"),
-            "dimensionless_stiffness": along([each.stiffness for each in together], "stiffness / (E* L)"),
-            "independent_stiffness": along(
-                [each.stiffness for each in alone], "the same without interaction"
+            "dimensionless_force": described("load", forces, "force / (E* L h)"),
+            "dimensionless_stiffness": described(
+                "load", [each.stiffness for each in together], "stiffness / (E* L)"
             ),
-            "spots": along([each.count for each in together], "summits in contact"),
-            "merged": along([each.merged for each in together], "spots that overlap another one"),
+            "independent_stiffness": described(
+                "load", [each.stiffness for each in alone], "the same without interaction"
+            ),
+            "spots": described("load", [each.count for each in together], "summits in contact"),
+            "merged": described("load", [each.merged for each in together], "spots that overlap another one"),
         }
     )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
 from roughcontact.study.cases.curve_case import CurveParameters
 from roughcontact.study.cases.curve_case import run as loading_curve
@@ -47,13 +48,10 @@ def run(parameters: CellsParameters, rng: np.random.Generator) -> xarray.Dataset
     record = loading_curve(parameters, rng)
     edges = np.linspace(0, parameters.points, parameters.cells + 1).round().astype(int)
     maxima = [heights[y0:y1, x0:x1].max() for y0, y1 in pairwise(edges) for x0, x1 in pairwise(edges)]
-    record["below"] = (
-        "cell",
-        np.sort(heights.max() - np.array(maxima)),
-        {"units": "m", "long_name": "distance of the highest point of a cell from the top of the surface"},
-    )
+    words = "distance of the highest point of a cell from the top of the surface"
+    record["below"] = described("cell", np.sort(heights.max() - np.array(maxima)), words, "m")
     peak = float(heights.max() - heights.mean())
-    record["peak"] = (), peak, {"units": "m", "long_name": "top of the surface above its mean plane"}
+    record["peak"] = described((), peak, "top of the surface above its mean plane", "m")
     return record
 
 

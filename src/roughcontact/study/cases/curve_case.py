@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from roughcontact.contact.curve import collect
+from roughcontact.contact.curve import POINTS, collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
+from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
 from roughcontact.study.cases.force_range import ForceRange
-from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
+from roughcontact.study.cases.surfaces import PressedSquare
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
@@ -26,57 +26,33 @@ if TYPE_CHECKING:
 
 __all__ = ["CASE", "CurveParameters", "run"]
 
-_POINTS = (
-    "force",
-    "depth",
-    "stiffness",
-    "interfacial_stiffness",
-    "contact_area",
-    "mean_gap",
-    "elastic_energy",
-    "spots",
-    "dimensionless_stiffness",
-    "residual",
-    "stiffness_residual",
-    "resolved",
-    "status",
+_ARRAYS = (
+    *(*POINTS, "spots", "dimensionless_stiffness"),
+    *("residual", "stiffness_residual", "resolved", "status"),
 )
 _SCALES = ("cell_stiffness", "full_contact_stiffness")
 _LIMIT = 1e-3  # of the displacement: enough for a full-contact stiffness, of which nine tenths are a limit
 
 
-class CurveParameters(RoughSquare, ForceRange):
+class CurveParameters(PressedSquare, ForceRange):
     """A rough surface pressed on an elastic half-space by growing forces.
 
     Parameters
     ----------
     points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
-    modulus : float
-        Reduced modulus E* [Pa].
+    modulus, hardness, relative_hardness
+        See `PressedSquare`.
     lowest_force, highest_force, loads
         See `ForceRange`; by default from the first cells in contact to the end of the power law.
-    hardness : float, optional
-        Pressure that no cell exceeds [Pa].
-    relative_hardness : float, optional
-        The same over E* times the rms slope of the roughness; at most one of the two.
     tolerance : float
         Of the certificate of every load.
     """
 
-    modulus: Positive[Pressure]
     lowest_force: float = Field(default=1e-4, gt=0)
     highest_force: float = Field(default=0.07, gt=0)
     loads: int = Field(default=30, ge=2)
-    hardness: Positive[Pressure] | None = None
-    relative_hardness: float | None = Field(default=None, gt=0)
     tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
-
-    @model_validator(mode="after")
-    def _one_hardness(self) -> Self:
-        if self.hardness is not None and self.relative_hardness is not None:
-            raise ValueError("give hardness or relative_hardness, not both")
-        return self
 
 
 def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset:
@@ -93,32 +69,22 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
     roughness = parameters.roughness(rng)
     moments = surface_moments(roughness, derivative="spectral")  # made of waves: exact
     forces = parameters.forces
-    hardness = parameters.hardness
-    if parameters.relative_hardness is not None:
-        hardness = parameters.relative_hardness * parameters.modulus * moments.rms_slope
     path = loading_path(
         parameters.on_body(roughness),
         parameters.modulus,
         forces=forces * (parameters.modulus * parameters.size * parameters.rms),
         tolerance=parameters.tolerance,
-        hardness=hardness,
+        hardness=parameters.hardness_on(moments.rms_slope),
     )
     curve = collect(_saturated(path, parameters))
     whole = curve.to_dataset()
-    names = [*_POINTS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
+    names = [*_ARRAYS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
     record = whole[names].drop_vars("axis", errors="ignore")
     record["dimensionless_force"] = "load", forces, whole["dimensionless_force"].attrs
-    for name, value, unit, words in (
-        ("rms", roughness.rms, "m", "root mean square height of the roughness"),
-        ("rms_slope", moments.rms_slope, "1", "root mean square slope of the roughness"),
-        (
-            "rms_curvature",
-            moments.rms_curvature,
-            "m-1",
-            "root mean square curvature of the roughness, half the Laplacian",
-        ),
-    ):
-        record[name] = (), value, {"units": unit, "long_name": words}
+    record["rms"] = described((), roughness.rms, "root mean square height of the roughness", "m")
+    record["rms_slope"] = described((), moments.rms_slope, "root mean square slope of the roughness")
+    words = "root mean square curvature of the roughness, half the Laplacian"
+    record["rms_curvature"] = described((), moments.rms_curvature, words, "m-1")
     return record.assign_attrs(title="loading curves of rough surfaces by boundary elements")
 
 

@@ -1,4 +1,4 @@
-"""Forces in equal ratios, without dimension: what several cases are told alike."""
+"""Forces in equal ratios, without dimension: shared by several cases."""
 
 from __future__ import annotations
 

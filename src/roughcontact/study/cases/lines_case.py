@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from roughcontact.grid import Grid
+from roughcontact.labels.labelled import described
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.study.case import Case
@@ -66,14 +67,11 @@ def run(parameters: LineParameters, rng: np.random.Generator) -> xarray.Dataset:
             for heights in rough_lines(grid, spectrum, rng, parameters.lines, rms=1.0)
         ]
     )
+    stiffness = described(("line", "load"), springs / parameters.points, "stiffness / (E* L)")
     return xarray.Dataset(
         {
-            "dimensionless_force": ("load", forces, {"units": "1", "long_name": "force / (E* L h)"}),
-            "dimensionless_stiffness": (
-                ("line", "load"),
-                springs / parameters.points,
-                {"units": "1", "long_name": "stiffness / (E* L)"},
-            ),
+            "dimensionless_force": described("load", forces, "force / (E* L h)"),
+            "dimensionless_stiffness": stiffness,
         }
     )
 

@@ -12,19 +12,19 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
 from roughcontact.friction.slip_curve import SlipCurve, slide_curve
 from roughcontact.friction.tangential_stiffness import tangential_stiffness
-from roughcontact.labels.labelled import variable, words
+from roughcontact.labels.labelled import described, variable
 from roughcontact.material import Solid
-from roughcontact.solver.status import Status
-from roughcontact.study.case import Case
+from roughcontact.solver.control import Status
+from roughcontact.study.case import Case, Positive, Pressure
 from roughcontact.study.cases.force_range import ForceRange
 from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["CASE", "SlipParameters", "run"]
 
+_SIDEWAYS = "tangential stiffness of the contact region"
 _LIMIT = 1e-5  # of the unit displacement; the stiffness itself is off by about its square
 
 
@@ -115,23 +115,13 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
         | {
             "dimensionless_force": variable("dimensionless_force", ("load",), forces),
             "dimensionless_stiffness": variable("dimensionless_stiffness", ("load",), stiffness / scale),
-            "tangential_stiffness": (
-                "load",
-                sideways.mean(axis=1),
-                {
-                    "units": "N m-1",
-                    "long_name": "tangential stiffness of the contact region, mean over directions",
-                },
+            "tangential_stiffness": described(
+                "load", sideways.mean(axis=1), f"{_SIDEWAYS}, mean over directions", "N m-1"
             ),
-            "principal_stiffness": (
-                ("load", "principal"),
-                sideways,
-                {
-                    "units": "N m-1",
-                    "long_name": "tangential stiffness of the contact region along its two axes",
-                },
+            "principal_stiffness": described(
+                ("load", "principal"), sideways, f"{_SIDEWAYS} along its two axes", "N m-1"
             ),
-            "pulled": ("pull", pulled, {"units": "1", "long_name": "tangential force over mu F"}),
+            "pulled": described("pull", pulled, "tangential force over mu F"),
             "tangential_displacement": variable(
                 "tangential_displacement", ("load", "pull"), [each.displacement[:, 0] for each in pulls]
             ),
@@ -140,7 +130,7 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
                 "residual", ("load",), [_worst(*pair) for pair in zip(points, pulls, strict=True)]
             ),
             "status": variable(
-                "status", ("load",), words(_ended(*pair) for pair in zip(points, pulls, strict=True))
+                "status", ("load",), [_ended(*pair).value for pair in zip(points, pulls, strict=True)]
             ),
             "cell_stiffness": variable("cell_stiffness", (), cell_stiffness(points[0].problem.operator)),
         }

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from roughcontact.grid import Grid
-from roughcontact.study.case import Parameters
-from roughcontact.study.parameters import Length, Positive
+from roughcontact.study.case import Length, Parameters, Positive, Pressure
 from roughcontact.surface.fourier import self_affine
 from roughcontact.surface.shapes import paraboloid
 from roughcontact.surface.surface import Surface
 
-__all__ = ["RoughSquare"]
+__all__ = ["PressedSquare", "RoughSquare"]
 
 
 class RoughSquare(Parameters):
@@ -79,3 +78,33 @@ class RoughSquare(Parameters):
 
     def _length(self, part: float | None) -> float | None:
         return None if part is None else part * self.size
+
+
+class PressedSquare(RoughSquare):
+    """Parameters of a case that presses such a square, elastic or with a largest pressure.
+
+    Parameters
+    ----------
+    modulus : float
+        Reduced modulus E* [Pa].
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+    relative_hardness : float, optional
+        The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
+    """
+
+    modulus: Positive[Pressure]
+    hardness: Positive[Pressure] | None = None
+    relative_hardness: float | None = Field(default=None, gt=0)
+
+    @model_validator(mode="after")
+    def _one_hardness(self) -> Self:
+        if self.hardness is not None and self.relative_hardness is not None:
+            raise ValueError("give hardness or relative_hardness, not both")
+        return self
+
+    def hardness_on(self, rms_slope: float) -> float | None:
+        """Return the hardness of a roughness of this rms slope [Pa]; None of an elastic body."""
+        if self.relative_hardness is None:
+            return self.hardness
+        return self.relative_hardness * self.modulus * rms_slope

@@ -11,10 +11,9 @@ from pydantic import Field, model_validator
 from roughcontact.contact.curve import collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.stiffness import contact_stiffness
-from roughcontact.labels.labelled import variable
+from roughcontact.labels.labelled import described, variable
 from roughcontact.study.case import Case
-from roughcontact.study.cases.surfaces import RoughSquare
-from roughcontact.study.parameters import Positive, Pressure
+from roughcontact.study.cases.surfaces import PressedSquare
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ __all__ = ["CASE", "YieldingParameters", "run"]
 _LIMIT = 1e-4  # of the unit displacement; the stiffness itself is off by about its square
 
 
-class YieldingParameters(RoughSquare):
+class YieldingParameters(PressedSquare):
     """A rough surface pressed to growing depths; the force is what comes of it.
 
     Depths in place of forces: where nearly every cell gives way, a force hardly tells which are left.
@@ -36,32 +35,23 @@ class YieldingParameters(RoughSquare):
     ----------
     points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
-    modulus : float
-        Reduced modulus E* [Pa].
+    modulus, hardness, relative_hardness
+        See `PressedSquare`.
     lowest_depth, highest_depth : float
         Depths over the rms height.
     loads : int
         Depths, in equal ratios.
-    hardness : float
-        Pressure that no cell exceeds [Pa], or infinity.
-    relative_hardness : float, optional
-        The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
     tolerance : float
         Of the certificate of every depth.
     """
 
-    modulus: Positive[Pressure]
     lowest_depth: float = Field(default=0.3, gt=0)
     highest_depth: float = Field(default=3.0, gt=0)
     loads: int = Field(default=15, ge=2)
-    hardness: Positive[Pressure] | None = None
-    relative_hardness: float | None = Field(default=None, gt=0)
     tolerance: float = Field(default=1e-6, gt=0, le=1e-2)
 
     @model_validator(mode="after")
-    def _sound(self) -> Self:
-        if self.hardness is not None and self.relative_hardness is not None:
-            raise ValueError("give hardness or relative_hardness, not both")
+    def _rising(self) -> Self:
         if not self.lowest_depth < self.highest_depth:
             raise ValueError(
                 f"lowest_depth must be below highest_depth, not {self.lowest_depth:g} and {self.highest_depth:g}"
@@ -84,9 +74,7 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Data
     """
     roughness = parameters.roughness(rng)
     slope = surface_moments(roughness, derivative="spectral").rms_slope
-    hardness = parameters.hardness
-    if parameters.relative_hardness is not None:
-        hardness = parameters.relative_hardness * parameters.modulus * slope
+    hardness = parameters.hardness_on(slope)
     depths = np.geomspace(parameters.lowest_depth, parameters.highest_depth, parameters.loads)
     solutions = list(
         loading_path(
@@ -103,20 +91,15 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Data
     record = whole[[*names, *certificates]].drop_vars("axis", errors="ignore")
     scale = parameters.modulus * parameters.size * parameters.rms
     record["dimensionless_force"] = "load", whole["force"].values / scale, whole["dimensionless_force"].attrs
-    record["region_stiffness"] = (
-        "load",
-        [
-            contact_stiffness(each.contact, parameters.grid, parameters.modulus, tolerance=_LIMIT)
-            for each in solutions
-        ],
-        {"units": "N m-1", "long_name": "normal stiffness of all cells in contact, those at the ceiling too"},
-    )
-    record["yielded"] = (
-        "load",
-        [_yielded(each) for each in solutions],
-        {"units": "1", "long_name": "part of the contact area at the ceiling of the pressure"},
-    )
-    record["rms_slope"] = (), slope, {"units": "1", "long_name": "root mean square slope of the roughness"}
+    regions = [
+        contact_stiffness(each.contact, parameters.grid, parameters.modulus, tolerance=_LIMIT)
+        for each in solutions
+    ]
+    words = "normal stiffness of all cells in contact, those at the ceiling too"
+    record["region_stiffness"] = described("load", regions, words, "N m-1")
+    words = "part of the contact area at the ceiling of the pressure"
+    record["yielded"] = described("load", [_yielded(each) for each in solutions], words)
+    record["rms_slope"] = described((), slope, "root mean square slope of the roughness")
     if hardness is not None:
         record["hardness"] = variable("hardness", (), hardness)
     return record.assign_attrs(

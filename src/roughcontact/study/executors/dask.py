@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import multiprocessing.resource_tracker
 import signal
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.study.executors.farm import Site, connected, farmed
 from roughcontact.study.executors.processes import usable_cores
-from roughcontact.study.executors.worker import WorkersError
+from roughcontact.study.executors.worker import WorkersError, require_cluster
 
 if TYPE_CHECKING:
     from roughcontact.study.task import Outcome, Perform, Task
@@ -57,12 +56,7 @@ class Dask:
             raise ValueError("give one of address, workers and cluster: a scheduler has workers of its own")
         if workers is not None and workers < 1:
             raise ValueError(f"workers is {workers}; at least one is needed")
-        try:
-            import distributed  # noqa: F401
-        except ImportError as error:
-            raise WorkersError(
-                f"Dask cannot be imported ({error}); run: {sys.executable} -m pip install 'roughcontact[cluster]'"
-            ) from error
+        require_cluster("distributed", "Dask")
         self._target = cluster if address is None else address
         self._workers = usable_cores() if workers is None else workers
 

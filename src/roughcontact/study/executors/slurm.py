@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -12,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.study.executors.farm import Site, farmed
-from roughcontact.study.executors.worker import WorkersError
+from roughcontact.study.executors.worker import WorkersError, require_cluster
 
 if TYPE_CHECKING:
     from dask_jobqueue import SLURMCluster
@@ -49,13 +48,7 @@ class Slurm:
     def __init__(self, workers: int, **options: Any) -> None:
         if workers < 1:
             raise ValueError(f"workers is {workers}; at least one is needed")
-        try:
-            import dask_jobqueue  # noqa: F401
-        except ImportError as error:
-            raise WorkersError(
-                f"dask-jobqueue cannot be imported ({error}); run: "
-                f"{sys.executable} -m pip install 'roughcontact[cluster]'"
-            ) from error
+        require_cluster("dask_jobqueue", "dask-jobqueue")
         if shutil.which("sbatch") is None:
             raise WorkersError("there is no sbatch here: run the study where jobs can be submitted")
         self._workers = workers

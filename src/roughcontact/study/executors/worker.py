@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pickle
+import sys
+from importlib import import_module
 
 from roughcontact.study.task import Outcome, Perform, Task
 
-__all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled"]
+__all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled", "require_cluster"]
 
 # A task whose worker died is tried again twice: workers are also killed from outside, by people, for the memory that
 # another program wanted, with their machine.
@@ -44,6 +46,22 @@ def pickled(thing: object, name: str) -> bytes:
         raise WorkersError(
             f"{name} cannot be sent to another process: {error}; define its functions and classes at the top of a "
             "module, none inside another function"
+        ) from error
+
+
+def require_cluster(module: str, name: str) -> None:
+    """Refuse to go on without a package of the extra for clusters.
+
+    Raises
+    ------
+    WorkersError
+        If it cannot be imported.
+    """
+    try:
+        import_module(module)
+    except ImportError as error:
+        raise WorkersError(
+            f"{name} cannot be imported ({error}); run: {sys.executable} -m pip install 'roughcontact[cluster]'"
         ) from error
 
 

@@ -76,7 +76,7 @@ def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level
     surface : Surface
         On a grid of two axes, without missing points.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
-        Along both axes; "auto" is none along periodic and Hann along free axes.
+        Along both axes; "auto" is "none" along periodic and "hann" along free axes.
         The power that a window takes away is put back on the average.
     level : {"auto", "none", "mean", "plane"}
         What is taken out first; "auto" is the mean and, along free axes, the slope.

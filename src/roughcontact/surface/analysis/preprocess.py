@@ -44,7 +44,7 @@ class Taper:
 
 
 def taper(name: str, size: int, periodic: bool = False) -> Taper:
-    """Return the window `name` along an axis of `size` cells; "auto" is none if it is periodic, else Hann.
+    """Return the window `name` along an axis of `size` cells; "auto" is "none" if it is periodic, else "hann".
 
     Raises
     ------

@@ -43,7 +43,7 @@ def power_spectrum(
         "ring": C2D averaged over all directions, up to the smaller of the Nyquist wavenumbers; "x", "y":
         C1D of the profiles along that axis, averaged over them. "auto": rings of a surface, C1D of a line.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
-        "auto" is none along periodic and Hann along free axes. The power that a window
+        "auto" is "none" along periodic and "hann" along free axes. The power that a window
         takes away is put back on the average.
     level : {"auto", "none", "mean", "plane"}
         What is taken out first; "auto" is the mean and, along free axes, the slope. Profiles of a surface

@@ -188,7 +188,7 @@ def decay_lengths(surface: Surface, level: float) -> tuple[float, float]:
     first = [int(np.argmax(values(radius, angle) <= level)) for angle in angles]
     if not any(first):
         return math.inf, math.inf
-    # Zero lag is above the level: a first place of 0 says that there is none.
+    # Zero lag is above the level: a first place of 0 says that the level is not reached.
     falls = np.array([place > 0 for place in first])
     outer = radius[np.array(first)[falls]]
     inner = outer - min(steps) / 2

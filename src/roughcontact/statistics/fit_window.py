@@ -1,4 +1,4 @@
-"""Which forces a power law is fitted to."""
+"""Which points of a loading curve the grid resolves, and which of them a power law is fitted to."""
 
 from __future__ import annotations
 
@@ -7,15 +7,33 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
-from roughcontact.contact.curve import FORCE_LIMIT
-from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.statistics.power_law import FORCE_LIMIT
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Window", "force_window", "resolved_window", "window_of"]
+__all__ = [
+    "CELLS",
+    "FULL_CONTACT_SHARE",
+    "Window",
+    "force_window",
+    "is_resolved",
+    "resolved_window",
+    "window_of",
+]
+
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
+FULL_CONTACT_SHARE = (
+    0.9  # above this part of the full-contact stiffness they are those of the finite size (eq. 4.14)
+)
+
+
+def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
+    """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
+    return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.pressures import pressure_distribution
+from roughcontact.plot.distributions import pressure_distribution
 
 MODULUS = 2.0
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray
 
-from roughcontact.study.common import on_common
+from roughcontact.statistics.common_forces import on_common
 
 RNG = np.random.default_rng(4)
 FORCE = np.sort(RNG.uniform(1, 10, (2, 3, 20)), axis=-1)

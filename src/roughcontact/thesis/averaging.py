@@ -8,8 +8,8 @@ from typing import Any, cast
 import numpy as np
 import xarray
 
-from roughcontact.solver.status import Status
-from roughcontact.study.statistics import mean, scatter, standard_error
+from roughcontact.solver.control import Status
+from roughcontact.statistics.samples import mean, scatter, standard_error
 from roughcontact.study.study import Study
 
 __all__ = [

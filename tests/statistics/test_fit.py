@@ -6,8 +6,8 @@ import xarray
 from scipy import stats
 
 from roughcontact.statistics.ensemble_fit import fit_ensemble
-from roughcontact.study.fit import fit_power_laws, law_at
-from roughcontact.study.fit_window import Window, force_window, resolved_window, window_of
+from roughcontact.statistics.fit import fit_power_laws, law_at
+from roughcontact.statistics.fit_window import Window, force_window, resolved_window, window_of
 
 FORCE = np.geomspace(1e-4, 0.3, 24)
 HURST = np.array([0.2, 0.6, 1.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray
 
-from roughcontact.study import statistics
+from roughcontact import statistics
 
 RNG = np.random.default_rng(3)
 VALUES = RNG.lognormal(size=(3, 5, 7))

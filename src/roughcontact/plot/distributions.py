@@ -1,4 +1,4 @@
-"""The distribution of the contact pressure, computed and predicted, drawn on axes that the caller owns."""
+"""Distributions of heights and of the contact pressure, drawn on axes that the caller owns."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ from matplotlib.figure import Figure
 
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.surface.analysis.histogram import height_histogram
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from roughcontact.contact.solution import Solution
+    from roughcontact.surface.surface import Surface
 
-__all__ = ["pressure_distribution", "pressure_distribution_figure"]
+__all__ = ["height_distribution", "pressure_distribution", "pressure_distribution_figure"]
 
 Array = npt.NDArray[np.float64]
 Density = Callable[[Array], Array]
@@ -31,7 +33,7 @@ _BEYOND = 0.999  # quantile of the pressure where the axis ends: a few cells at 
 def pressure_distribution(
     axes: Axes, solution: Solution, theories: Mapping[str, Density] | None = None, bins: int = 60
 ) -> None:
-    """Draw the probability density of the pressure over the nominal area, without the share that carries none.
+    """Draw the probability density of the pressure over the nominal area, without the part that carries none.
 
     Parameters
     ----------
@@ -64,12 +66,8 @@ def pressure_distribution(
     for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
         axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
     axes.set_title(f"nominal pressure {written(solution.force / grid.area, unit)}", fontsize=LABEL)
-    axes.set_xlim(0.0, end * x.factor)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel(f"{VARIABLES['pressure'].label} [{x.unit}]", fontsize=LABEL)
-    axes.set_ylabel(f"share of the nominal area [1/{x.unit}]", fontsize=LABEL)
-    axes.tick_params(labelsize=TICK)
-    axes.legend(fontsize=TICK, frameon=False)
+    name = f"{VARIABLES['pressure'].label} [{x.unit}]"
+    _finish(axes, (0.0, end * x.factor), name, f"part of the nominal area [1/{x.unit}]")
 
 
 def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
@@ -77,3 +75,30 @@ def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Dens
     figure = Figure(figsize=(5.6, 4.0), layout="constrained")
     pressure_distribution(figure.subplots(), solution, theories)
     return figure
+
+
+def height_distribution(axes: Axes, surface: Surface, bins: int = 60) -> None:
+    """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
+
+    A flat surface has no normal distribution; it is drawn without one.
+    """
+    found = height_histogram(surface, bins=bins)
+    reach = float(np.abs(found.edges).max())
+    z = scale(reach, VARIABLES["heights"].unit)
+    edges = found.edges * z.factor
+    axes.stairs(found.density / z.factor, edges, fill=True, color=_BARS, alpha=0.45, label="heights")
+    if found.rms > 0:
+        points = np.linspace(found.edges[0], found.edges[-1], 400)
+        label = f"normal, rms {written(found.rms, 'm')}"
+        axes.plot(
+            points * z.factor, found.gaussian(points) / z.factor, color=_LINES[0], linewidth=1.5, label=label
+        )
+    name = f"{VARIABLES['heights'].label} above the mean [{z.unit}]"
+    _finish(axes, (float(edges[0]), float(edges[-1])), name, f"probability density [1/{z.unit}]")
+
+
+def _finish(axes: Axes, limits: tuple[float, float], x: str, y: str) -> None:
+    axes.set_xlim(limits)
+    axes.set_ylim(bottom=0.0)
+    label_axes(axes, x, y)
+    axes.legend(fontsize=TICK, frameon=False)

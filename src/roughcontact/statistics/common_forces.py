@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import ROUNDING
+from roughcontact.statistics.power_law import ROUNDING
 
 if TYPE_CHECKING:
     import xarray

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from roughcontact.study.bootstrap import counts_of, interval, resampled_laws
+from roughcontact.statistics.bootstrap import counts_of, interval, resampled_laws
 
 RNG = np.random.default_rng(8)
 

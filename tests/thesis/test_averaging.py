@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 import xarray
-
-from roughcontact.thesis.samples import (
+from roughcontact.thesis.averaging import (
     converged,
     exponential,
     logarithm,
@@ -12,6 +11,7 @@ from roughcontact.thesis.samples import (
     slope,
     without_parameters,
 )
+
 from roughcontact.thesis.verdict import plus_minus
 
 

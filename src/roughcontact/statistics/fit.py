@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import ROUNDING
-from roughcontact.solver.status import Status
+from roughcontact.solver.control import Status
+from roughcontact.statistics.bootstrap import counts_of, interval, resampled_laws
 from roughcontact.statistics.ensemble_fit import fit_ensemble, law_error
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
-from roughcontact.study.bootstrap import counts_of, interval, resampled_laws
-from roughcontact.study.fit_window import Window, window_of
-from roughcontact.study.statistics import dimensions
+from roughcontact.statistics.fit_window import Window, window_of
+from roughcontact.statistics.power_law import ROUNDING
+from roughcontact.statistics.samples import dimensions
 
 if TYPE_CHECKING:
     import xarray
@@ -77,9 +77,9 @@ def fit_power_laws(
         the samples and ``load`` (or, from `on_common`, ``dimensionless_force``); ``status`` of each point where there
         is one. All other dimensions tell ensembles apart.
     window : Window, optional
-        See `roughcontact.study.fit_window`. Without, that of the thesis, for which loading curves bring along what it
-        takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to 0.07. A law that
-        is not quite a power law has another exponent in another window.
+        See `roughcontact.statistics.fit_window`. Without, that of the thesis, for which loading curves bring along
+        what it takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to 0.07. A
+        law that is not quite a power law has another exponent in another window.
     rng : Generator
         Draws the samples again. All ensembles are drawn alike, since their samples are paired.
     mean : {"arithmetic", "geometric"}
@@ -100,8 +100,8 @@ def fit_power_laws(
     Raises
     ------
     ValueError
-        If a variable is missing, samples stand at forces of their own (see `roughcontact.study.common.on_common`), or
-        window, mean or level are none.
+        If a variable is missing, samples stand at forces of their own (see `roughcontact.statistics.on_common`), or
+        window, mean or level is not one.
     """
     if not 0 < level < 1:
         raise ValueError(f"the level of an interval lies between 0 and 1, not at {level}")
@@ -126,8 +126,8 @@ def fit_power_laws(
         name: values.assign_attrs(long_name=words, units="1")
         for (name, words), values in zip(_WORDS.items(), found, strict=True)
     }
-    told = {"mean": mean, "window": window.rule, "level": level, "replicates": replicates}
-    return xarray.Dataset(laws, attrs={"title": "power laws of mean stiffness over samples"} | told)
+    settings = {"mean": mean, "window": window.rule, "level": level, "replicates": replicates}
+    return xarray.Dataset(laws, attrs={"title": "power laws of mean stiffness over samples"} | settings)
 
 
 def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset:
@@ -208,7 +208,7 @@ def _common(force: Array) -> Array:
         common = np.asarray(np.fmin.reduce(force, axis=0))
         if (np.abs(force / common - 1) > ROUNDING).any():
             raise ValueError(
-                "the samples stand at forces of their own: use roughcontact.study.common.on_common first"
+                "the samples stand at forces of their own: use roughcontact.statistics.on_common first"
             )
     return common
 

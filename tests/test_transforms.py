@@ -10,17 +10,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from libraries import LIBRARIES
-from roughcontact import arrays, convolution
-from roughcontact.arrays import convolve, even_multiplier
-from roughcontact.convolution import ROWS, Convolution, padded_length
+from roughcontact import transforms
 from roughcontact.kernels import loader as machine
+from roughcontact.transforms import FEWEST_ROWS, Convolution, convolve, even_multiplier, padded_length
 
 SIZES = {  # shape and lengths
     "padded": ((20, 33), (40, 64)),
     "not padded": ((24, 30), (24, 30)),
     "padded along one axis": ((24, 17), (24, 36)),
-    "as few rows as there may be": ((ROWS, 9), (16, 16)),
-    "too few rows": ((ROWS - 1, 40), (12, 80)),
+    "as few rows as there may be": ((FEWEST_ROWS, 9), (16, 16)),
+    "too few rows": ((FEWEST_ROWS - 1, 40), (12, 80)),
     "one row": ((1, 40), (2, 80)),
     "odd rows": ((20, 21), (20, 21)),
     "odd columns": ((21, 20), (21, 20)),
@@ -62,7 +61,7 @@ def by_whom(monkeypatch):
         done.append("library")
         return convolve(*given)
 
-    monkeypatch.setattr(convolution, "convolve", plain)
+    monkeypatch.setattr(transforms, "convolve", plain)
     if machine.is_available():
         from roughcontact.kernels.compiled_convolution import CompiledConvolution as Ready
 
@@ -185,7 +184,7 @@ def test_without_machine_code(size, precision, by_whom, monkeypatch):
     found = Convolution(multiplier, lengths).apply(field)
     assert by_whom == ["library"]
     assert found.dtype == precision
-    close(found, arrays.convolve(field.astype(np.float64), multiplier, lengths), precision)
+    close(found, transforms.convolve(field.astype(np.float64), multiplier, lengths), precision)
 
 
 @given(st.integers(1, 100_000))
@@ -193,7 +192,7 @@ def test_padded_lengths(cells):
     length = padded_length(cells)
     assert length % 2 == 0
     assert length >= 2 * cells - 2
-    assert cells < ROWS or length % 8 == 0
+    assert cells < FEWEST_ROWS or length % 8 == 0
     for factor in (2, 3, 5):
         while length % factor == 0:
             length //= factor
@@ -203,7 +202,7 @@ def test_padded_lengths(cells):
 @pytest.mark.parametrize("cells", [*range(1, 70), 512, 513, 1000, 1024, 1025])
 def test_padded_lengths_are_short(cells):
     """The next one above, of those that are even, or of eights."""
-    least, step = max(2, 2 * cells - 2), 2 if cells < ROWS else 8
+    least, step = max(2, 2 * cells - 2), 2 if cells < FEWEST_ROWS else 8
     smooth = (n for n in range(least + -least % step, 4 * least, step) if _smooth(n))
     assert padded_length(cells) == next(smooth)
 

@@ -1,0 +1,225 @@
+"""Fast Fourier transforms of real fields, and convolutions with even kernels by them.
+
+In machine code where there is some for a field, else by the transforms of the field's own library.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import scipy.fft
+
+from roughcontact.arrays import Placed, is_numpy, namespace
+from roughcontact.kernels import loader
+from roughcontact.kernels.compiled_convolution import CompiledConvolution, fits
+from roughcontact.threads import limit_threads, spread, threads
+
+__all__ = ["Convolution", "convolve", "even_multiplier", "fast_even_length", "filtered", "padded_length"]
+
+Array = npt.NDArray[np.float64]
+Pair = tuple[int, int]
+
+# Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
+# to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
+SLAB = 32
+ROWS = 2**18  # cells of the padded rows that are transformed in one go
+LARGE = 2**19  # cells of a transform from which on several threads are worth waking
+CELLS = 2**15  # of a slab: of few rows, as on a line, more columns go at once
+FEWEST_ROWS = 8  # that machine code takes at once
+
+
+class Convolution:
+    """A product with an even kernel for fields of any library, in double or single precision.
+
+    Parameters
+    ----------
+    multiplier : array, shape (My//2 + 1, Mx//2 + 1)
+        Real transform of the kernel, rows and columns from 0 up, as `even_multiplier` returns it.
+    lengths : tuple of int
+        ``(My, Mx)`` of the transforms, at least those of the fields.
+    """
+
+    __slots__ = ("_multiplier", "_placed", "_ready", "lengths")
+
+    def __init__(self, multiplier: Array, lengths: Pair) -> None:
+        self.lengths = lengths
+        self._multiplier: Array | None = multiplier
+        self._placed: Placed | None = None
+        self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
+
+    def apply(self, field: Array) -> Array:
+        """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
+        ready = self._ready.get((field.shape, field.dtype)) if is_numpy(field) else None
+        if ready is None:
+            if is_numpy(field) and field.dtype.kind in "biu":
+                return self.apply(field.astype(np.float64))
+            if not _in_machine_code(field, self.lengths):
+                if self._placed is None:
+                    self._placed = Placed(self._kernel())
+                return convolve(field, self._placed.beside(field), self.lengths)
+            ready = self._prepare((field.shape[0], field.shape[1]), field.dtype)
+        answer: Array = ready.apply(field)
+        return answer
+
+    def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
+        """Return the machine's kernel for fields of one shape and precision."""
+        if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
+            raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
+        ready = CompiledConvolution.of(self._kernel(), shape, self.lengths, dtype.name)
+        self._ready[shape, dtype] = ready
+        if dtype == np.float64:
+            self._multiplier = None  # planes are large: none is kept twice
+        return ready
+
+    def _kernel(self) -> Array:
+        """Return the multiplier, from what was made of it in double precision if that is all there is."""
+        multiplier = self._multiplier  # another thread may let go of it meanwhile
+        if multiplier is not None:
+            return multiplier
+        found: Array = next(
+            ready.kernel() for (_, dtype), ready in list(self._ready.items()) if dtype == np.float64
+        )
+        return found
+
+
+def padded_length(cells: int) -> int:
+    """Return the length of a transform of so many cells that nothing comes round: at least ``2 cells - 2``.
+
+    Offsets ``cells - 1`` and ``-(cells - 1)`` may share a place, since the kernel is even.
+    """
+    if cells < FEWEST_ROWS:
+        return fast_even_length(2 * cells - 2)
+    return 4 * fast_even_length(-(-(2 * cells - 2) // 4))
+
+
+def _in_machine_code(field: Array, lengths: Pair) -> bool:
+    if not is_numpy(field) or field.ndim != 2 or field.shape[0] < FEWEST_ROWS or not loader.takes(field):
+        return False
+    return fits(lengths)
+
+
+def fast_even_length(least: int) -> int:
+    """Return the next even length from `least` up that has only the prime factors 2, 3 and 5."""
+    return 2 * int(scipy.fft.next_fast_len(max(1, -(-least // 2)), real=True))
+
+
+def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
+    """Return the transform of an even kernel given at offsets from zero up.
+
+    Parameters
+    ----------
+    table : array, shape (ny, nx)
+        Kernel at offsets of whole cells, ``ny <= My//2 + 1`` and ``nx <= Mx//2 + 1``.
+    padded : tuple of int
+        Even lengths ``(My, Mx)`` of the transforms.
+
+    Returns
+    -------
+    array, shape (My//2 + 1, Mx//2 + 1)
+        Real, since the kernel is even; rows beyond repeat in reverse.
+    """
+    ny, nx = (m // 2 + 1 for m in padded)
+    even = np.zeros((ny, nx))
+    even[: table.shape[0], : table.shape[1]] = table
+    return np.asarray(scipy.fft.dctn(even, type=1, overwrite_x=True))
+
+
+def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) -> Array:
+    """Return the convolution of `field`, padded by zeros to `padded`, cut back to its own shape.
+
+    Parameters
+    ----------
+    field : array, shape (ny, nx)
+        Of any library, on any device, in double or single precision: so is the answer.
+    multiplier : array or Placed array, shape (My//2 + 1, Mx//2 + 1)
+        Real transform of an even kernel, as `even_multiplier` returns it.
+    padded : tuple of int
+        Lengths ``(My, Mx)`` of the transforms, at least those of the field.
+    """
+    factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
+
+    def multiply(spectrum: Any, columns: slice) -> None:
+        _multiply_even(spectrum, factors[:, columns])
+
+    return filtered(field, multiply, padded)
+
+
+def _multiply_even(spectrum: Any, factors: Any) -> None:
+    upper = factors.shape[0]
+    spectrum[:upper, :] *= factors
+    spectrum[upper:, :] *= namespace(factors).flip(factors[1 : spectrum.shape[0] - upper + 1, :], axis=0)
+
+
+def _workers(lengths: tuple[int, int]) -> int:
+    """Return how many threads a transform takes."""
+    return threads() if lengths[0] * lengths[1] >= LARGE else 1
+
+
+def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+    """Return `field`, padded by zeros to `padded`, with its spectrum multiplied, cut back to its own shape.
+
+    Parameters
+    ----------
+    field : array, shape (..., ny, nx)
+        Of any library, or several of them.
+    multiply : function
+        Takes columns of the spectrum, shape ``(..., My, n)``, and which ones of ``Mx//2 + 1`` they are, and multiplies
+        them in place.
+    padded : tuple of int
+        Lengths ``(My, Mx)`` of the transforms, at least those of the field.
+
+    Notes
+    -----
+    Only the rows that hold data are transformed along x, and on the host the padded columns exist for one slab at a
+    time.
+    """
+    if is_numpy(field):
+        return _on_host(field, multiply, padded)
+    xp = namespace(field)
+    (*_, ny, nx), (my, mx) = field.shape, padded
+    spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
+    multiply(spectrum, slice(None))
+    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2)[..., :ny, :], n=mx, axis=-1)[..., :nx]  # type: ignore[no-any-return]
+
+
+def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+    *_, ny, nx = field.shape
+    my, mx = padded
+    workers = _workers(padded)
+    if my == ny:  # no part of the spectrum is empty
+        spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
+        spectrum = scipy.fft.fft(spectrum, axis=-2, overwrite_x=True, workers=workers)
+        multiply(spectrum, slice(None))
+        spectrum = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True, workers=workers)
+        whole: Array = scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True, workers=workers)
+        return whole if mx == nx else np.ascontiguousarray(whole[..., :nx])
+    # Rows and columns are padded a few at a time: the padded plane is never there as a whole.
+    kind = np.complex64 if field.dtype == np.float32 else np.complex128
+    spectrum = np.empty((*field.shape[:-1], mx // 2 + 1), kind)
+    answer = np.empty(field.shape, spectrum.real.dtype)
+
+    def along_rows(part: slice) -> None:
+        spectrum[..., part, :] = scipy.fft.rfft(field[..., part, :], n=mx, axis=-1)
+
+    def along_columns(part: slice) -> None:
+        column = scipy.fft.fft(spectrum[..., part], n=my, axis=-2)
+        multiply(column, part)
+        spectrum[..., part] = scipy.fft.ifft(column, axis=-2, overwrite_x=True)[..., :ny, :]
+
+    def back_along_rows(part: slice) -> None:
+        whole = scipy.fft.irfft(spectrum[..., part, :], n=mx, axis=-1, overwrite_x=True)
+        answer[..., part, :] = whole[..., :nx]
+
+    rows = _parts(ny, max(1, ROWS // mx))
+    with limit_threads(workers):
+        spread(along_rows, rows)
+        spread(along_columns, _parts(spectrum.shape[-1], max(SLAB, CELLS // my)))
+        spread(back_along_rows, rows)
+    return answer
+
+
+def _parts(length: int, size: int) -> list[slice]:
+    return [slice(start, start + size) for start in range(0, length, size)]
