@@ -46,7 +46,7 @@ OTHERS = {
     },
     **{
         f"moving grid {shape}": lambda shape=shape: rc.half_space(
-            rc.Grid(shape, (0.3, 0.5)), 2.0, "moving-grid"
+            rc.Grid(shape, (0.3, 0.5)), 2.0, method="moving-grid"
         )
         for shape in SHAPES
     },
@@ -67,7 +67,7 @@ OTHERS = {
 @pytest.fixture(params=PLANES, ids=str)
 def plane(request):
     shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method)
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
 
 
 @pytest.fixture(params=[*PLANES, *OTHERS], ids=str)
@@ -75,7 +75,7 @@ def operator(request):
     if request.param in OTHERS:
         return OTHERS[request.param]()
     shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method)
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
 
 
 def fields(operator, count=2, seed=0):
@@ -164,9 +164,9 @@ def test_loads_in_corners_meet(operator):
 def test_scale_laws(method, periodic):
     """Cells larger by a factor move by that factor; a stiffer body moves less."""
     p = np.random.default_rng(0).standard_normal((12, 9))
-    base = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2.0, method).apply(p)
-    large = rc.half_space(rc.Grid((12, 9), (3e-7, 5e-7), periodic), 2.0, method).apply(p)
-    stiff = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2e11, method).apply(p)
+    base = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2.0, method=method).apply(p)
+    large = rc.half_space(rc.Grid((12, 9), (3e-7, 5e-7), periodic), 2.0, method=method).apply(p)
+    stiff = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2e11, method=method).apply(p)
     np.testing.assert_allclose(large, base * 1e-6, rtol=0, atol=1e-20)
     np.testing.assert_allclose(stiff, base * 1e-11, rtol=0, atol=1e-25)
 
