@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray
+
 from roughcontact.thesis.averaging import (
     converged,
     exponential,
@@ -11,7 +12,6 @@ from roughcontact.thesis.averaging import (
     slope,
     without_parameters,
 )
-
 from roughcontact.thesis.verdict import plus_minus
 
 
