@@ -69,8 +69,8 @@ class CompiledVectors:
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(free.shape, precision)
         residual, base = (room.empty(free.shape, precision) for _ in range(2))
-        given = separation, displacement, start, free
-        planes.scale_down(*given, depth=depth, unit=unit, inside=inside, lacking=residual, base=base)
+        into = inside, residual, base
+        planes.scale_down(start, displacement, separation, free, into, depth=depth, unit=unit)
         return cls(inner, weight, inside, residual, base), unit
 
     def restart(self) -> float:
