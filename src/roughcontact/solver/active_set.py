@@ -31,12 +31,12 @@ from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, pr
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
+from roughcontact.solver.subdomain import prolong
 from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
 
 Array = npt.NDArray[np.float64]
-Cells = npt.NDArray[np.intp]
 Mask = npt.NDArray[np.bool_]
 
 
@@ -178,8 +178,8 @@ class ActiveSet:
                 except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
                     dense_limit = 0
                     continue
-                p = _scattered(solved.cells, solved.pressure, free.shape)
-                tangent = Tangent(_scattered(solved.cells, solved.tangent, free.shape), solved.error)
+                p = prolong(solved.pressure, solved.cells, free.shape)
+                tangent = Tangent(prolong(solved.tangent, solved.cells, free.shape), solved.error)
                 steps += 1
             else:  # A9
                 stuck = idle >= tuning.ROUNDS_IN_SINGLE
@@ -224,10 +224,4 @@ def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free
         limit=limit,
         max_steps=50,
     )
-    return _scattered(cells, found.pressure, free.shape) > 0
-
-
-def _scattered(cells: Cells, values: Array, shape: tuple[int, ...]) -> Array:
-    field = np.zeros(shape)
-    field.ravel()[cells] = values
-    return field
+    return prolong(found.pressure, cells, free.shape) > 0
