@@ -20,8 +20,7 @@ MU = 0.4
 def certificate(answer, before, method="dense"):
     """Return the largest violation over the largest displacement, by loops over the cells in contact."""
     problem = answer.problem
-    bodies = problem.bodies if isinstance(problem.bodies, tuple) else (problem.bodies,)
-    dense = shear_half_space(problem.pressed.problem.grid, bodies, method=method)
+    dense = shear_half_space(problem.pressed.problem.grid, problem.bodies, method=method)
     now = dense.apply(answer.traction) - answer.displacement[:, None, None]
     then = np.zeros_like(now) if before is None else before.slip
     largest = 0.0

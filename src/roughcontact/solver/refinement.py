@@ -51,7 +51,13 @@ def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Ter
         depth = force_multiplier(measure, level, pressure, free) if terms.depth is None else terms.depth
         residual = optimality.residual(pressure, displacement, level - depth)
         found = replace(
-            state, depth=depth, residual=residual, steps=steps, tangent=None, displacement=displacement
+            state,
+            depth=depth,
+            residual=residual,
+            steps=steps,
+            tangent=None,
+            displacement=displacement,
+            extremes=None,
         )
         if residual <= terms.tolerance:
             return replace(found, status=Status.CONVERGED)

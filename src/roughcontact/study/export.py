@@ -36,6 +36,18 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
 
     A study that is not finished gives what is there.
 
+    Parameters
+    ----------
+    store : Store
+        An open store.
+    seconds : bool
+        Whether the time that each case took is a variable, too.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along the parameters of the table and the samples.
+
     Raises
     ------
     StoreError

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
-from roughcontact.contact.curve import POINTS, collect
+from roughcontact.contact.curve import collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
+from roughcontact.labels.variables import CURVE_POINTS
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
 from roughcontact.surface.moments import surface_moments
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["CASE", "CurveParameters", "run"]
 
 _ARRAYS = (
-    *(*POINTS, "spots", "dimensionless_stiffness"),
+    *(*CURVE_POINTS, "spots", "dimensionless_stiffness"),
     *("residual", "stiffness_residual", "resolved", "status"),
 )
 _SCALES = ("cell_stiffness", "full_contact_stiffness")
