@@ -27,7 +27,7 @@ __all__ = [
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
 FULL_CONTACT_SHARE = (
-    0.9  # above this part of the full-contact stiffness they are those of the finite size (eq. 4.14)
+    0.9  # of the full-contact stiffness; above it they are those of the finite size (eq. 4.14)
 )
 
 

@@ -177,12 +177,8 @@ def count(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> 
 
 STATISTICS: Mapping[str, Callable[..., xarray.DataArray]] = MappingProxyType(
     {
-        "mean": mean,
-        "geometric_mean": geometric_mean,
-        "standard_deviation": standard_deviation,
-        "standard_error": standard_error,
-        "scatter": scatter,
-        "count": count,
+        each.__name__: each
+        for each in (mean, geometric_mean, standard_deviation, standard_error, scatter, count)
     }
 )
 
