@@ -5,7 +5,7 @@ python benchmarks/ideas.py [n]
 
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,14 +18,15 @@ from roughcontact.solver.restriction import lowest
 
 EXTRAS = (
     "positive",
-    "between",
+    "submatrix",
     "coarsened",
     "approximate_inverse",
     "local_inverse",
-    "keeps_precision",
-    "quick",
-    "patches",
+    "single_precision",
+    "single_convolution",
+    "particle_mesh",
 )
+NOTHING = rc.Capabilities()
 
 
 @dataclass(frozen=True)
@@ -36,12 +37,21 @@ class Without:
     kept: tuple
 
     def __getattr__(self, name):
-        if name in set(EXTRAS) - set(self.kept):
-            raise AttributeError(name)
-        value = getattr(self.inner, name)
-        if name in ("restrict", "coarsened"):
-            return lambda *arguments: Without(value(*arguments), self.kept)
-        return value
+        return getattr(self.inner, name)
+
+    @property
+    def capabilities(self):
+        """Return what the operator states, with the default of each name that is not kept."""
+        stated = replace(self.inner.capabilities, coarsened=self._coarsened)
+        return replace(stated, **{name: getattr(NOTHING, name) for name in set(EXTRAS) - set(self.kept)})
+
+    def restrict(self, window):
+        """Return the operator of a window, which hides the same."""
+        return Without(self.inner.restrict(window), self.kept)
+
+    def _coarsened(self, grid):
+        coarse = self.inner.capabilities.coarsened(grid)
+        return None if coarse is None else Without(coarse, self.kept)
 
 
 def cases(n):
@@ -92,15 +102,15 @@ def main(n):
     none = property(lambda driver: 0.0)
     variants = {
         "all": (EXTRAS,),
-        "no inverse": without("approximate_inverse", "local_inverse", "patches"),
+        "no inverse": without("approximate_inverse", "local_inverse", "particle_mesh"),
         "|q| by FFT": without("local_inverse"),
         "no relief": (EXTRAS, (Plane, "relief", none), (PatchOperator, "relief", none)),
         "no window": without("positive"),
-        "no list": without("between"),
+        "no list": without("submatrix"),
         "summits": (EXTRAS, (cascade, "raised", lowest)),
         "means": (EXTRAS, (cascade, "raised", means)),
-        "no tiles": without("patches"),
-        "double": without("keeps_precision", "patches"),
+        "no tiles": without("particle_mesh"),
+        "double": without("single_precision", "particle_mesh"),
         "no machine": (EXTRAS, (loader, "is_available", lambda: False)),
     }
     print(f"{'products, seconds at n = ' + str(n):42s}" + "".join(f"{name:>16s}" for name in variants))

@@ -33,7 +33,7 @@ def line(solution: rc.Solution) -> str:
     overlap = separation[box] < solution.depth
     plane = solution.problem.operator.restrict(box)
     cells = np.flatnonzero(overlap)
-    listed = plane.between(cells)
+    listed = plane.submatrix(cells)
     assert isinstance(listed, CellsOperator)
     given, loaded = pressure.ravel()[cells], np.flatnonzero(pressure.ravel()[cells])
     tiles = len(Tiles.of(overlap))

@@ -70,7 +70,7 @@ def main() -> None:
             rough = rc.self_affine(grid, 0.8, 1.0, np.random.default_rng(0)).heights
             regions = [summits(rough, part) for part in PARTS]
             row = [least(lambda: operator.apply(rough)), step(SinglePlane(operator), regions[-1], rough)]  # noqa: B023
-            row += [step(operator.patches.on(Tiles.of(region)), region, rough) for region in regions]
+            row += [step(operator.particle_mesh.on(Tiles.of(region)), region, rough) for region in regions]
             kind = "periodic" if periodic else "free"
             print(f"| {n}^2 | {kind} | " + " | ".join(f"{t:.2f}" for t in row) + " |", flush=True)
 

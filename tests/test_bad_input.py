@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory.tools.numeric import NUMBERS, WHOLE
+from roughcontact.validation import NUMBERS, WHOLE
 
 N = 16
 PERIODIC, FREE = rc.Grid((N, N), 1e-6, True), rc.Grid((N, N), 1e-6)

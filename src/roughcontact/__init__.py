@@ -81,6 +81,7 @@ _ROOMS = {
     "slide_curve": "friction.slip_curve",
     "Geometry": "halfspace.operators.geometry",
     "Operator": "halfspace.operators.operator",
+    "Capabilities": "halfspace.operators.operator",
     "Force": "solver.control",
     "Depth": "solver.control",
     "ContactProblem": "contact.problem",
@@ -156,6 +157,7 @@ if TYPE_CHECKING:
     from roughcontact.halfspace.operators.geometry import Geometry as Geometry
     from roughcontact.halfspace.operators.layer import layer as layer
     from roughcontact.halfspace.operators.line_contact import line as line
+    from roughcontact.halfspace.operators.operator import Capabilities as Capabilities
     from roughcontact.halfspace.operators.operator import Operator as Operator
     from roughcontact.halfspace.operators.ring import ring as ring
     from roughcontact.halfspace.operators.singly_periodic import singly_periodic as singly_periodic

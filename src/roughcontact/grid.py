@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import LARGEST, SMALLEST, moderate, scalar
+from roughcontact.validation import LARGEST, SMALLEST, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
 

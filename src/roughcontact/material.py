@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-from roughcontact.theory.tools.domain import moderate, scalar, shown
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import moderate, require_numbers, scalar
 
-__all__ = ["Bodies", "Solid", "as_modulus", "number", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +76,7 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
             raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
         value = reduced_modulus(*modulus)
     else:
-        value = number("reduced modulus", modulus)
+        value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
@@ -99,20 +97,6 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     raise ValueError(
         f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
     )
-
-
-def number(name: str, value: Any) -> float:
-    """Return one real number.
-
-    Raises
-    ------
-    ValueError
-        If it is none: a text, a list, nothing. The command line reads units, this does not.
-    """
-    try:
-        return scalar(value, name)
-    except ValueError as error:
-        raise ValueError(f"the {name} must be one number in SI units, not {shown(value)}") from error
 
 
 def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:

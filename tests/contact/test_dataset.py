@@ -179,7 +179,7 @@ def test_a_line_has_units_of_its_own(body, units):
     solution = rc.press(line, MODULUS, force=1.0, operator=operator)
     for dataset in (curve_dataset(curve), solution_dataset(solution)):
         assert {name: dataset[name].attrs["units"] for name in units} == units
-        assert dataset.attrs["geometry"] == operator.geometry.value
+        assert dataset.attrs["geometry"] == operator.capabilities.geometry.value
         assert list(dataset.axis.values) == ["x"]
     assert solution_dataset(solution).pressure.dims == ("x",)
     for record in (curve_record(curve), solution_record(solution)):

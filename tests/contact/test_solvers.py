@@ -1,6 +1,6 @@
 """The contract of every solver, on every operator: at 1e-10 they agree to 1e-7 of the largest pressure."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import oracles
@@ -22,7 +22,10 @@ class WholeGrid:
     """An operator that does not promise positivity, so that no window may be cut."""
 
     inner: object
-    positive: bool = False
+
+    @property
+    def capabilities(self):
+        return replace(self.inner.capabilities, positive=False)
 
     def __getattr__(self, name):
         return getattr(self.inner, name)

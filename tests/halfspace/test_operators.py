@@ -10,7 +10,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.operators.line_contact import LineOperator
-from roughcontact.halfspace.operators.operator import Operator, is_positive, is_semidefinite, self_influence
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite, self_influence
 from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 
@@ -124,7 +124,7 @@ def test_equal_to_its_matrix(operator):
 
 
 def test_positive_where_it_says_so(operator):
-    if is_positive(operator):
+    if capabilities(operator).positive:
         assert operator.as_matrix().min() >= 0
 
 

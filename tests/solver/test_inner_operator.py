@@ -1,6 +1,6 @@
 """Solves that inexact operators drive: the same certified answers, and none the worse where these are wrong."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -28,12 +28,20 @@ class Plain:
         self._operator = operator
 
     def __getattr__(self, name):
-        if name in ("patches", "keeps_precision"):
-            raise AttributeError(name)
-        value = getattr(self._operator, name)
-        if name in ("restrict", "coarsened"):
-            return lambda *arguments: plain(value(*arguments))
-        return value
+        return getattr(self._operator, name)
+
+    @property
+    def capabilities(self):
+        given = self._operator.capabilities
+        return replace(
+            given,
+            single_precision=False,
+            coarsened=lambda grid: plain(given.coarsened(grid)),
+            particle_mesh=rc.Capabilities().particle_mesh,
+        )
+
+    def restrict(self, window):
+        return plain(self._operator.restrict(window))
 
 
 def plain(operator):
@@ -177,7 +185,7 @@ def test_one_driver_takes_off_what_it_says(rough):
     """`gain`: a change of pressure that one makes leaves this of an error, and what its products get wrong."""
     operator = rc.half_space(rough.grid, 1e9)
     region = rough.heights > np.quantile(rough.heights, 0.8)
-    patch = operator.patches.on(drivers.Tiles.of(region))
+    patch = operator.particle_mesh.on(drivers.Tiles.of(region))
     for driver in (SinglePlane(operator), patch):
         lacking = np.where(region, rough.heights, 0.0)
         unit = float(np.abs(lacking).max())

@@ -92,7 +92,7 @@ def test_bad_input_is_refused():
         SPHERE.stick_radius(-1.0)
     with pytest.raises(ValueError, match="friction"):
         SlippingSphere(1.0, 1.0, 1.0, 0.0, 1.2)
-    with pytest.raises(ValueError, match="friction must be a number"):
+    with pytest.raises(ValueError, match="friction must be one number"):
         SlippingSphere(1.0, 1.0, 1.0, "a", 1.2)
 
 

@@ -15,9 +15,9 @@ from roughcontact.halfspace.operators.build import half_space
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
-from roughcontact.material import Solid, number
+from roughcontact.material import Solid
 from roughcontact.solver.subdomain import bounding_box
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, scalar
 
 __all__ = [
     "StressPeak",
@@ -168,7 +168,7 @@ def half_space_grid(solution: Solution) -> Grid:
 
 def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
-    return solid.poisson_ratio if isinstance(solid, Solid) else number("Poisson's ratio", solid)
+    return solid.poisson_ratio if isinstance(solid, Solid) else scalar(solid, "Poisson's ratio")
 
 
 def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:

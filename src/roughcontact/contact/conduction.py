@@ -14,7 +14,7 @@ from roughcontact.contact.dataset import check_conducting, stiffness_for
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 __all__ = ["Conductors", "conductance"]
 

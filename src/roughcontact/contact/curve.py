@@ -19,8 +19,8 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.status import Status
 from roughcontact.statistics.power_law import PowerLaw, fit_power_law
-from roughcontact.theory.tools.domain import number
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     import xarray

@@ -22,8 +22,7 @@ from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.state import Solver, Tangent
 from roughcontact.solver.subdomain import Windows, embed, take
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric
 
 __all__ = ["loading_curve", "loading_path", "suggested_forces"]
 

@@ -11,11 +11,12 @@ from roughcontact.contact.solve import solve
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import Control, Depth, Force
 from roughcontact.solver.state import Solver
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import scalar
 
 __all__ = ["press"]
 
@@ -94,8 +95,8 @@ def make_problem(
     value = as_modulus(modulus)
     require_memory_for(surface)
     body = body_on(surface.grid, value, operator)
-    strength = math.inf if hardness is None else number("hardness", hardness)
-    allowed = number("tolerance", tolerance)
+    strength = math.inf if hardness is None else scalar(hardness, "hardness")
+    allowed = scalar(tolerance, "tolerance")
     return ContactProblem(separation_of(surface), body, control, allowed, surface, value, strength)
 
 
@@ -111,10 +112,10 @@ def control_of(
             f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
         )
     if force is not None:
-        return Force(number("force", force))
+        return Force(scalar(force, "force"))
     if depth is not None:
-        return Depth(number("depth", depth))
-    pressure = number("pressure", pressure)
+        return Depth(scalar(depth, "depth"))
+    pressure = scalar(pressure, "pressure")
     if not (math.isfinite(pressure) and pressure > 0):
         raise ValueError(f"the pressure must be positive and finite [Pa], not {pressure}")
     return Force(pressure * grid.area)

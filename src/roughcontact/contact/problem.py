@@ -14,12 +14,12 @@ from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
-from roughcontact.material import number
 from roughcontact.memory import require_memory
 from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import scalar
 
 __all__ = [
     "Body",
@@ -80,7 +80,7 @@ class ContactProblem:
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
         checked_tolerance(self.tolerance)
-        if not number("hardness", self.hardness) > 0:
+        if not scalar(self.hardness, "hardness") > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
             strongest = self.hardness * self._measure.total(self.measured)

@@ -23,7 +23,7 @@ from roughcontact.contact.stiffness import (
     yields_not,
 )
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.halfspace.operators.operator import exact_of, is_positive
+from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.inner_product import Measure
@@ -31,8 +31,8 @@ from roughcontact.solver.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.solver.optimality import UNITS
 from roughcontact.solver.status import Status
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     import xarray
@@ -312,7 +312,7 @@ class Solution:
         No cell is displaced by more than the depth. Where the body may bulge, measured cells do so by no more than
         their separation, and missing cells by any amount.
         """
-        if is_positive(self.problem.operator):
+        if capabilities(self.problem.operator).positive:
             return self.depth
         return max(self.depth, float(namespace(self.pressure).max(self.problem.separation)))
 

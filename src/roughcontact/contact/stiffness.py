@@ -19,7 +19,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import prescribe
 from roughcontact.solver.region import checked_region
 from roughcontact.solver.state import Tangent
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = [
     "CELLS",

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.arrays import beside, is_numpy, namespace
 from roughcontact.friction.selection import Selection
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.operator import self_influence
+from roughcontact.halfspace.operators.operator import exact_of, self_influence
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.halfspace.shear.shear_sums import DenseShear
 from roughcontact.solver.subdomain import bounding_box
@@ -74,8 +74,7 @@ class Interface:
                 cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
                 part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
         own = self_influence(part)
-        exact = getattr(part, "exact", None) or part
-        return cls(part, exact, Selection.of(region), basis, Selection.of(contact), floating, own)
+        return cls(part, exact_of(part), Selection.of(region), basis, Selection.of(contact), floating, own)
 
     @property
     def contact(self) -> Mask:

@@ -27,8 +27,8 @@ from roughcontact.friction.slip_step import Slipped, Step
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import numeric
 
 __all__ = ["advance", "slide"]
 

@@ -20,8 +20,7 @@ from roughcontact.friction.slip_problem import (
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric
 
 __all__ = ["Loads", "load_cycle", "slide_path"]
 

@@ -15,7 +15,7 @@ from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     import xarray

@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 __all__ = [
     "Load",

@@ -19,13 +19,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import sample_radii
 from roughcontact.mdr.indentation import Indentation
 from roughcontact.mdr.recovery import spring_energy
 from roughcontact.mdr.roots import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, scalar
 
 __all__ = ["Adhesion", "Control", "PullOff", "jkr"]
 
@@ -99,7 +99,7 @@ class Adhesion:
     @numeric
     def at(self, radius: float) -> Indentation:
         """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap."""
-        if not 0 < number("contact radius", radius) <= self.profile.radius:
+        if not 0 < scalar(radius, "contact radius") <= self.profile.radius:
             raise ValueError(
                 f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}"
             )
@@ -146,7 +146,7 @@ class Control:
     machine_stiffness: float
 
     def __post_init__(self) -> None:
-        if not number("stiffness of the machine", self.machine_stiffness) >= 0:
+        if not scalar(self.machine_stiffness, "stiffness of the machine") >= 0:
             raise ValueError(
                 f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}"
             )
@@ -212,7 +212,7 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     Of small strains: a soft body whose contact radius comes near its radius of curvature is beyond the theory, which
     nothing here checks.
     """
-    w = number("work of adhesion", work)
+    w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
         raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
     return Adhesion(checked_profile(profile), as_modulus(modulus), w)

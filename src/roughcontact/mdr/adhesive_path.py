@@ -11,8 +11,7 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
-from roughcontact.theory.tools.domain import number, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
 
@@ -90,7 +89,7 @@ def adhesive_path(
     if depths is not None and not machine_stiffness > 0:
         raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
-    history = np.asarray(number(forces if depths is None else depths, "the history"))  # type: ignore[arg-type]
+    history = np.asarray(number(forces if depths is None else depths, "the history"))
     if history.ndim != 1:
         raise ValueError(f"a history is a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():

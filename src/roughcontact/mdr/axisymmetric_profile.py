@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number, shown
+from roughcontact.validation import number, shown
 
 __all__ = ["Profile", "Term", "checked_profile"]
 

@@ -7,9 +7,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.theory.tools.domain import moderate
+from roughcontact.validation import moderate, scalar
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
@@ -47,13 +46,13 @@ def calibrated_lambda(
     For a single wave (H to infinity) the prefactors are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and
     lambda is 4: the line's crest has half the radius of the surface's, as in the contact of a sphere.
     """
-    number("Hurst exponent", hurst)
+    scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= 0):
         raise ValueError(
             f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
-        number(name, value)
+        scalar(value, name)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")
         moderate(value, name)

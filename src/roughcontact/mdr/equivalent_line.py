@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import scalar, shown
 
 __all__ = ["LineSpectrum", "TabulatedSpectrum", "line_spectrum"]
 
@@ -53,7 +52,7 @@ class LineSpectrum:
                 "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
                 "roughcontact.surface_spectrum"
             )
-        number("factor", self.factor)
+        scalar(self.factor, "factor")
         if not (math.isfinite(self.factor) and self.factor > 0):
             raise ValueError(f"factor must be positive and finite, not {self.factor}")
 

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.material import Solid, as_modulus
 
 __all__ = ["Foundation", "foundation"]
@@ -28,19 +29,15 @@ class Foundation:
     modulus: float
 
     @property
-    def geometry(self) -> Geometry:
-        """Springs."""
-        return Geometry.FOUNDATION
-
-    @property
-    def positive(self) -> bool:
-        """No load lifts any spring."""
-        return True
-
-    @property
-    def semidefinite(self) -> bool:
-        """Springs sink under a constant pressure, whether or not the line repeats itself."""
-        return False
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            geometry=Geometry.FOUNDATION,
+            modulus=self.modulus,
+            positive=True,
+            semidefinite=False,  # it sinks under a constant pressure, whether or not the line repeats itself
+            submatrix=self.submatrix,
+        )
 
     @property
     def weights(self) -> float:
@@ -61,7 +58,7 @@ class Foundation:
             return self
         return Foundation(self.grid.window(window), self.modulus)
 
-    def between(self, cells: Cells) -> Foundation:
+    def submatrix(self, cells: Cells) -> Foundation:
         """Return the springs of a list."""
         return Foundation(Grid(max(1, len(cells)), self.grid.spacing), self.modulus)
 

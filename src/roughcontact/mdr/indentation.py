@@ -15,7 +15,7 @@ from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.disc import disc_radius
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
 from roughcontact.mdr.roots import last_below
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 __all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve", "indented"]
 

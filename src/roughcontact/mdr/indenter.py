@@ -13,12 +13,11 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.mdr.transform_tables import from_function, from_samples, from_two_functions
 from roughcontact.theory import rough_sphere
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, scalar
 
 __all__ = [
     "cone",
@@ -58,7 +57,7 @@ def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Prof
         If exponent or coefficient are not positive, or `flat` is negative.
     """
     _positive(exponent=exponent, coefficient=coefficient)
-    number("radius of a flat face", flat)
+    scalar(flat, "radius of a flat face")
     if not (math.isfinite(flat) and flat >= 0):
         raise ValueError(f"the radius of a flat face must be 0 or above [m], not {flat}")
     return Profile(((1.0, PowerTerm(float(exponent), float(coefficient), float(flat))),))
@@ -127,7 +126,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
             f"{radius / wavelength:.4g} waves within the radius of {radius:g} m are more than the {MOST_WAVES} of a "
             "table: take less of the body, or a longer wavelength"
         )
-    if not math.isfinite(number("amplitude", amplitude)):
+    if not math.isfinite(scalar(amplitude, "amplitude")):
         raise ValueError(f"the amplitude of ripples must be finite [m], not {amplitude}")
     k = 2 * math.pi / wavelength
     # The transform turns between any two quarters of a wavelength.
@@ -222,6 +221,6 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
-        number(name, value)
+        scalar(value, name)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")

@@ -8,9 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1, zeta
 
-from roughcontact.material import number
-from roughcontact.theory.tools.domain import count
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, scalar, whole
 
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
 
@@ -128,8 +126,8 @@ def _rings(first: int, last: int) -> Array:
 
 
 def _check(hurst: float, modes: int | None) -> None:
-    number("Hurst exponent", hurst)
+    scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= -1):
         raise ValueError(f"hurst must be finite and at least -1 (white heights), not {hurst}")
     if modes is not None:
-        count("modes, the waves to a side,", modes)
+        whole(modes, "modes, the waves to a side,")

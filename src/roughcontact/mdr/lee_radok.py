@@ -19,7 +19,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.theory.tools.domain import number, shown
+from roughcontact.validation import number, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -114,7 +114,7 @@ def transfer(
             f"{shown(curve)} without {', '.join(missing)}"
         )
     t = np.asarray(number(times, "times [s]"))
-    given = np.asarray(number(depths if forces is None else forces, "loads"))  # type: ignore[arg-type]
+    given = np.asarray(number(depths if forces is None else forces, "loads"))
     load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
     if t.ndim != 1 or not len(t) or t.shape != load.shape:
         raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")

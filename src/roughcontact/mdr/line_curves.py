@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.contact.curve import FORCE_LIMIT, ROUNDING
 from roughcontact.contact.stiffness import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
-from roughcontact.theory.tools.domain import pair
+from roughcontact.validation import pair
 
 __all__ = ["LineCurves", "Mean"]
 

@@ -19,8 +19,7 @@ from roughcontact.surface.analysis.cut import surface_spectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.domain import shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, shown
 
 __all__ = ["scan_curves", "scan_spectrum"]
 

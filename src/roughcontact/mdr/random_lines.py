@@ -12,9 +12,7 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.wave_grid import Spectrum, multiplicity, wave_powers
-from roughcontact.theory.tools.domain import count as whole
-from roughcontact.theory.tools.domain import shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, shown, whole
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
@@ -60,7 +58,7 @@ def rough_lines(
     ValueError
         If an argument is out of range, or no wave of the grid lies inside the limits of the spectrum.
     """
-    whole("count, the number of lines,", count)
+    whole(count, "count, the number of lines,")
     _check(rng, amplitudes)
     amplitude = _amplitude(grid, spectrum, rms)
     rows = max(1, BATCH // grid.size)

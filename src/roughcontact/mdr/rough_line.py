@@ -9,10 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, scalar
 
 __all__ = ["checked_lines", "loading_curves"]
 
@@ -65,7 +64,7 @@ def loading_curves(
     cancels, and forces stay in order where heights are equal. A spring counts as in contact if it carries load.
     """
     lines = checked_lines(heights)
-    number("spacing", spacing)
+    scalar(spacing, "spacing")
     if not (math.isfinite(spacing) and spacing > 0):
         raise ValueError(f"spacing must be positive and finite [m], not {spacing}")
     loads, by_force = _loads(forces, depths)
@@ -191,7 +190,7 @@ def _loads(
         raise ValueError("give exactly one of forces and depths")
     by_force = forces is not None
     name, unit, least = ("forces", "N", "above 0") if by_force else ("depths", "m", "at least 0")
-    loads = np.atleast_1d(real(forces if by_force else depths, name))  # type: ignore[arg-type]
+    loads = np.atleast_1d(number(forces if by_force else depths, name))
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"{name} must hold at least one number in one row, not shape {loads.shape}")
     if not (np.isfinite(loads).all() and (loads > 0 if by_force else loads >= 0).all()):

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.sliding_state import SlidingState, sliding_state
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, scalar
 
 __all__ = ["SlidingCurves", "sliding_friction"]
 
@@ -109,12 +108,12 @@ def sliding_friction(
     """
     lines = checked_lines(heights)
     stiffness = as_modulus(modulus)
-    rates = np.atleast_1d(real(speeds, "speeds [m/s]"))
+    rates = np.atleast_1d(number(speeds, "speeds [m/s]"))
     if rates.ndim != 1 or not len(rates) or not (np.isfinite(rates).all() and (rates > 0).all()):
         raise ValueError(f"speeds must be positive and finite [m/s], at least one in one row, not {rates}")
     if not (np.diff(rates) > 0).all():
         raise ValueError("speeds must increase strictly")
-    number("relaxation time", relaxation_time)
+    scalar(relaxation_time, "relaxation time")
     if not (math.isfinite(relaxation_time) and relaxation_time > 0):
         raise ValueError(f"relaxation_time must be positive and finite [s], not {relaxation_time}")
     if lines.shape[1] < 2 or not (np.ptp(lines, axis=1) > 0).all():

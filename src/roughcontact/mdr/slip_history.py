@@ -14,13 +14,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import Solid, as_modulus, number
+from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
 from roughcontact.mdr.roots import bisect
-from roughcontact.theory.tools.domain import count
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, scalar, whole
 
 __all__ = ["SlipHistory", "slip_history"]
 
@@ -98,10 +96,10 @@ def slip_history(
     Between two states all loads change in proportion, and each step is exact for each spring.
     """
     normal, tangential, loads = _histories(normal_force, depth, force, displacement)
-    E, G, mu = as_modulus(modulus), number("shear_modulus", shear_modulus), number("friction", friction)
+    E, G, mu = as_modulus(modulus), scalar(shear_modulus, "shear_modulus"), scalar(friction, "friction")
     if not (G > 0 and mu > 0):
         raise ValueError(f"shear_modulus and friction must be positive, not {G} and {mu}")
-    count("springs", springs)
+    whole(springs, "springs")
     curve = indented(profile, E, normal, loads[0] if normal == "force" else np.maximum(loads[0], 0))
     depths = curve.depth if normal == "force" else loads[0]
     width = float(curve.contact_radius.max()) / springs
@@ -139,7 +137,7 @@ def _histories(
         raise ValueError("give exactly one of force and displacement")
     first = normal_force if depth is None else depth
     second = force if displacement is None else displacement
-    pair = [np.atleast_1d(real(values, "a history")) for values in (first, second)]  # type: ignore[arg-type]
+    pair = [np.atleast_1d(number(values, "a history")) for values in (first, second)]
     if (
         any(one.ndim != 1 for one in pair)
         or len({one.size for one in pair} - {1}) > 1

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.material import number
 from roughcontact.mdr.indentation import Indentation, indent
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import scalar, shown
 
 __all__ = ["PartialSlip", "partial_slip"]
 
@@ -132,12 +131,12 @@ def partial_slip(
             f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}"
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
-        value = number(name, value)
+        value = scalar(value, name)
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be positive and finite, not {value}")
     if (force is None) == (displacement is None):
         raise ValueError("give exactly one of force and displacement")
-    given = number("tangential load", force if displacement is None else displacement)
+    given = scalar(force if displacement is None else displacement, "tangential load")
     if not (math.isfinite(given) and given >= 0):
         raise ValueError(
             f"a tangential load must be finite and not negative, not {given}: only its size matters"

@@ -6,12 +6,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
-from roughcontact.material import number
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.chebyshev import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.terms import TableTerm
 from roughcontact.mdr.transform import FUNCTION, height_of, transform_of
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import scalar, shown
 
 __all__ = ["from_function", "from_samples", "from_two_functions"]
 
@@ -23,7 +22,7 @@ FALL = 1e-9  # and of the value from which it falls
 
 def from_function(function: Function, radius: float, *, transformed: bool) -> Profile:
     """Return the body whose height, or whose transform, is a function of the radius."""
-    number("radius", radius)
+    scalar(radius, "radius")
     if not (np.isfinite(radius) and radius > 0):
         raise ValueError(f"say how far the body is known: a radius above 0 [m], not {radius}")
     if not callable(function):

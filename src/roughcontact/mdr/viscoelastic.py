@@ -19,9 +19,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from roughcontact.material import number
-from roughcontact.theory.tools.domain import number as real
-from roughcontact.theory.tools.domain import shown
+from roughcontact.validation import number, scalar, shown
 
 __all__ = [
     "Creep",
@@ -97,8 +95,8 @@ class Viscoelastic:
             )
         for name, values in (("modulus", (self.equilibrium, *self.moduli)), ("time", self.times)):
             for value in values:
-                number(f"{name} of a viscoelastic material", value)
-        number("viscosity", self.dashpot)
+                scalar(value, f"{name} of a viscoelastic material")
+        scalar(self.dashpot, "viscosity")
         if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
             raise ValueError(
                 f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}"
@@ -153,13 +151,13 @@ class Viscoelastic:
 
 def viscous(viscosity: float) -> Viscoelastic:
     """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt."""
-    return Viscoelastic(dashpot=4 * number("viscosity", viscosity))
+    return Viscoelastic(dashpot=4 * scalar(viscosity, "viscosity"))
 
 
 def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
     """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s]."""
     return Viscoelastic(
-        equilibrium=modulus, dashpot=number("modulus", modulus) * number("retardation time", retardation_time)
+        equilibrium=modulus, dashpot=scalar(modulus, "modulus") * scalar(retardation_time, "retardation time")
     )
 
 
@@ -178,7 +176,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     relaxation_time : float
         tau [s].
     """
-    if not 0 < number("equilibrium modulus", equilibrium) < number("instantaneous modulus", instantaneous):
+    if not 0 < scalar(equilibrium, "equilibrium modulus") < scalar(instantaneous, "instantaneous modulus"):
         raise ValueError(
             f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
             f"not to {equilibrium} Pa"
@@ -188,14 +186,14 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
 
 def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
     """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s]."""
-    lists = [np.asarray(real(values, name)) for name, values in (("moduli", moduli), ("times", times))]
+    lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
     if any(values.ndim != 1 for values in lists):
         raise ValueError(
             "moduli and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
             f"not {shown(moduli)} and {shown(times)}"
         )
     E, tau = (tuple(values.tolist()) for values in lists)
-    return Viscoelastic(number("equilibrium modulus", equilibrium), E, tau)
+    return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
 
 
 def checked_material(material: Viscoelastic) -> Viscoelastic:
@@ -222,7 +220,7 @@ def ordered(times: Array, loads: Array) -> None:
 
 
 def _times(time: float | Array) -> Array:
-    t = np.asarray(real(time, "time [s]"))
+    t = np.asarray(number(time, "time [s]"))
     if not (t >= 0).all():
         raise ValueError(
             f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: nothing responds before the load"

@@ -19,8 +19,7 @@ from roughcontact.mdr.indentation import indentation_curve
 from roughcontact.mdr.roots import bisect
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
-from roughcontact.theory.tools.domain import count, number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, whole
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
 
@@ -226,7 +225,7 @@ def _foundation(
         raise ValueError(
             "on a body whose transform falls somewhere the contact is not one disc at every load"
         )
-    width = top / count("springs", springs)
+    width = top / whole(springs, "springs")
     # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
     places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
     return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius])), width

@@ -26,7 +26,7 @@ from roughcontact.solver.state import State, Tangent
 from roughcontact.solver.status import Status
 from roughcontact.solver.trial import Trial
 from roughcontact.solver.verdict import Guess, guess_region, judge_pressure
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
 

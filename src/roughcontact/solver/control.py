@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from roughcontact.material import number
+from roughcontact.validation import scalar
 
 __all__ = ["Control", "Depth", "Force", "Terms", "checked_tolerance"]
 
@@ -18,7 +18,7 @@ class Force:
     value: float
 
     def __post_init__(self) -> None:
-        if not 0 < number("force", self.value) < math.inf:
+        if not 0 < scalar(self.value, "force") < math.inf:
             raise ValueError(f"the force must be positive and finite [N], not {self.value}")
 
 
@@ -29,7 +29,7 @@ class Depth:
     value: float
 
     def __post_init__(self) -> None:
-        if not 0 <= number("depth", self.value) < math.inf:
+        if not 0 <= scalar(self.value, "depth") < math.inf:
             raise ValueError(
                 f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
             )
@@ -70,7 +70,7 @@ def checked_tolerance(tolerance: Any) -> float:
     ValueError
         If it is none.
     """
-    value = number("tolerance", tolerance)
+    value = scalar(tolerance, "tolerance")
     if not 1e-14 < value < 1e-2:
         raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
     return value

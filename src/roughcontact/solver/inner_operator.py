@@ -10,14 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
-from roughcontact.convolution import Convolution
-from roughcontact.halfspace.operators.operator import (
-    Invertible,
-    Linear,
-    Operator,
-    keeps_precision,
-    self_influence,
-)
+from roughcontact.halfspace.operators.operator import Linear, Operator, capabilities, self_influence
 from roughcontact.halfspace.sums.local_inverse import RELIEF, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import PatchOperator
 from roughcontact.halfspace.sums.tiles import Tiles
@@ -36,7 +29,7 @@ SAFE = (
 )
 
 
-class Driver(Linear, Invertible, Protocol):
+class Driver(Linear, Protocol):
     """A symmetric map between some cells, in some precision, its preconditioner, and the way there and back."""
 
     @property
@@ -47,6 +40,10 @@ class Driver(Linear, Invertible, Protocol):
     @property
     def relief(self) -> float:
         """What is taken off the diagonal of its inverse, of what that answers to a constant on a region."""
+        ...
+
+    def approximate_inverse(self, displacement: Array) -> Array:
+        """Return a pressure [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
         ...
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
@@ -77,7 +74,7 @@ class Plane:
     @property
     def local_inverse(self) -> LocalInverse | None:
         """What preconditions in machine code, if there is such a thing."""
-        return getattr(self.operator, "local_inverse", None)
+        return capabilities(self.operator).local_inverse()
 
     @property
     def relief(self) -> float:
@@ -106,8 +103,9 @@ class Plane:
         Where nothing is known that is the displacement, over about what all cells together do to one: a pressure in
         any unit, and no step along it is much too long.
         """
-        if isinstance(self.operator, Invertible):
-            return self.operator.approximate_inverse(displacement)
+        inverse = capabilities(self.operator).approximate_inverse
+        if inverse is not None:
+            return inverse(displacement)
         return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
 
 
@@ -123,8 +121,8 @@ class SinglePlane(Plane):
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        quick: Convolution | None = getattr(self.operator, "quick", None)
-        return self.operator.apply(pressure) if quick is None else quick.apply(pressure)
+        convolution = capabilities(self.operator).single_convolution
+        return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
 
 def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) -> Driver:
@@ -135,22 +133,16 @@ def driver_on(operator: Operator, region: Mask, previous: Driver | None = None) 
         return Plane(operator)
     tiles = _tiles_of(operator, region)
     if tiles is not None:
-        patch: PatchOperator = _patches(operator).on(tiles)
-        return patch
+        mesh = capabilities(operator).particle_mesh()
+        assert mesh is not None  # the tiles are its own
+        return mesh.on(tiles)
     return previous if isinstance(previous, Plane) else _plane(operator)
-
-
-def _patches(operator: Operator) -> Any:
-    """Return what works on tiles of this operator; None if there is no such thing."""
-    return getattr(operator, "patches", None)
 
 
 def _tiles_of(operator: Operator, region: Mask) -> Tiles | None:
     """Return the tiles of a region; None where the whole plane costs less."""
-    if not is_numpy(region) or _patches(operator) is None:
-        return None
-    tiles: Tiles | None = _patches(operator).tiles(region)
-    return tiles
+    mesh = capabilities(operator).particle_mesh() if is_numpy(region) else None
+    return None if mesh is None else mesh.tiles(region)
 
 
 def first_product(operator: Operator, pressure: Array, driver: Driver | None = None) -> tuple[Array, bool]:
@@ -176,12 +168,12 @@ def _tame(operator: Operator) -> bool:
 
 
 def _plane(operator: Operator) -> Plane:
-    single = keeps_precision(operator) and math.prod(operator.grid.shape) >= SINGLE
+    single = capabilities(operator).single_precision and math.prod(operator.grid.shape) >= SINGLE
     return SinglePlane(operator) if single else Plane(operator)
 
 
 def factorised(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
     """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    if _patches(operator) is None:
+    if capabilities(operator).particle_mesh() is None:
         return limit
     return min(limit, FACTORISED if tolerance < LOOSE else ROUGHLY)

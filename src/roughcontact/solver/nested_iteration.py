@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.operator import Coarsenable, Operator, is_semidefinite
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver.control import Control, Depth, Terms
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.restriction import raised
@@ -61,12 +61,12 @@ def _spread(coarse: Array, factors: tuple[int, ...], separation: Array) -> Array
 def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operator, tuple[int, ...]] | None:
     """Return the operator on larger cells and the factor of each axis, 1, 2 or 4; None if that ends here."""
     grid = operator.grid
-    if max(shape) <= COARSEST or not (isinstance(operator, Coarsenable) and isinstance(grid, Grid)):
+    if max(shape) <= COARSEST or not isinstance(grid, Grid):
         return None
     most = 4 if max(shape) <= SMALL else 2
     factors = tuple(most if n >= most * COARSEST else 2 if n > COARSEST // 2 else 1 for n in shape)
     coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
-    coarse = operator.coarsened(_coarse_grid(grid, coarse_shape, factors))
+    coarse = capabilities(operator).coarsened(_coarse_grid(grid, coarse_shape, factors))
     return None if coarse is None else (coarse, factors)
 
 

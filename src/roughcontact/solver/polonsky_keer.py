@@ -16,7 +16,7 @@ from roughcontact.solver.projection import depth_of, within
 from roughcontact.solver.start import start_pressure
 from roughcontact.solver.state import State
 from roughcontact.solver.status import Status
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["PolonskyKeer"]
 

@@ -11,8 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
-from roughcontact.halfspace.operators.operator import Listable, Operator, is_semidefinite
-from roughcontact.material import number
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver.conjugate_gradients import relax
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.direct import DENSE_LIMIT, solve_cells
@@ -22,6 +21,7 @@ from roughcontact.solver.region import checked_region
 from roughcontact.solver.subdomain import Place, bounding_box, embed, take
 from roughcontact.solver.vectors import fields_on
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import scalar
 
 __all__ = ["Prescribed", "prescribe", "prescribed_displacement"]
 
@@ -152,7 +152,7 @@ def _place(operator: Operator, region: Mask) -> Place | None:
     """Return where a solve on a region costs least: on its cells, of a list, or in its box; None for the whole."""
     if not is_numpy(region):  # elsewhere than on the host a box costs a look at every side
         return None
-    if getattr(operator, "listed", False):
+    if capabilities(operator).listed:
         return np.flatnonzero(region)
     box = bounding_box(region)
     assert box is not None  # some cell is in the region
@@ -166,8 +166,9 @@ def _part(operator: Operator, place: Place) -> Operator:
     """Return the operator between the cells of a place."""
     if isinstance(place, tuple):
         return operator.restrict(place)
-    assert isinstance(operator, Listable)  # of others no list is made
-    return operator.between(place)
+    submatrix = capabilities(operator).submatrix
+    assert submatrix is not None  # of others no list is made
+    return submatrix(place)
 
 
 def _check(name: str, given: Any, region: Mask) -> None:
@@ -175,7 +176,7 @@ def _check(name: str, given: Any, region: Mask) -> None:
     if is_array(given) and given.ndim == 0:
         return
     if not is_array(given):
-        number(name, given)
+        scalar(given, name)
         return
     if tuple(given.shape) != tuple(region.shape):
         raise ValueError(

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
-from roughcontact.halfspace.operators.operator import Listable, Operator, is_positive
+from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver.control import Terms
 from roughcontact.solver.inner_product import Measure
@@ -86,7 +86,7 @@ class Windows:
     ) -> tuple[State, Place]:
         """Solve from a `guess` of pressure [Pa] on the whole grid and depth [m]; return the state in its place."""
         pressure, depth = guess
-        if not (is_positive(self.operator) and is_numpy(separation)):
+        if not (capabilities(self.operator).positive and is_numpy(separation)):
             # Elsewhere than on the host a window would cost a look at every side of the overlap.
             whole = tuple(slice(0, n) for n in separation.shape)
             return run_certified(solver, self.operator, separation, terms, pressure), whole
@@ -122,23 +122,25 @@ class Windows:
 
     def _between(self, cells: npt.NDArray[np.intp]) -> Operator:
         """Return the operator between the cells of a list, as part of the box that holds them, which is kept."""
-        assert isinstance(self.operator, Listable)  # no list is made of others
+        submatrix = capabilities(self.operator).submatrix
+        assert submatrix is not None  # no list is made of others
         if self.operator.grid.ndim == 1:
-            return self.operator.between(cells)
+            return submatrix(cells)
         shape = self.operator.grid.shape
         places = np.unravel_index(cells, shape)
         box = self._kept(tuple(slice(int(p.min()), int(p.max()) + 1) for p in places))
         part = self.part(box)
-        if not isinstance(part, Listable):
-            return self.operator.between(cells)
+        part_submatrix = capabilities(part).submatrix
+        if part_submatrix is None:
+            return submatrix(cells)
         inside = tuple(p - s.start for p, s in zip(places, box, strict=True))
-        return part.between(np.ravel_multi_index(inside, part.grid.shape))
+        return part_submatrix(np.ravel_multi_index(inside, part.grid.shape))
 
     def _place(self, window: Mask) -> Place:
         """Return the box of a window, or the list of its cells where a direct sum costs less."""
         box = bounding_box(window)
         assert box is not None  # a window holds the lowest separation at least
-        if isinstance(self.operator, Listable) and self._is_short(window[box]):
+        if capabilities(self.operator).submatrix and self._is_short(window[box]):
             return np.flatnonzero(window)
         return self._kept(box)
 
@@ -156,7 +158,7 @@ class Windows:
         count, padded = int(np.count_nonzero(window)), 2**window.ndim * window.size
         if count * count / 4 < LOOKUPS * padded:
             return True
-        if count > FILLED * window.size or getattr(self.operator, "patches", None) is None:
+        if count > FILLED * window.size or capabilities(self.operator).particle_mesh() is None:
             return False
         # Tiles drive, products go by the box if need be, and all else follows the list.
         if window.size > LARGE:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

@@ -13,8 +13,7 @@ from roughcontact.grid import Grid
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import Spectrum, Support, multiplicity, wave_powers, wavenumbers
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 

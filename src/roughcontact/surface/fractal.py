@@ -9,8 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 __all__ = ["box_counting_dimension", "fractal_dimension", "magnify"]
 

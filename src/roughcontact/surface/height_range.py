@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.theory.tools.domain import moderate
+from roughcontact.validation import moderate
 
 __all__ = ["check_heights"]
 

@@ -19,7 +19,7 @@ from roughcontact.surface.wave_grid import (
     wave_powers,
     wavenumbers,
 )
-from roughcontact.theory.tools.numeric import require_numbers
+from roughcontact.validation import require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
 

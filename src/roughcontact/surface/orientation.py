@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

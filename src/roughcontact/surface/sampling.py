@@ -9,7 +9,7 @@ import numpy as np
 
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import gaussian_mean
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

@@ -19,8 +19,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.domain import moderate, number
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, number, numeric
 
 __all__ = [
     "cone",

@@ -13,8 +13,7 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import moderate, numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "RadialSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface

@@ -19,8 +19,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.asperity_balance import balance, independent_depth
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import number, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import number, numeric, positive, require, require_numbers
 
 __all__ = ["Asperities", "AsperityContact", "law", "press"]
 

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import require
+from roughcontact.validation import require
 
 if TYPE_CHECKING:
     from roughcontact.theory.asperities import Asperities

@@ -12,8 +12,7 @@ from scipy.special import binom, gammaln, j0
 
 from roughcontact.theory import cosine
 from roughcontact.theory.height_distribution import HeightDistribution
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require, scalar
 
 __all__ = ["beat_wave"]
 

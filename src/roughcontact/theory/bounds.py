@@ -8,8 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.punch.polygon import square
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = [
     "CELL",

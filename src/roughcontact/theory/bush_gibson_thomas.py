@@ -25,8 +25,7 @@ from roughcontact.theory.nayak import bandwidth, free_variance
 from roughcontact.theory.profile_moments import ProfileMoments, moment
 from roughcontact.theory.summit_integrals import log_integrals
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import number, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import number, numeric, positive, require, require_numbers
 
 __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
 

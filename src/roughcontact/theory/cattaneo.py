@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require, scalar
 
 __all__ = ["SlippingSphere"]
 

@@ -19,8 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, positive, require, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require, shown
 
 __all__ = [
     "electrical",

@@ -14,9 +14,8 @@ import numpy.typing as npt
 from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive, require
 from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["depth", "force", "law", "small_force", "stiffness"]
 

@@ -25,9 +25,8 @@ import numpy as np
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, moderate, positive, require
-from roughcontact.theory.tools.numeric import numeric, require_numbers
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, moderate, numeric, positive, require, require_numbers
 
 __all__ = ["Cell", "law"]
 

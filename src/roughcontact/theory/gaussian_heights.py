@@ -18,9 +18,8 @@ import numpy.typing as npt
 from scipy.special import ndtr
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, positive, require
 from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["exponent", "force", "law", "stiffness"]
 

@@ -20,8 +20,7 @@ from roughcontact.theory.nayak import summits
 from roughcontact.theory.partial_moments import DISTRIBUTIONS, Distribution
 from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import number, positive, require, scalar, shown
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import number, numeric, positive, require, require_numbers, scalar, shown
 
 __all__ = ["Asperity", "Population", "law", "population"]
 

@@ -20,9 +20,8 @@ from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, finite, positive, require
 from roughcontact.theory.tools.inverse import bisect
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, finite, numeric, positive, require
 
 __all__ = [
     "HeightDistribution",

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array, number, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
 

@@ -26,8 +26,7 @@ from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.partial_moments import Distribution
 from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.tools.concave_root import concave_root
-from roughcontact.theory.tools.domain import positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, positive, require
 
 __all__ = ["SQUARE", "finite_body", "law", "mean_gap"]
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import positive
+from roughcontact.validation import positive
 
 __all__ = ["Interface", "loading_law"]
 

@@ -17,8 +17,7 @@ from scipy.integrate import quad
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.tools.computed import ComputedCurve, as_law
-from roughcontact.theory.tools.domain import Array, positive, require, scalar
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require, scalar
 
 __all__ = ["cycle_loss", "displacement", "stiffness"]
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number
+from roughcontact.validation import number
 
 __all__ = ["LoadingLaw", "over_area"]
 

@@ -17,8 +17,7 @@ from typing import Literal, Protocol
 
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, moderate, number, positive, require, scalar, shown
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, moderate, number, numeric, positive, require, scalar, shown
 
 __all__ = [
     "ElasticSolid",

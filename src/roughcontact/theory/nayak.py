@@ -14,8 +14,7 @@ import numpy.typing as npt
 from scipy.special import log_ndtr
 
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import finite, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import finite, numeric, require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 

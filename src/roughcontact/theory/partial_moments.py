@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import special
 
-from roughcontact.theory.tools.domain import number, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import number, numeric, require
 
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
 

@@ -23,9 +23,8 @@ from scipy.special import erf, erfc, erfinv
 from roughcontact.theory import persson_separation as separation
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.profile_moments import ProfileMoments
-from roughcontact.theory.tools.domain import Array, moderate, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, moderate, numeric, positive, require
 
 __all__ = [
     "AREA_SLOPE",

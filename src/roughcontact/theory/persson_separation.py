@@ -21,9 +21,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.special import beta, erf, exp1
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = [
     "GAMMA",

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import positive
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric, positive
 
 __all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
 

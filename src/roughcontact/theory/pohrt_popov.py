@@ -14,8 +14,7 @@ import numpy.typing as npt
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
-from roughcontact.theory.tools.domain import Array, number, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = [
     "FORCE_LIMIT",

@@ -11,9 +11,8 @@ import numpy.typing as npt
 from scipy.special import gammaln, hyp2f1
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["PowerLawContact", "contact", "kappa", "law"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from roughcontact.theory.tools.domain import positive, shown
+from roughcontact.validation import positive, shown
 
 __all__ = ["ProfileMoments", "moment"]
 

@@ -16,8 +16,7 @@ import numpy.typing as npt
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.power_law_indenter import kappa
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 

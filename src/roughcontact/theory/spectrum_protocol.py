@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from roughcontact.theory.tools.domain import Array
+from roughcontact.validation import Array
 
 __all__ = ["MeasuredSpectrum", "RadialSpectrum"]
 

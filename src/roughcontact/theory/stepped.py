@@ -11,9 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.domain import count as whole
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import Array, numeric, positive, require, require_numbers, whole
 
 __all__ = ["SteppedIndenter"]
 
@@ -64,13 +62,13 @@ class SteppedIndenter:
 
     def radii(self, count: int) -> Array:
         """Return r_n of the first `count` discs [m] (thesis, eq. 4.20)."""
-        value: Array = self.radius * self.ratio ** np.arange(whole("count", count), dtype=np.float64)
+        value: Array = self.radius * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
         return value
 
     def heights(self, count: int) -> Array:
         """Return h_n of the first `count` discs [m] (thesis, eq. 4.21)."""
         value: Array = self.height * self.ratio ** (
-            self.hurst * np.arange(whole("count", count), dtype=np.float64)
+            self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
         )
         return value
 

@@ -20,8 +20,7 @@ import numpy as np
 from roughcontact.theory.conductance import Pair, harmonic_mean
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = [
     "cell_resistance",

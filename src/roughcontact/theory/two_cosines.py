@@ -13,9 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1
 
-from roughcontact.theory.tools.domain import Array, pair, positive, require
-from roughcontact.theory.tools.domain import count as whole
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import Array, numeric, pair, positive, require, require_numbers, whole
 
 __all__ = ["FLAT_FORCE", "FLAT_STIFFNESS", "Hierarchy", "flat", "force", "stiffness"]
 
@@ -145,13 +143,13 @@ class Hierarchy:
     def amplitudes(self, count: int) -> Array:
         """Return h_n of the first `count` waves [m] (thesis, eq. 4.44)."""
         value: Array = self.amplitude * self.ratio ** (
-            -self.hurst * np.arange(whole("count", count), dtype=np.float64)
+            -self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
         )
         return value
 
     def wavenumbers(self, count: int) -> Array:
         """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43)."""
-        value: Array = self.wavenumber * self.ratio ** np.arange(whole("count", count), dtype=np.float64)
+        value: Array = self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
         return value
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
@@ -161,7 +159,7 @@ class Hierarchy:
         """
         e, h, q = (
             positive(modulus, "modulus [Pa]"),
-            self.amplitudes(whole("count", count) + 1),
+            self.amplitudes(whole(count, "count") + 1),
             self.wavenumbers(count),
         )
         scale = e / q * np.sqrt(h[1:] / h[:-1])

@@ -11,8 +11,8 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.theory.spectrum_protocol import MeasuredSpectrum, RadialSpectrum
-from roughcontact.theory.tools.domain import Array, number, pair, shown
 from roughcontact.theory.tools.graded_quadrature import gauss, graded, running
+from roughcontact.validation import Array, number, pair, shown
 
 __all__ = ["Spectrum", "Waves"]
 

@@ -95,7 +95,7 @@ def rounding(matrix, pressure, transforms=0):
 
 @pytest.mark.parametrize("name", LISTS)
 def test_the_sum_is_the_product_with_the_matrix(way, name):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS[name])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS[name])
     matrix, pressure = operator.as_matrix(), pressure_on(len(LISTS[name]))
     pressure[0] = -1.3
     found = operator.apply(pressure)
@@ -107,7 +107,7 @@ def test_the_sum_is_the_product_with_the_matrix(way, name):
 @pytest.mark.parametrize("name", BODIES)
 def test_the_sum_of_any_body_is_the_product_with_its_matrix(way, name):
     body = BODIES[name]()
-    operator = body.between(some(400))
+    operator = body.submatrix(some(400))
     if operator.plane is None and way == "by the plane":
         way = "tile by tile"
     matrix, pressure = operator.as_matrix(), pressure_on(400)
@@ -120,10 +120,10 @@ def test_the_sum_of_any_body_is_the_product_with_its_matrix(way, name):
 
 @pytest.mark.parametrize("name", ["some", "corners", "the last", "up to the first of a tile"])
 def test_nobody_needs_to_know_the_plane(way, name):
-    known = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS[name])
+    known = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS[name])
     alone = CellsOperator(known.grid, known.influence, known.rows, known.columns)
     assert alone.plane is None
-    assert alone.patches is None
+    assert alone.capabilities.particle_mesh() is None
     pressure = pressure_on(len(LISTS[name]))
     pressure[0] = -1.3
     matrix = alone.as_matrix()
@@ -133,15 +133,15 @@ def test_nobody_needs_to_know_the_plane(way, name):
 
 @pytest.mark.parametrize("name", ["some", "one", "corners"])
 def test_nothing_comes_of_nothing(way, name):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS[name])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS[name])
     np.testing.assert_array_equal(operator.apply(np.zeros(len(LISTS[name]))), 0.0)
 
 
 def test_no_cells_at_all():
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(np.zeros(0, np.intp))
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(np.zeros(0, np.intp))
     assert operator.apply(np.zeros(0)).shape == (0,)
     assert operator.as_matrix().shape == (0, 0)
-    assert operator.patches is None
+    assert operator.capabilities.particle_mesh() is None
 
 
 @pytest.fixture
@@ -164,7 +164,7 @@ def taken(monkeypatch):
 
 
 def test_these_are_the_ways(way, taken):
-    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS["some"]).apply(pressure_on(301))
+    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS["some"]).apply(pressure_on(301))
     assert taken == [way]
 
 
@@ -180,7 +180,9 @@ def test_these_are_the_ways(way, taken):
 )
 def test_the_shortest_way(taken, cells, loaded, way):
     """Below MANY pairs cell by cell; 900 cells touch all of the 40 tiles, and the plane has 2257 cells."""
-    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(some(cells)).apply(1.0 * (np.arange(cells) < loaded))
+    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(some(cells)).apply(
+        1.0 * (np.arange(cells) < loaded)
+    )
     assert taken == [way]
 
 
@@ -188,22 +190,22 @@ def test_the_shortest_way(taken, cells, loaded, way):
 def test_without_machine_code_it_goes_cell_by_cell(monkeypatch, taken, way):
     go(monkeypatch, way)
     monkeypatch.setattr(loader, "is_available", lambda: False)
-    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS["some"]).apply(pressure_on(301))
+    rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS["some"]).apply(pressure_on(301))
     assert taken == ["cell by cell"]
 
 
 @pytest.mark.parametrize("name", BODIES)
 def test_lists_of_lists_have_rows_and_columns_of_the_matrix(name):
-    operator = BODIES[name]().between(some(150))
+    operator = BODIES[name]().submatrix(some(150))
     matrix = operator.as_matrix()
     chosen = np.random.default_rng(5).permutation(130)[:60]
     # Where the table ends single values take over, and of a layer these come from another rule.
     close = 4e-15 * matrix.max() if "layer" in name else 0.0
     for part, cells in (
-        (operator.between(chosen), chosen),
+        (operator.submatrix(chosen), chosen),
         (operator.restrict((slice(20, 90),)), np.arange(20, 90)),
-        (operator.restrict((slice(10, 140),)).between(chosen), 10 + chosen),
-        (operator.between(chosen).restrict((slice(None, 7),)), chosen[:7]),
+        (operator.restrict((slice(10, 140),)).submatrix(chosen), 10 + chosen),
+        (operator.submatrix(chosen).restrict((slice(None, 7),)), chosen[:7]),
     ):
         wanted = matrix[np.ix_(cells, cells)]
         np.testing.assert_allclose(part.as_matrix(), wanted, rtol=0, atol=close)
@@ -215,9 +217,9 @@ def test_lists_of_lists_have_rows_and_columns_of_the_matrix(name):
 
 @pytest.mark.parametrize("name", ["some", "corners"])
 def test_a_list_of_a_list_sums_alike(way, name):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS[name])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS[name])
     chosen = np.arange(0, len(LISTS[name]), 3)[::-1]
-    part, pressure = operator.between(chosen), pressure_on(len(chosen))
+    part, pressure = operator.submatrix(chosen), pressure_on(len(chosen))
     pressure[0] = 2.0
     embedded = np.zeros(len(LISTS[name]))
     embedded[chosen] = pressure
@@ -228,7 +230,7 @@ def test_a_list_of_a_list_sums_alike(way, name):
 
 
 def test_it_is_symmetric(way):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS["some"])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS["some"])
     p, q = pressure_on(301, 1), pressure_on(301, 2)
     padded = 4 * SHAPE[0] * SHAPE[1] if way == "by the plane" else 0
     matrix = operator.as_matrix()
@@ -238,7 +240,7 @@ def test_it_is_symmetric(way):
 
 
 def test_a_pressure_may_be_locked(way):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS["some"])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS["some"])
     pressure = pressure_on(301)
     expected = operator.apply(pressure)
     pressure.flags.writeable = False
@@ -247,7 +249,7 @@ def test_a_pressure_may_be_locked(way):
 
 @needs_code
 def test_what_is_no_number_shows(way):
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS["some"])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS["some"])
     pressure = np.zeros(301)
     pressure[77] = np.nan
     assert np.isnan(operator.apply(pressure)).all()
@@ -258,7 +260,7 @@ def test_what_is_no_number_shows(way):
 @pytest.mark.parametrize("name", ["many", "corners", "one"])
 def test_threads_are_no_matter(monkeypatch, name, count):
     go(monkeypatch, "tile by tile")
-    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).between(LISTS[name])
+    operator = rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(LISTS[name])
     pressure = pressure_on(len(LISTS[name]))
     pressure[0] = 0.7
     with limit_threads(1):
@@ -273,9 +275,9 @@ def test_threads_are_no_matter(monkeypatch, name, count):
 def test_it_drives_by_its_tiles():
     """`patches` of a list: nearly the same sums on the tiles that a part of it touches, in single precision."""
     plane = rc.half_space(rc.Grid((96, 130), SPACING), 2.0)
-    operator = plane.between(some(900, (96, 130)))
+    operator = plane.submatrix(some(900, (96, 130)))
     region = np.random.default_rng(7).random(900) < 0.1
-    patches = operator.patches
+    patches = operator.capabilities.particle_mesh()
     assert isinstance(patches, ListPatches)
     tiles = patches.tiles(region)
     assert tiles.hold(region)
@@ -293,13 +295,13 @@ def test_it_drives_by_its_tiles():
 
 def test_bodies_without_tiles_have_no_patches():
     for name in ("periodic half-space", "layer", "line"):
-        assert BODIES[name]().between(some(50)).patches is None
+        assert BODIES[name]().submatrix(some(50)).capabilities.particle_mesh() is None
 
 
 @needs_code
 def test_no_table_is_made_for_few_cells_far_apart(taken):
     """A table of the plane would cost more than so few single values; once it is there, it serves."""
-    operator = rc.half_space(rc.Grid((600, 500), 1.0), 2.0).between(np.arange(0, 300_000, 1001))
+    operator = rc.half_space(rc.Grid((600, 500), 1.0), 2.0).submatrix(np.arange(0, 300_000, 1001))
     pressure = np.ones(300)
     single = operator.apply(pressure)
     operator.influence.table((600, 500))

@@ -220,4 +220,4 @@ def test_half_spaces_have_one_and_other_bodies_none(periodic):
     )
     assert rc.half_space(rc.Grid((1, 30), 1e-3, periodic), MODULUS).local_inverse is None
     layer = rc.layer(rc.Grid((20, 30), 1e-3, periodic), rc.Solid(1e9, 0.3), 0.01, base="bonded")
-    assert getattr(layer, "local_inverse", None) is None
+    assert layer.capabilities.local_inverse() is None

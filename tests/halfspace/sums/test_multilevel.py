@@ -66,9 +66,9 @@ def test_error_on_a_line():
     operator = rc.line(grid, 2.0, method="multilevel")
     large = rc.line(grid, 2.0, method="multilevel", reference_length=1e6 * 1500)
     assert len(operator.plane._hierarchy.levels) >= 2
-    assert rc.line(grid, 2.0).exact is None
+    assert rc.line(grid, 2.0).capabilities.exact is None
     for pressure in pressures((1, 3000)).values():
-        exact = operator.exact.apply(pressure[0])
+        exact = operator.capabilities.exact.apply(pressure[0])
         found = operator.apply(pressure[0])
         assert np.abs(found - exact).max() <= 1e-6 * np.abs(exact).max()
         shift = 2 * np.log(1e6) * pressure.sum() * 0.5 / (np.pi * 2.0)
@@ -129,7 +129,7 @@ def test_what_else_it_can_do_is_exact():
     operator = rc.half_space(rc.Grid((40, 30), (0.3, 0.5)), 2.0, "multilevel")
     cells = np.array([3, 77, 500, 1199])
     np.testing.assert_array_equal(operator.as_matrix(cells), operator.exact.as_matrix(cells))
-    np.testing.assert_array_equal(operator.between(cells).as_matrix(), operator.exact.as_matrix(cells))
+    np.testing.assert_array_equal(operator.submatrix(cells).as_matrix(), operator.exact.as_matrix(cells))
     u = np.random.default_rng(0).random((40, 30))
     np.testing.assert_array_equal(operator.approximate_inverse(u), operator.exact.approximate_inverse(u))
     coarse = operator.coarsened(rc.Grid((20, 15), (0.6, 1.0)))

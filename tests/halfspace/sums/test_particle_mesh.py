@@ -34,7 +34,7 @@ def spots(grid, seed=0, count=12):
 
 def on(grid, region):
     operator = rc.half_space(grid, 2e9)
-    return operator, operator.patches.on(Tiles.of(region))
+    return operator, operator.particle_mesh.on(Tiles.of(region))
 
 
 def test_it_misses_no_more_than_it_says(grid):
@@ -106,13 +106,13 @@ def test_the_inverse_is_that_of_the_plane_within_some_percent(grid):
     ids=["too slender", "no tiles fit the period", "images are near"],
 )
 def test_where_it_does_not_go(grid):
-    assert rc.half_space(grid, 1.0).patches is None
+    assert rc.half_space(grid, 1.0).capabilities.particle_mesh() is None
 
 
 def test_a_layer_has_none():
     grid = rc.Grid((64, 64), (1.0, 1.0))
     layer = rc.layer(grid, rc.Solid(1.0, 0.3), 4.0, base="bonded")
-    assert getattr(layer, "patches", None) is None
+    assert layer.capabilities.particle_mesh() is None
 
 
 class TestTiles:

@@ -8,7 +8,7 @@ from typing import Literal
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
-from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.halfspace.operators.ring import ring
 from roughcontact.halfspace.operators.singly_periodic import SinglyPeriodicOperator, singly_periodic
 from roughcontact.halfspace.sums.methods import Sum, summed
@@ -78,7 +78,7 @@ def body_on(
         raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
     if operator.grid != grid:
         raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
-    own, value = getattr(operator, "modulus", None), as_modulus(modulus)
+    own, value = capabilities(operator).modulus, as_modulus(modulus)
     if own is not None and not math.isclose(own, value, rel_tol=1e-9):
         raise ValueError(
             f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: make both one"

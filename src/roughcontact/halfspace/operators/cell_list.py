@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Tables
+from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.halfspace.sums.direct_sum import DirectSum
 from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches
 from roughcontact.halfspace.sums.tiles import Tiles
@@ -52,7 +53,6 @@ class CellsOperator:
     columns: Cells
     positive: bool = True
     plane: Any = None
-    listed: ClassVar[bool] = True
 
     @classmethod
     def of(
@@ -64,12 +64,22 @@ class CellsOperator:
         return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive, plane)
 
     @cached_property
-    def patches(self) -> ListPatches | None:
+    def _particle_mesh(self) -> ListPatches | None:
         """What works on the tiles of a region; None where nothing of the kind is known."""
-        patches: Patches | None = getattr(self.plane, "patches", None)
-        if patches is None or not len(self.rows):
+        plane = capabilities(self.plane).particle_mesh()
+        if not isinstance(plane, Patches) or not len(self.rows):
             return None
-        return ListPatches(patches, self._tiles, self.influence)
+        return ListPatches(plane, self._tiles, self.influence)
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            positive=self.positive,
+            listed=True,
+            submatrix=self.submatrix,
+            particle_mesh=lambda: self._particle_mesh,
+        )
 
     @property
     def weights(self) -> float:
@@ -103,7 +113,7 @@ class CellsOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` of the list (all without)."""
-        some = self if cells is None else self.between(cells)
+        some = self if cells is None else self.submatrix(cells)
         matrix = np.empty((len(some.rows), len(some.rows)))
         everything = slice(None)
         for part in some._blocks(len(some.rows)):
@@ -112,9 +122,9 @@ class CellsOperator:
 
     def restrict(self, window: tuple[slice, ...]) -> CellsOperator:
         """Return the map between a part of the list."""
-        return self.between(np.arange(len(self.rows))[window])
+        return self.submatrix(np.arange(len(self.rows))[window])
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between some cells of the list."""
         grid = Grid(max(1, len(cells)), self.grid.spacing)
         rows, columns = self.rows[cells], self.columns[cells]

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import AnyGrid
+from roughcontact.halfspace.operators.operator import Capabilities
 
 __all__ = ["DenseOperator"]
 
@@ -47,9 +48,13 @@ class DenseOperator:
         return self.grid.cell_area
 
     @property
-    def diagonal(self) -> Array:
-        """Displacement of each cell per unit pressure on itself [m/Pa], shape of the grid."""
-        return np.diagonal(self.matrix).reshape(self.grid.shape).copy()
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            modulus=self.modulus,
+            positive=self.positive,
+            self_influences=lambda: np.diagonal(self.matrix).reshape(self.grid.shape).copy(),
+        )
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""

@@ -16,10 +16,10 @@ from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionl
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
 from roughcontact.halfspace.influence.tables import Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.domain import moderate
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import moderate, numeric
 
 __all__ = ["LayerOperator", "layer"]
 
@@ -46,9 +46,16 @@ class LayerOperator:
     positive: bool = False
 
     @property
-    def semidefinite(self) -> bool:
-        """Whether a constant pressure moves nothing: on an endless base, or through an incompressible bonded layer."""
-        return self.influence.stack.mean == 0
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            positive=self.positive,
+            # A constant pressure moves nothing on an endless base, nor through an incompressible bonded layer.
+            semidefinite=self.influence.stack.mean == 0,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+        )
 
     @property
     def weights(self) -> float:
@@ -82,9 +89,9 @@ class LayerOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return self.between(np.arange(self.grid.size) if cells is None else cells).as_matrix()
+        return self.submatrix(np.arange(self.grid.size) if cells is None else cells).as_matrix()
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self._tables, cells, self.positive)
 

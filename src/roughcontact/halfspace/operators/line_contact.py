@@ -12,12 +12,12 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.halfspace.operators.operator import keeps_precision
+from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.halfspace.sums.methods import Sum, Summed, summed
 from roughcontact.halfspace.sums.multilevel import MultilevelOperator
 from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["LineOperator", "line"]
 
@@ -38,35 +38,25 @@ class LineOperator:
     plane: Summed
 
     @property
-    def geometry(self) -> Geometry:
-        """A line: forces are per unit length."""
-        return Geometry.LINE
-
-    @property
     def grid(self) -> Grid:
         """Grid of one axis."""
         plane = self.plane.grid
         return Grid(plane.shape[1:], plane.spacing[1:], plane.periodic[1:])
 
     @property
-    def modulus(self) -> float | None:
-        """Reduced modulus E* [Pa]."""
-        return self.plane.modulus
-
-    @property
-    def positive(self) -> bool:
-        """Whether no pressure lifts any cell."""
-        return self.plane.positive
-
-    @property
-    def exact(self) -> LineOperator | None:
-        """The same body without the error of its sum; None if there is none to speak of."""
-        return LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None
-
-    @property
-    def keeps_precision(self) -> bool:
-        """Whether products with fields in single precision are in single precision."""
-        return keeps_precision(self.plane)
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol: what its plane can, but for tiles."""
+        plane = capabilities(self.plane)
+        return Capabilities(
+            exact=LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None,
+            geometry=Geometry.LINE,
+            modulus=plane.modulus,
+            positive=plane.positive,
+            single_precision=plane.single_precision,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+        )
 
     @property
     def weights(self) -> float:
@@ -85,9 +75,9 @@ class LineOperator:
         """Return the map between the cells of `window`, with no pressure outside and the same reference length."""
         return LineOperator(self.plane.restrict((slice(0, 1), *window)))
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells, with no pressure elsewhere."""
-        return self.plane.between(cells)
+        return self.plane.submatrix(cells)
 
     def coarsened(self, grid: Grid) -> LineOperator | None:
         """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
-from typing import Protocol, runtime_checkable
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -11,23 +13,24 @@ import numpy.typing as npt
 
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.sums.local_inverse import LocalInverse
+from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches
 
 __all__ = [
-    "Coarsenable",
-    "Invertible",
+    "Capabilities",
     "Linear",
-    "Listable",
     "Operator",
+    "capabilities",
     "exact_of",
     "geometry_of",
-    "is_positive",
     "is_semidefinite",
-    "keeps_precision",
     "self_influence",
     "self_influences",
 ]
 
+AnyOperator = TypeVar("AnyOperator")
 Array = npt.NDArray[np.float64]
+Cells = npt.NDArray[np.intp]
 _known: WeakKeyDictionary[Operator, float] = WeakKeyDictionary()  # what several ask of one operator
 
 
@@ -51,11 +54,8 @@ class Operator(Protocol):
     Symmetric under its weights. On a free grid positive definite; on a periodic one semidefinite, since a
     constant pressure moves nothing.
 
-    What else an operator can do, it may offer: `positive`, `between`, `coarsened`, `approximate_inverse`,
-    `local_inverse`, `keeps_precision`, `quick`, `patches`, `listed`. Each makes solves faster and none changes an
-    answer. Where cells differ, `diagonal` is the displacement of each per unit pressure on itself. One whose sum is not
-    exact has the `exact` one, by which answers are certified. One that is not a half-space under a surface says so by
-    its `geometry`, on which the units of the answers depend.
+    These five members are enough for any solve. What else an operator can do, it states by an attribute
+    ``capabilities``, a `Capabilities`.
     """
 
     @property
@@ -81,34 +81,100 @@ class Operator(Protocol):
         ...
 
 
-def exact_of(operator: Operator) -> Operator:
+def _absent(*_: Any) -> None:
+    """Return None: what an operator answers that does not have this."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Capabilities:
+    """What an operator can do beyond the protocol; by default nothing.
+
+    What is known is stated as a value. What is done, or takes work to make, is a function: an operator keeps what it
+    has made, so that a function may be called as often as needed. Answers depend on `exact`, `geometry`,
+    `modulus`, `positive` and `semidefinite`, which must be true; the others make solves faster.
+
+    Parameters
+    ----------
+    exact : Operator, optional
+        The same body without the error of its sum, by which answers are certified; without, its sum is exact.
+    geometry : Geometry, optional
+        What the cells are, on which the units of answers depend; without, what the grid suggests.
+    modulus : float, optional
+        Reduced modulus E* of the body [Pa], where it has one: another one is then refused.
+    positive : bool
+        Whether no pressure lifts any cell, so that contact lies where the bodies overlap.
+    semidefinite : bool, optional
+        Whether a constant pressure on all cells moves nothing; without, so it is on a grid that is periodic along all
+        axes.
+    listed : bool
+        Whether its cells are a list of cells of a plane, so that those of a region are found by `submatrix`, not by
+        a box.
+    single_precision : bool
+        Whether products with fields in single precision are in single precision.
+    single_convolution : function, optional
+        Product in single precision for the steps of a solve, where it may cost less than ``apply``.
+    self_influences : function
+        Without arguments; returns the displacement of each cell per unit pressure on itself [m/Pa] where cells differ.
+    submatrix : function, optional
+        Takes cells (flat indices, none twice) and returns the operator between them, whose fields are lists, at a
+        cost that follows the list.
+    coarsened : function
+        Takes a grid of larger cells and returns the operator of the same body there; None where it has none.
+    approximate_inverse : function, optional
+        Takes a displacement [m] and returns a pressure [Pa] that would cause about this; symmetric and definite.
+    local_inverse : function
+        Without arguments; returns a sum over near cells that does about the same.
+    particle_mesh : function
+        Without arguments; returns what makes particle-mesh operators on the tiles of a region.
+    """
+
+    exact: Operator | None = None
+    geometry: Geometry | None = None
+    modulus: float | None = None
+    positive: bool = False
+    semidefinite: bool | None = None
+    listed: bool = False
+    single_precision: bool = False
+    single_convolution: Callable[[Array], Array] | None = None
+    self_influences: Callable[[], Array | None] = _absent
+    submatrix: Callable[[Cells], Operator] | None = None
+    coarsened: Callable[[Grid], Operator | None] = _absent
+    approximate_inverse: Callable[[Array], Array] | None = None
+    local_inverse: Callable[[], LocalInverse | None] = _absent
+    particle_mesh: Callable[[], Patches | ListPatches | None] = _absent
+
+
+def capabilities(operator: object) -> Capabilities:
+    """Return what an operator states that it can do, nothing if it does not.
+
+    Raises
+    ------
+    ValueError
+        If its attribute ``capabilities`` is something else.
+    """
+    stated = getattr(operator, "capabilities", None)
+    if not isinstance(stated, Capabilities | None):
+        raise ValueError(
+            f"the attribute capabilities of an operator must be a roughcontact.Capabilities, not {stated!r}"
+        )
+    return Capabilities() if stated is None else stated
+
+
+def exact_of(operator: AnyOperator) -> AnyOperator:
     """Return the operator that certifies: the same body without the error of its sum."""
-    exact: Operator | None = getattr(operator, "exact", None)
-    return operator if exact is None else exact
-
-
-def is_positive(operator: Operator) -> bool:
-    """Whether no pressure lifts any cell, so that contact lies where the bodies overlap; no, unless it says so."""
-    return bool(getattr(operator, "positive", False))
+    exact = capabilities(operator).exact
+    return operator if exact is None else cast(AnyOperator, exact)
 
 
 def geometry_of(operator: Operator) -> Geometry:
-    """Return what the operator's cells are: what it says, else what its grid suggests."""
-    stated = getattr(operator, "geometry", None)
-    return stated if isinstance(stated, Geometry) else Geometry.of(operator.grid)
+    """Return what the operator's cells are: what it states, else what its grid suggests."""
+    return capabilities(operator).geometry or Geometry.of(operator.grid)
 
 
 def is_semidefinite(operator: Operator) -> bool:
-    """Whether a constant pressure on all cells moves nothing: the whole of a periodic body, never a part.
-
-    An operator may say so; else its grid does.
-    """
-    return bool(getattr(operator, "semidefinite", all(operator.grid.periodic)))
-
-
-def keeps_precision(operator: Operator) -> bool:
-    """Whether products with fields in single precision are in single precision; no, unless the operator says so."""
-    return bool(getattr(operator, "keeps_precision", False))
+    """Whether a constant pressure on all cells moves nothing: the whole of a periodic body, never a part."""
+    stated = capabilities(operator).semidefinite
+    return all(operator.grid.periodic) if stated is None else stated
 
 
 def self_influence(operator: Operator) -> float:
@@ -124,32 +190,5 @@ def self_influence(operator: Operator) -> float:
 
 def self_influences(operator: Operator) -> float | Array:
     """Return the displacement of each cell per unit pressure on itself [m/Pa]: one number where all are equal."""
-    diagonal: Array | None = getattr(operator, "diagonal", None)
-    return self_influence(operator) if diagonal is None else diagonal
-
-
-@runtime_checkable
-class Coarsenable(Protocol):
-    """An operator that can state itself on coarser cells."""
-
-    def coarsened(self, grid: Grid) -> Operator | None:
-        """Return the same body on `grid`, whose cells are larger; None where it cannot be stated there."""
-        ...
-
-
-@runtime_checkable
-class Listable(Protocol):
-    """An operator that can state itself between a list of its cells, at a cost that follows the list."""
-
-    def between(self, cells: npt.NDArray[np.intp]) -> Operator:
-        """Return the map between `cells` (flat indices, none twice), with no pressure elsewhere; fields are lists."""
-        ...
-
-
-@runtime_checkable
-class Invertible(Protocol):
-    """An operator that knows roughly what pressure a displacement takes: a preconditioner."""
-
-    def approximate_inverse(self, displacement: Array) -> Array:
-        """Return a pressure [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
-        ...
+    each = capabilities(operator).self_influences()
+    return self_influence(operator) if each is None else each

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -17,9 +16,10 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
 from roughcontact.halfspace.influence.tables import Love, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["Row", "SinglyPeriodicOperator", "singly_periodic"]
 
@@ -95,12 +95,18 @@ class SinglyPeriodicOperator:
     grid: Grid
     influence: Tables
     positive: bool = True
-    keeps_precision: ClassVar[bool] = True
 
     @property
-    def modulus(self) -> float:
-        """Reduced modulus E* [Pa]."""
-        return self._row.modulus
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            modulus=self._row.modulus,
+            positive=self.positive,
+            single_precision=True,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+        )
 
     @property
     def weights(self) -> float:
@@ -148,9 +154,9 @@ class SinglyPeriodicOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return self.between(np.arange(self.grid.size) if cells is None else cells).as_matrix()
+        return self.submatrix(np.arange(self.grid.size) if cells is None else cells).as_matrix()
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self.influence, cells, self.positive)
 

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from roughcontact.arrays import require_numpy
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.shear.shear_influence import Cerruti
 from roughcontact.halfspace.shear.shear_sums import FreeShear
 from roughcontact.halfspace.sums.levels import Hierarchy, Kernel
@@ -61,6 +62,11 @@ class MultilevelShear:
     def grid(self) -> Grid:
         """The grid it works on."""
         return self.exact.grid
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(exact=self.exact)
 
     @property
     def weights(self) -> float:

@@ -27,7 +27,8 @@ class ShearOperator(Protocol):
 
     Fields have shape ``(2, ny, nx)``: the component along x, then that along y. Traction is what body 2 exerts on
     body 1. The map is symmetric; on a free grid positive definite, on a periodic one semidefinite, since a constant
-    traction moves nothing. One whose sum is not exact has the ``exact`` one, by which answers are certified.
+    traction moves nothing. One whose sum is not
+    exact states the exact one in its `Capabilities`, by which answers are certified.
     """
 
     @property

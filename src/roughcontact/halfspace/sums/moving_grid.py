@@ -11,6 +11,7 @@ from roughcontact.arrays import require_numpy
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.spectral import FreeOperator
 
 __all__ = ["MovingGridOperator"]
@@ -39,14 +40,15 @@ class MovingGridOperator:
         return self.free.grid
 
     @property
-    def modulus(self) -> float | None:
-        """Reduced modulus E* [Pa] of a half-space; None of another body."""
-        return self.free.modulus
-
-    @property
-    def positive(self) -> bool:
-        """Whether no pressure lifts any cell."""
-        return self.free.positive
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            modulus=self.free.modulus,
+            positive=self.free.positive,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+        )
 
     @property
     def weights(self) -> float:
@@ -83,9 +85,9 @@ class MovingGridOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
         return replace(self, free=self.free.restrict(window))
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
-        return self.free.between(cells)
+        return self.free.submatrix(cells)
 
     def coarsened(self, grid: Grid) -> MovingGridOperator | None:
         """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""

@@ -11,6 +11,7 @@ from roughcontact.arrays import require_numpy
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.levels import Hierarchy, Kernel
 from roughcontact.halfspace.sums.spectral import FreeOperator
 from roughcontact.halfspace.sums.transfer import Nodes
@@ -59,14 +60,16 @@ class MultilevelOperator:
         return self.exact.grid
 
     @property
-    def modulus(self) -> float | None:
-        """Reduced modulus E* [Pa] of a half-space; None of another body."""
-        return self.exact.modulus
-
-    @property
-    def positive(self) -> bool:
-        """Whether no pressure lifts any cell."""
-        return self.exact.positive
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            exact=self.exact,
+            modulus=self.exact.modulus,
+            positive=self.exact.positive,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+        )
 
     @property
     def weights(self) -> float:
@@ -96,9 +99,9 @@ class MultilevelOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
         return replace(self, exact=self.exact.restrict(window))
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the exact map between a list of cells (flat indices), with no pressure elsewhere."""
-        return self.exact.between(cells)
+        return self.exact.submatrix(cells)
 
     def coarsened(self, grid: Grid) -> MultilevelOperator | None:
         """Return the same body on `grid`, whose cells are larger; None for a window of a periodic one."""

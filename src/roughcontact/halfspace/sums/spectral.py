@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +13,7 @@ from roughcontact.convolution import Convolution, padded_length
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.local_inverse import LocalInverse, local_inverse
 from roughcontact.halfspace.sums.particle_mesh import Patches, patches_of
 
@@ -40,13 +40,26 @@ class FreeOperator:
     grid: Grid
     influence: Tables
     positive: bool = True
-    keeps_precision: ClassVar[bool] = True
 
     @property
     def modulus(self) -> float | None:
         """Reduced modulus E* [Pa] of a half-space; None of another body."""
         kernel = self.influence.influence
         return kernel.modulus if isinstance(kernel, Love | Strip | Periodic) else None
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            modulus=self.modulus,
+            positive=self.positive,
+            single_precision=True,
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+            local_inverse=lambda: self.local_inverse,
+            particle_mesh=lambda: self.particle_mesh,
+        )
 
     @property
     def weights(self) -> float:
@@ -60,7 +73,7 @@ class FreeOperator:
         return Convolution(multiplier, padded)
 
     @cached_property
-    def patches(self) -> Patches | None:
+    def particle_mesh(self) -> Patches | None:
         """What works on the tiles of a region of this half-space; None for another body."""
         kernel = self.influence.influence
         return patches_of(kernel, self.grid, self.local_inverse) if isinstance(kernel, Love) else None
@@ -91,7 +104,7 @@ class FreeOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
         return FreeOperator(self.grid.window(window), self.influence, self.positive)
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self.influence, cells, self.positive, self)
 
@@ -116,15 +129,30 @@ class PeriodicOperator:
     grid: Grid
     influence: Periodic
     positive: bool = False
-    keeps_precision: ClassVar[bool] = True
 
     @property
     def modulus(self) -> float | None:
         """Reduced modulus E* [Pa] of a half-space; None of another body."""
         return self.influence.modulus if isinstance(self.influence, Periodic) else None
 
+    @property
+    def capabilities(self) -> Capabilities:
+        """What it can do beyond the protocol."""
+        return Capabilities(
+            modulus=self.modulus,
+            positive=self.positive,
+            single_precision=True,
+            # A mean that moves next to nothing does no harm in the steps of a solve.
+            single_convolution=lambda pressure: self._product.apply(pressure),
+            submatrix=self.submatrix,
+            coarsened=self.coarsened,
+            approximate_inverse=self.approximate_inverse,
+            local_inverse=lambda: self.local_inverse,
+            particle_mesh=lambda: self.particle_mesh,
+        )
+
     @cached_property
-    def patches(self) -> Patches | None:
+    def particle_mesh(self) -> Patches | None:
         """What works on the tiles of a region; None where they do not fit the period."""
         return patches_of(self.influence, self.grid, self.local_inverse)
 
@@ -150,11 +178,6 @@ class PeriodicOperator:
         displacement -= xp.mean(displacement)
         return displacement
 
-    @property
-    def quick(self) -> Convolution:
-        """What does the products of a solve: a mean that moves next to nothing does no harm there."""
-        return self._product
-
     @cached_property
     def local_inverse(self) -> LocalInverse | None:
         """What preconditions in machine code; None for another body than a half-space."""
@@ -171,7 +194,7 @@ class PeriodicOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return self.between(np.arange(self.grid.size) if cells is None else cells).as_matrix()
+        return self.submatrix(np.arange(self.grid.size) if cells is None else cells).as_matrix()
 
     def restrict(self, window: tuple[slice, ...]) -> FreeOperator | PeriodicOperator:
         """Return the map between the cells of `window`, with no pressure outside."""
@@ -179,7 +202,7 @@ class PeriodicOperator:
             return self  # the whole keeps its period
         return FreeOperator(self.grid.window(window), self._tables, self.positive)
 
-    def between(self, cells: Cells) -> CellsOperator:
+    def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
         return CellsOperator.of(self.grid, self._tables, cells, self.positive)
 

@@ -12,7 +12,7 @@ from scipy.special import gammaln
 
 from roughcontact.surface.analysis.hurst import fit_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
 

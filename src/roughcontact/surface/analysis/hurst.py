@@ -15,7 +15,7 @@ from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["merge_spectra", "spectra_ratio"]
 

@@ -9,8 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import number
-from roughcontact.theory.tools.numeric import numeric, require_numbers
+from roughcontact.validation import number, numeric, require_numbers
 
 __all__ = ["PowerSpectrum"]
 

@@ -14,7 +14,7 @@ from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.preprocess import Level, tapered, tapers
 from roughcontact.surface.analysis.windows import Window
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["power_spectrum"]
 

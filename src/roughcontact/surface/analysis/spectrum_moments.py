@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["spectrum_moments"]
 

@@ -9,7 +9,7 @@ from roughcontact.surface.parameters.decay import decay_lengths
 from roughcontact.surface.parameters.facets import gradient_and_area
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["ArealParameters", "areal_parameters"]
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import numeric
 
 __all__ = ["ProfileParameters", "profile_parameters"]
 

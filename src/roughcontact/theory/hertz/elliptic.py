@@ -8,9 +8,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprd, elliprf
 
-from roughcontact.theory.tools.domain import Array, finite, number, pair
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, finite, number, numeric, pair
 
 __all__ = ["EllipticContact", "elliptic"]
 

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import lambertw
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
 from roughcontact.theory.tools.products import Product, checked, solve
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["LineContact", "line"]
 

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["annulus"]
 

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import elliprf
 
-from roughcontact.theory.tools.domain import Array, number, pair, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, number, numeric, pair, positive, require
 
 __all__ = [
     "disc",

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["SQUARE", "TRIANGLE", "Computed", "shape_factor", "square", "triangle"]
 

@@ -8,8 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import eval_jacobi, gammaln
 
-from roughcontact.theory.tools.domain import Array, positive, require
-from roughcontact.theory.tools.numeric import numeric
+from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["two_discs"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.tools.domain import Array, number, shown
+from roughcontact.validation import Array, number, shown
 
 __all__ = ["ComputedCurve", "as_law"]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughcontact.theory.tools.domain import Array
+from roughcontact.validation import Array
 
 __all__ = ["bisect"]
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.theory.tools.domain import Array, positive
-from roughcontact.theory.tools.numeric import fitting
+from roughcontact.validation import Array, fitting, positive
 
 __all__ = ["Product", "checked", "solve"]
 

@@ -1,13 +1,28 @@
 """Numbers at the border: what is taken, and what is said of the rest."""
 
+from __future__ import annotations
+
+import inspect
 import math
+from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 import roughcontact as rc
 from roughcontact.theory import hertz, mindlin, persson, pohrt_popov, punch, rough_sphere
-from roughcontact.theory.tools.domain import count, number, pair, positive, require, scalar
+from roughcontact.validation import (
+    Array,
+    number,
+    numeric,
+    pair,
+    positive,
+    require,
+    require_numbers,
+    scalar,
+    whole,
+)
 
 SOLID = rc.Solid(2e11, 0.3)
 
@@ -17,12 +32,12 @@ def test_numbers_and_arrays_are_kept():
     assert number([1, 2], "x").dtype == np.float64
     assert np.shape(positive(np.array([[1.0]]), "x")) == (1, 1)
     assert scalar(np.float32(0.5), "x") == 0.5
-    assert count("springs", np.int64(3)) == 3
+    assert whole(np.int64(3), "springs") == 3
     assert pair([1, (2, 3)], "x")[1].tolist() == [2, 3]
 
 
 @pytest.mark.parametrize("value", ["110GPa", "1e9", None, 1j, [1, "a"], {}, np.array(["1"]), [[1], [1, 2]]])
-def test_what_is_no_number(value):
+def test_what_is_not_numbers(value):
     with pytest.raises(
         ValueError, match=r"force \[N\] must be a number or an array of numbers in SI units, not "
     ):
@@ -42,13 +57,13 @@ def test_a_material_is_no_modulus(value):
 
 
 @pytest.mark.parametrize("value", [0, 2.5, True, "2", None])
-def test_what_is_no_count(value):
+def test_what_is_not_a_whole_number(value):
     with pytest.raises(ValueError, match="springs must be a whole number, at least 1"):
-        count("springs", value)
+        whole(value, "springs")
 
 
 @pytest.mark.parametrize("value", [0.01, (1, 2, 3), ([1, 2], [1, 2, 3]), (1, -1), "ab"])
-def test_what_is_no_pair(value):
+def test_what_is_not_a_pair(value):
     with pytest.raises(ValueError, match=r"x \[m\] must be"):
         pair(value, "x [m]")
     with pytest.raises(ValueError, match=r"radii \[m\] must be"):
@@ -86,3 +101,65 @@ def test_poissons_ratio_is_one_number(value):
 def test_a_pair_of_solids():
     with pytest.raises(ValueError, match=r"shear_modulus and poisson_ratio is wanted, not 5\.0"):
         mindlin.pair_ratio(SOLID, 5.0)
+
+
+@numeric
+def checked(
+    force: npt.ArrayLike, depth: float | Array, hurst: float, *, length: float | None = None, name: str = ""
+) -> tuple[object, ...]:
+    """Return what is given."""
+    return force, depth, hurst, length, name
+
+
+def test_values_pass_as_they_are():
+    force = [1.0, 2.0]
+    assert checked(force, 3, True, name="x") == (force, 3, True, None, "x")
+    assert checked(force, 3, True, name="x")[0] is force
+    checked(np.ones((2, 1)), np.ones(3), np.float64(0.8), length=2)
+    checked(np.inf, -1.0, 0.0)  # ranges are the function's own
+
+
+def test_the_function_stays_itself():
+    assert checked.__name__ == "checked"
+    assert checked.__doc__ == "Return what is given."
+    assert list(inspect.signature(checked).parameters) == ["force", "depth", "hurst", "length", "name"]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"force": "x"}, "force must be a number or an array of numbers in SI units, not 'x'"),
+        ({"depth": None}, "depth must be a number or an array of numbers in SI units, not None"),
+        ({"depth": [1.0, np.nan]}, "depth must be a number, not nan"),
+        ({"hurst": [0.8]}, r"hurst must be one number in SI units, not an array of shape \(1,\)"),
+        ({"length": "x"}, "length must be one number in SI units, not 'x'"),
+        ({"force": np.ones(2), "depth": np.ones(3)}, r"do not fit: force \(2,\), depth \(3,\)$"),
+    ],
+    ids=str,
+)
+def test_what_is_wrong_is_named(given, message):
+    with pytest.raises(ValueError, match=message):
+        checked(**{"force": 1.0, "depth": 1.0, "hurst": 0.8} | given)
+
+
+def test_missing_and_unknown_arguments_are_those_of_python():
+    with pytest.raises(TypeError, match="missing"):
+        checked(1.0, 2.0)
+    with pytest.raises(TypeError, match="unexpected"):
+        checked(1.0, 2.0, 3.0, other=1.0)
+    with pytest.raises(TypeError, match="positional"):
+        checked(1.0, 2.0, 3.0, 4.0)
+
+
+def test_fields_of_a_body():
+    @dataclass
+    class Body:
+        radius: float
+        reference: float | None
+        name: str
+
+    require_numbers(Body(1.0, None, "x"))
+    with pytest.raises(ValueError, match="radius must be one number"):
+        require_numbers(Body(np.ones(2), None, "x"))
+    with pytest.raises(ValueError, match="reference must be a number, not nan"):
+        require_numbers(Body(1.0, np.nan, "x"))

@@ -1,0 +1,257 @@
+"""Numbers at the border of all rooms: taken as floats, or refused with the name of the parameter and the reason."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = [
+    "Array",
+    "finite",
+    "fitting",
+    "moderate",
+    "number",
+    "numeric",
+    "pair",
+    "positive",
+    "require",
+    "require_numbers",
+    "scalar",
+    "shown",
+    "whole",
+]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+Array = npt.NDArray[np.float64]
+
+LONGEST = 60  # text of a value in a message
+# Of sizes in between, whatever their unit, products of six are numbers of full precision.
+SMALLEST, LARGEST = 1e-50, 1e50
+
+# Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
+# whole ones.
+ARRAYS = {"npt.ArrayLike", "float | Array"}
+NUMBERS = {"float"}
+WHOLE = {"int"}
+OPTIONAL = " | None"
+
+
+def number(value: Any, what: str) -> Array:
+    """Return `value` as float64, a number as a number and an array as an array.
+
+    Parameters
+    ----------
+    value : array_like
+        What the user gave.
+    what : str
+        Its name and unit, for the message: ``"force [N]"``.
+
+    Raises
+    ------
+    ValueError
+        If it is neither a number nor an array of numbers: a text, a material, nothing.
+    """
+    return _floats(value, what, "a number or an array of numbers")
+
+
+def scalar(value: Any, what: str) -> float:
+    """Return one number as a float.
+
+    Parameters
+    ----------
+    value, what
+        See `number`.
+
+    Raises
+    ------
+    ValueError
+        If it is not one number: an array, a text, a material, nothing. The command line reads units, this does not.
+    """
+    x = _floats(value, what, "one number")
+    require(np.ndim(x) == 0, f"{what} must be one number in SI units, not an array of shape {np.shape(x)}")
+    return float(x)
+
+
+def finite(value: npt.ArrayLike, what: str) -> Array:
+    """Return `value` as `number` does, if all of it is finite."""
+    x = number(value, what)
+    require(np.isfinite(x), f"{what} must be finite", x)
+    return x
+
+
+def moderate(value: float, what: str) -> float:
+    """Return a positive size, of which products can be taken without overflow and without loss of digits.
+
+    Raises
+    ------
+    ValueError
+        If it is too small or too large for that.
+    """
+    if not SMALLEST <= value <= LARGEST:
+        raise ValueError(
+            f"{what} must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, "
+            f"not at {value:g}: give it in other units"
+        )
+    return value
+
+
+def positive(value: npt.ArrayLike, what: str, *, zero: bool = False) -> Array:
+    """Return `value` as `number` does, if it is in range.
+
+    Parameters
+    ----------
+    value, what
+        See `number`.
+    zero : bool
+        Whether 0 will do.
+
+    Raises
+    ------
+    ValueError
+        If a value is no number, or not positive (or 0) and finite.
+    """
+    x = number(value, what)
+    right = np.isfinite(x) & ((x >= 0) if zero else (x > 0))
+    if not right.all():
+        wanted = "finite and not negative" if zero else "positive and finite"
+        raise ValueError(f"{what} must be {wanted}, not {np.asarray(x)[~right].flat[0]}")
+    return x
+
+
+def whole(value: int, what: str) -> int:
+    """Return a whole number from 1 up, or refuse it."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
+        raise ValueError(f"{what} must be a whole number, at least 1, not {shown(value)}")
+    return int(value)
+
+
+def pair(values: tuple[npt.ArrayLike, npt.ArrayLike], what: str) -> tuple[Array, Array]:
+    """Return two positive numbers, or arrays of one shape.
+
+    Raises
+    ------
+    ValueError
+        If there are not two, they are not positive, or their shapes do not fit.
+    """
+    if not isinstance(values, tuple | list | np.ndarray) or len(values) != 2:
+        raise ValueError(f"{what} must be two, such as (1e-3, 2e-3), not {shown(values)}")
+    first, second = (positive(value, what) for value in values)
+    if np.ndim(first) and np.ndim(second) and np.shape(first) != np.shape(second):
+        raise ValueError(
+            f"{what} must be two numbers or arrays of one shape, not {first.shape} and {second.shape}"
+        )
+    return first, second
+
+
+def require(condition: npt.ArrayLike, message: str, value: npt.ArrayLike | None = None) -> None:
+    """Raise a `ValueError` with the `message` unless the `condition` holds everywhere.
+
+    The message ends with the first `value`, an array of the shape of the condition or one number, for which it does
+    not hold.
+    """
+    right = np.asarray(condition)
+    if not right.all():
+        wrong = "" if value is None else f" (given: {np.broadcast_to(value, right.shape)[~right].flat[0]:g})"
+        raise ValueError(message + wrong)
+
+
+def shown(value: object) -> str:
+    """Return a value for a message: as it writes itself if that is short, or else of what kind it is."""
+    text = repr(value)
+    short = len(text) <= LONGEST and "\n" not in text
+    return text if short else f"a {type(value).__name__}"
+
+
+def numeric(function: Callable[P, R]) -> Callable[P, R]:
+    """Check the arguments of a function by the annotations of its parameters, before it sees them.
+
+    ``float`` wants one number, ``int`` a whole one, ``npt.ArrayLike`` and ``float | Array`` numbers or arrays that can
+    be broadcast; none takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all
+    values as given: their range is the function's own affair.
+
+    Raises
+    ------
+    ValueError
+        From the decorated function: the parameter, what it is to be and what it is; or the shapes that do not fit.
+    """
+    parameters = inspect.signature(function).parameters
+    names = tuple(parameters)
+    kinds = {name: str(parameter.annotation) for name, parameter in parameters.items()}
+    wanted = {
+        name: kind for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) in ARRAYS | NUMBERS | WHOLE
+    }
+
+    @wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        given = dict(zip(names, args, strict=False)) | kwargs
+        shapes = {}
+        for name, value in given.items():
+            if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
+                shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
+        fitting(shapes)
+        return function(*args, **kwargs)
+
+    return checked
+
+
+def require_numbers(body: Any) -> None:
+    """Refuse a dataclass one of whose fields of type ``float`` or ``int`` holds anything else than one such number.
+
+    Raises
+    ------
+    ValueError
+        Naming the field.
+    """
+    for field in fields(body):
+        value, kind = getattr(body, field.name), str(field.type)
+        if kind.removesuffix(OPTIONAL) in NUMBERS | WHOLE and not (value is None and kind.endswith(OPTIONAL)):
+            _shape(value, field.name, kind.removesuffix(OPTIONAL))
+
+
+def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
+    """Refuse shapes that cannot be broadcast against each other, with the names of what has them.
+
+    Raises
+    ------
+    ValueError
+        If they do not fit.
+    """
+    try:
+        np.broadcast_shapes(*shapes.values())
+    except ValueError as error:
+        told = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
+        raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
+
+
+def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
+    """Return the shape of a value, which must be numbers."""
+    x = number(value, name) if kind in ARRAYS else np.asarray(scalar(value, name))
+    if kind in WHOLE:
+        require(np.isfinite(x) and x % 1 == 0, f"{name} must be a whole number, not {value}")
+    require(~np.isnan(x), f"{name} must be a number, not nan")
+    return np.shape(x)
+
+
+def _floats(value: Any, what: str, wanted: str) -> Array:
+    """Return `value` as float64, or say that `what` must be what is `wanted`."""
+    given = np.asarray(value) if value is None or isinstance(value, str | bytes) else value
+    try:
+        if isinstance(given, np.ndarray) and given.dtype.kind not in "biuf":
+            raise TypeError(f"numbers of kind {given.dtype}")
+        plain: Array = np.asarray(given, dtype=np.float64)[()]
+    except (TypeError, ValueError, OverflowError) as error:
+        parts = value if isinstance(value, tuple) else (value,)
+        remedy = (
+            "; of a material give the reduced modulus as a number: rc.reduced_modulus(...)"
+            if "modulus" in what and any(hasattr(part, "young_modulus") for part in parts)
+            else ""
+        )
+        raise ValueError(f"{what} must be {wanted} in SI units, not {shown(value)}{remedy}") from error
+    return plain
