@@ -1,4 +1,4 @@
-"""The program ``roughcontact``: its verbs and its version."""
+"""The program ``roughcontact``: its commands and its version."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from roughcontact.cli import spectrum_command as spectrum
 from roughcontact.cli import study_command as study
 from roughcontact.cli import surface_command as surface
 from roughcontact.cli import thesis_command as thesis
+from roughcontact.cli.groups import grouped
 
 __all__ = ["app"]
 
@@ -35,20 +36,20 @@ _study = typer.Typer(
     help="Run ensembles that can be stopped, continued and enlarged; export them.", no_args_is_help=True
 )
 
-app.command(epilog=press.EXAMPLES)(press.press)
-app.command(epilog=curve.EXAMPLES)(curve.curve)
-app.command(epilog=conductance.EXAMPLES)(conductance.conductance)
+app.command(epilog=press.EXAMPLES)(grouped(press.press))
+app.command(epilog=curve.EXAMPLES)(grouped(curve.curve))
+app.command(epilog=conductance.EXAMPLES)(grouped(conductance.conductance))
 app.add_typer(_surface, name="surface")
-_surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
-_surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
-_surface.command(epilog=prepare.EXAMPLES)(prepare.prepare)
-_surface.command(epilog=spectrum.EXAMPLES)(spectrum.spectrum)
+_surface.command(epilog=surface.INFO_EXAMPLES)(grouped(surface.info))
+_surface.command(epilog=surface.MAKE_EXAMPLES)(grouped(surface.make))
+_surface.command(epilog=prepare.EXAMPLES)(grouped(prepare.prepare))
+_surface.command(epilog=spectrum.EXAMPLES)(grouped(spectrum.spectrum))
 app.add_typer(_study, name="study")
-_study.command(epilog=study.RUN_EXAMPLES)(study.run)
-_study.command(epilog=study.STATUS_EXAMPLES)(study.status)
-_study.command(epilog=study.EXPORT_EXAMPLES)(study.export)
-_study.command(epilog=study.ADD_EXAMPLES)(study.add)
-app.command(epilog=thesis.EXAMPLES)(thesis.thesis)
+_study.command(epilog=study.RUN_EXAMPLES)(grouped(study.run))
+_study.command(epilog=study.STATUS_EXAMPLES)(grouped(study.status))
+_study.command(epilog=study.EXPORT_EXAMPLES)(grouped(study.export))
+_study.command(epilog=study.ADD_EXAMPLES)(grouped(study.add))
+app.command(epilog=thesis.EXAMPLES)(grouped(thesis.thesis))
 
 
 def _version(wanted: bool) -> None:

@@ -1,4 +1,4 @@
-"""The verb ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
+"""The command ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.conduction import Conductors
 
-__all__ = ["COLUMNS", "EXAMPLES", "ConductivityOption", "Materials", "ResistivityOption", "conductance"]
+__all__ = ["COLUMNS", "EXAMPLES", "Materials", "conductance"]
 
 EXAMPLES = """Examples:
 
@@ -34,37 +34,25 @@ roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 
 COLUMNS = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
 _BODIES = "The two bodies"
 
-ResistivityOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="17nohm*m[,...]",
-        help="Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
-        rich_help_panel=_BODIES,
-    ),
-]
-ConductivityOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="400W/m/K[,...]",
-        help="Thermal conductivity of both bodies, likewise.",
-        rich_help_panel=_BODIES,
-    ),
-]
-
-
-class Share(StrEnum):
-    """Which resistance: the total one of the contact, or that of the interface alone."""
-
-    TOTAL = "total"
-    INTERFACE = "interface"
+Part = StrEnum("Part", ["TOTAL", "INTERFACE"])
 
 
 @dataclass(frozen=True, slots=True)
 class Materials:
     """The conducting bodies, as the user gave them."""
 
-    resistivity: str | None
-    conductivity: str | None
+    resistivity: Annotated[
+        str | None,
+        options.option(
+            "Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
+            "17nohm*m[,...]",
+            panel=_BODIES,
+        ),
+    ] = None
+    conductivity: Annotated[
+        str | None,
+        options.option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]", panel=_BODIES),
+    ] = None
 
     def conductors(self) -> Conductors | None:
         """Return the bodies; None where nothing was said."""
@@ -84,15 +72,12 @@ class Materials:
 
 def conductance(
     file: Annotated[
-        Path, typer.Argument(metavar="CURVE", help="curve.nc that the verb curve wrote, or its folder.")
+        Path, typer.Argument(metavar="CURVE", help="curve.nc that the command curve wrote, or its folder.")
     ],
-    *,
-    resistivity: ResistivityOption = None,
-    conductivity: ConductivityOption = None,
+    materials: Materials,
     of: Annotated[
-        Share,
-        typer.Option(help="Total resistance, macro-constriction included, or that of the interface alone."),
-    ] = Share.TOTAL,
+        Part, options.option("Total resistance, macro-constriction included, or that of the interface alone.")
+    ] = Part.TOTAL,
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
@@ -100,7 +85,7 @@ def conductance(
     from roughcontact.contact.dataset import with_conductance
 
     with reported(file, out):
-        conductors = Materials(resistivity, conductivity).conductors()
+        conductors = materials.conductors()
         if conductors is None:
             raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")
         path = file / "curve.nc" if file.is_dir() else file
@@ -127,7 +112,7 @@ def _read(path: Path) -> xarray.Dataset:
     except FileNotFoundError as error:
         raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
     except (OSError, ValueError) as error:
-        raise UsageError(f"{path} is not a curve.nc that the verb curve wrote: {error}") from error
+        raise UsageError(f"{path} is not a curve.nc that the command curve wrote: {error}") from error
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:
@@ -135,7 +120,7 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
 
     columns = {name: plain_values(answer[name].to_numpy()) for name in names}
     units = {name: answer[name].attrs["units"] for name in names}
-    return {"verb": "conductance", "file": plain(str(path)), **columns, "units": units}
+    return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}
 
 
 def _write(answer: xarray.Dataset, names: list[str], folder: Path) -> None:

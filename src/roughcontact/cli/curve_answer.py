@@ -1,4 +1,4 @@
-"""What the verb ``curve`` answers: on the screen, as JSON, and in files."""
+"""What the command ``curve`` answers: on the screen, as JSON, and in files."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class CurveAnswer:
 
         conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
         record = {
-            "verb": "curve",
+            "command": "curve",
             "file": plain(str(self.file)),
             "surface": list(self.surface.provenance),
             **curve_record(self.curve),

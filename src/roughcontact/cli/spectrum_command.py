@@ -1,14 +1,13 @@
-"""The verb ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
+"""The command ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.messages import UsageError, note, plain, reported
@@ -16,7 +15,7 @@ from roughcontact.cli.output import output
 from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.spectrum_files import write_spectrum
-from roughcontact.cli.unit_options import LENGTH, parse
+from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.engineering_units import written
 
 if TYPE_CHECKING:
@@ -48,79 +47,76 @@ _UNITS = {
 }
 
 
-class Limit(StrEnum):
-    """How the law may end toward long waves."""
-
-    AUTO = "auto"
-    NONE = "none"
-    ROLLOFF = "rolloff"
-    LONG_CUTOFF = "long_cutoff"
-
-
-class Direction(StrEnum):
-    """Which spectrum: of the surface, or of its profiles."""
-
-    AUTO = "auto"
-    RING = "ring"
-    X = "x"
-    Y = "y"
-
-
+Limit = StrEnum("Limit", ["AUTO", "NONE", "ROLLOFF", "LONG_CUTOFF"])
+Direction = StrEnum("Direction", ["AUTO", "RING", "X", "Y"])
 _SPECTRUM = "Spectrum"
-DirectionOption = Annotated[
-    Direction,
-    typer.Option(
-        help="Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
-        "auto: ring of a map, x of a line scan.",
-        rich_help_panel=_SPECTRUM,
-    ),
-]
-LimitOption = Annotated[
-    Limit, typer.Option(help="How the power law may end toward long waves.", rich_help_panel=_SPECTRUM)
-]
-LongestOption = Annotated[
-    str | None,
-    typer.Option(metavar="100um", help="Longest wave that counts (default: a third of a free map's length).",
-                 rich_help_panel=_SPECTRUM),
-]  # fmt: skip
-ShortestOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="1um", help="Shortest wave that the instrument follows (default: two cells).",
-        rich_help_panel=_SPECTRUM,
-    ),
-]  # fmt: skip
-FillOption = Annotated[
-    bool, typer.Option("--fill", help="Fill missing points smoothly first.", rich_help_panel=_SPECTRUM)
-]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Which spectrum is asked for, and which law in it."""
+
+    direction: Annotated[
+        Direction,
+        options.option(
+            "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+            "auto: ring of a map, x of a profile.",
+            panel=_SPECTRUM,
+        ),
+    ] = Direction.AUTO
+    limit: Annotated[
+        Limit, options.option("How the power law may end toward long waves.", panel=_SPECTRUM)
+    ] = Limit.AUTO
+    longest: Annotated[
+        str | None,
+        options.option(
+            "Longest wave that counts (default: a third of a free map's length).", "100um", panel=_SPECTRUM
+        ),
+    ] = None
+    shortest: Annotated[
+        str | None,
+        options.option(
+            "Shortest wave that the instrument follows (default: two cells).", "1um", panel=_SPECTRUM
+        ),
+    ] = None
+    fill: Annotated[
+        bool, options.option("Fill missing points smoothly first.", None, "--fill", panel=_SPECTRUM)
+    ] = False
+
+    def band(self) -> dict[str, float]:
+        """Return the band that was asked for as wavenumbers [rad/m]."""
+        band = {
+            name: 2 * math.pi / parse_positive(text, LENGTH, option, "a wavelength")
+            for name, text, option in (
+                ("q_min", self.longest, "--longest"),
+                ("q_max", self.shortest, "--shortest"),
+            )
+            if text is not None
+        }
+        if len(band) == 2 and not band["q_min"] < band["q_max"]:
+            raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
+        return band
 
 
 def spectrum(
-    file: options.AnyFileArgument,
+    source: options.Source,
     *,
-    direction: DirectionOption = Direction.AUTO,
-    limit: LimitOption = Limit.AUTO,
-    longest: LongestOption = None,
-    shortest: ShortestOption = None,
-    fill: FillOption = False,
-    channel: options.ChannelOption = None,
-    unit: options.UnitOption = None,
-    size: options.SizeOption = None,
+    asked: Asked,
     periodic: options.PeriodicOption = None,
     level: options.LevelOption = None,
     out: options.OutOption = None,
     json: options.JsonOption = False,
 ) -> None:
-    """Power spectrum of a surface or line scan: Hurst exponent with its error, roll-off or cut-off, rms, moments.
+    """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
-    Of a line scan it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(file, out):
-        waves = _waves(longest, shortest)
+    with reported(source.file, out):
+        band = asked.band()
         with output(out) as folder:
-            surface = _surface(options.Reading(file, channel, unit, size, level, periodic), fill)
-            found, law = _analysed(surface, direction, limit, waves, level)
-            record = _record(surface, found, law, file)
+            surface = _surface(source, periodic, asked.fill)
+            found, law = _analysed(surface, asked, band, level)
+            record = _record(surface, found, law, source.file)
             if folder is not None:
                 isotropic = _isotropic(surface, found, law)
                 write_spectrum((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
@@ -131,27 +127,13 @@ def spectrum(
         note_files(folder, ("spectrum.csv", "spectrum.png"))
 
 
-def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
-    """Return the band that was asked for as wavenumbers [rad/m]."""
-    band = {}
-    for name, text, option in (("q_min", longest, "--longest"), ("q_max", shortest, "--shortest")):
-        if text is not None:
-            wavelength = parse(text, LENGTH, option)
-            if not wavelength > 0:
-                raise UsageError(f"{option}: a wavelength must be positive, not {text!r}")
-            band[name] = 2 * math.pi / wavelength
-    if len(band) == 2 and not band["q_min"] < band["q_max"]:
-        raise UsageError(f"--longest {longest} must be longer than --shortest {shortest}")
-    return band
-
-
-def _surface(reading: options.Reading, fill: bool) -> Surface:
-    """Return the surface without missing points; its tilt goes when the spectrum is taken."""
-    surface = reading.map_or_line()
+def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surface:
+    """Return the surface without missing points; its tilt is removed when the spectrum is taken."""
+    surface = source.map_or_line(periodic)
     require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
     if surface.missing and not fill:
         raise UsageError(
-            f"{reading.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
             "or crop them away by 'roughcontact surface prepare'"
         )
     if surface.missing:
@@ -161,20 +143,23 @@ def _surface(reading: options.Reading, fill: bool) -> Surface:
 
 
 def _analysed(
-    surface: Surface, direction: Direction, limit: Limit, band: dict[str, float], level: options.Level | None
+    surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
 ) -> tuple[PowerSpectrum, HurstFit]:
     """Return the spectrum in fine bins, its band set, and the law that fits it."""
     from dataclasses import replace
 
     import roughcontact as rc
 
+    # mypy takes the values of an enum for any text.
+    direction: Any = asked.direction.value
+    limit: Any = asked.limit.value
     taken: Any = "auto" if level is None else level.value
     if level is None and not all(surface.grid.periodic):
-        trend = "plane" if surface.grid.ndim == 2 else "slope"
-        note(f"the heights are levelled by their {trend} (--level mean or none for another choice)")
-    whole = rc.power_spectrum(surface, direction.value, level=taken, per_decade=_FINE)
+        trend = "plane" if surface.grid.ndim == 2 else "line"
+        note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+    whole = rc.power_spectrum(surface, direction, level=taken, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
-    return whole, rc.fit_spectrum(whole, limit=limit.value)
+    return whole, rc.fit_spectrum(whole, limit=limit)
 
 
 def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
@@ -204,7 +189,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
     if surface.grid.ndim == 1:
         values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
     return {
-        "verb": "surface spectrum",
+        "command": "surface spectrum",
         "file": plain(str(file)),
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
@@ -228,7 +213,7 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
     nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
     return [
         ("file", record["file"]),
-        ("surface" if surface.grid.ndim == 2 else "line scan", size_of(surface.grid)),
+        ("surface" if surface.grid.ndim == 2 else "profile", size_of(surface.grid)),
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
         ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
         ("waves", band),
@@ -253,7 +238,7 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
 
 
 def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
-    """Return C2D of the isotropic surface that has the profile of a line scan, where there is one."""
+    """Return C2D of the isotropic surface that has such profiles, where there is one."""
     import roughcontact as rc
 
     if surface.grid.ndim == 2:

@@ -1,4 +1,4 @@
-"""The verbs ``surface info`` and ``surface make``: look at a file, or make one."""
+"""The commands ``surface info`` and ``surface make``: look at a file, or make one."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from roughcontact.cli import options
 from roughcontact.cli.messages import as_typed, plain, reported
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import ENDINGS, require_output, save_surface
+from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 
 if TYPE_CHECKING:
@@ -39,40 +37,16 @@ _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
 _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
 _BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
 
-OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help=f"File to write: {ENDINGS}.")]
-HurstOption = Annotated[str, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
-RmsOption = Annotated[str, typer.Option(metavar="1um", help="Root mean square height.")]
-NewSizeOption = Annotated[
-    str,
-    typer.Option(metavar="1mm", help="Width (cells are square), or height x width."),
-]
-PointsOption = Annotated[str, typer.Option(metavar="512", help="Points a side, or rows x columns.")]
-SeedOption = Annotated[str, typer.Option(metavar="1", help="Seed of the random phases.")]
-RolloffOption = Annotated[str | None, typer.Option(metavar="100um", help="Longer waves lie on a plateau.")]
-LongCutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
-ShortCutoffOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
-MakePeriodicOption = Annotated[bool, typer.Option("--periodic", help="For a surface that repeats itself.")]
-NodalOption = Annotated[
-    bool, typer.Option("--nodal", help="Repeat the first row and column at the end: grids of 2^m + 1 points.")
-]
 
-
-def info(
-    file: options.AnyFileArgument,
-    *,
-    channel: options.ChannelOption = None,
-    unit: options.UnitOption = None,
-    size: options.SizeOption = None,
-    json: options.JsonOption = False,
-) -> None:
-    """Say what a file holds, a map or a line scan: channels, size, unit, missing points, roughness."""
+def info(source: options.Source, *, json: options.JsonOption = False) -> None:
+    """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness."""
+    file = source.file
     with reported(file):
         from roughcontact.files.file_errors import ReadError
 
         channels = _channels(file)
-        reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=None)
         try:
-            surface = reading.map_or_line()
+            surface = source.map_or_line()
         except ReadError as error:
             # What the file leaves open, such as its size, does not hide what it holds.
             _tell(
@@ -87,18 +61,27 @@ def info(
 
 
 def make(
-    out: OutputArgument,
+    out: options.OutputArgument,
     *,
-    hurst: HurstOption,
-    rms: RmsOption,
-    size: NewSizeOption,
-    points: PointsOption = "512",
-    seed: SeedOption = "1",
-    rolloff: RolloffOption = None,
-    long_cutoff: LongCutoffOption = None,
-    short_cutoff: ShortCutoffOption = None,
-    periodic: MakePeriodicOption = False,
-    nodal: NodalOption = False,
+    hurst: Annotated[str, options.option("Hurst exponent, from -1 to 3.", "0.8")],
+    rms: Annotated[str, options.option("Root mean square height.", "1um")],
+    size: Annotated[str, options.option("Width (cells are square), or height x width.", "1mm")],
+    points: Annotated[str, options.option("Points a side, or rows x columns.", "512")] = "512",
+    seed: Annotated[str, options.option("Seed of the random phases.", "1")] = "1",
+    rolloff: Annotated[
+        str | None, options.option("Roll-off: the spectrum of longer waves is constant.", "100um")
+    ] = None,
+    long_cutoff: Annotated[str | None, options.option("Longer waves are absent.", "500um")] = None,
+    short_cutoff: Annotated[str | None, options.option("Shorter waves are absent.", "5um")] = None,
+    periodic: Annotated[
+        bool, options.option("For a surface that repeats itself.", None, "--periodic")
+    ] = False,
+    nodal: Annotated[
+        bool,
+        options.option(
+            "Repeat the first row and column at the end: grids of 2^m + 1 points.", None, "--nodal"
+        ),
+    ] = False,
     json: options.JsonOption = False,
 ) -> None:
     """Make a self-affine rough surface and save its heights."""
