@@ -19,6 +19,13 @@ from roughcontact.cli.groups import grouped
 
 __all__ = ["app"]
 
+
+def _examples(text: str) -> str:
+    """Return lines of examples as paragraphs under a heading."""
+    lines = text.split("\n")[1:-1]
+    return "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
+
+
 app = typer.Typer(
     name="roughcontact",
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
@@ -36,20 +43,20 @@ _study = typer.Typer(
     help="Run ensembles that can be stopped, continued and enlarged; export them.", no_args_is_help=True
 )
 
-app.command(epilog=press.EXAMPLES)(grouped(press.press))
-app.command(epilog=curve.EXAMPLES)(grouped(curve.curve))
-app.command(epilog=conductance.EXAMPLES)(grouped(conductance.conductance))
+app.command(epilog=_examples(press.EXAMPLES))(grouped(press.press))
+app.command(epilog=_examples(curve.EXAMPLES))(grouped(curve.curve))
+app.command(epilog=_examples(conductance.EXAMPLES))(grouped(conductance.conductance))
 app.add_typer(_surface, name="surface")
-_surface.command(epilog=surface.INFO_EXAMPLES)(grouped(surface.info))
-_surface.command(epilog=surface.MAKE_EXAMPLES)(grouped(surface.make))
-_surface.command(epilog=prepare.EXAMPLES)(grouped(prepare.prepare))
-_surface.command(epilog=spectrum.EXAMPLES)(grouped(spectrum.spectrum))
+_surface.command(epilog=_examples(surface.INFO_EXAMPLES))(grouped(surface.info))
+_surface.command(epilog=_examples(surface.MAKE_EXAMPLES))(grouped(surface.make))
+_surface.command(epilog=_examples(prepare.EXAMPLES))(grouped(prepare.prepare))
+_surface.command(epilog=_examples(spectrum.EXAMPLES))(grouped(spectrum.spectrum))
 app.add_typer(_study, name="study")
-_study.command(epilog=study.RUN_EXAMPLES)(grouped(study.run))
-_study.command(epilog=study.STATUS_EXAMPLES)(grouped(study.status))
-_study.command(epilog=study.EXPORT_EXAMPLES)(grouped(study.export))
-_study.command(epilog=study.ADD_EXAMPLES)(grouped(study.add))
-app.command(epilog=thesis.EXAMPLES)(grouped(thesis.thesis))
+_study.command(epilog=_examples(study.RUN_EXAMPLES))(grouped(study.run))
+_study.command(epilog=_examples(study.STATUS_EXAMPLES))(grouped(study.status))
+_study.command(epilog=_examples(study.EXPORT_EXAMPLES))(grouped(study.export))
+_study.command(epilog=_examples(study.ADD_EXAMPLES))(grouped(study.add))
+app.command(epilog=_examples(thesis.EXAMPLES))(grouped(thesis.thesis))
 
 
 def _version(wanted: bool) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import dataset_table, emit, note_files, print_table
@@ -22,37 +21,31 @@ if TYPE_CHECKING:
 
 __all__ = ["COLUMNS", "EXAMPLES", "Materials", "conductance"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa --out result
-
 roughcontact conductance result/curve.nc --resistivity 17nohm*m
-
 roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
 """
 
 COLUMNS = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
-_BODIES = "The two bodies"
+_CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
 
 Part = StrEnum("Part", ["TOTAL", "INTERFACE"])
+_OF = option(
+    "Total resistance, macro-constriction included, or that of the interface alone.", default=Part.TOTAL
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Materials:
     """The conducting bodies, as the user gave them."""
 
-    resistivity: Annotated[
-        str | None,
-        options.option(
-            "Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
-            "17nohm*m[,...]",
-            panel=_BODIES,
-        ),
-    ] = None
-    conductivity: Annotated[
-        str | None,
-        options.option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]", panel=_BODIES),
-    ] = None
+    PANEL: ClassVar = "The two bodies"
+    resistivity: str | None = option(
+        "Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
+        "17nohm*m[,...]",
+    )
+    conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
 
     def conductors(self) -> Conductors | None:
         """Return the bodies; None where nothing was said."""
@@ -71,15 +64,12 @@ class Materials:
 
 
 def conductance(
-    file: Annotated[
-        Path, typer.Argument(metavar="CURVE", help="curve.nc that the command curve wrote, or its folder.")
-    ],
+    file: Path = _CURVE,
+    *,
     materials: Materials,
-    of: Annotated[
-        Part, options.option("Total resistance, macro-constriction included, or that of the interface alone.")
-    ] = Part.TOTAL,
-    out: options.OutOption = None,
-    json: options.JsonOption = False,
+    of: Part = _OF,
+    out: Path | None = options.OUT,
+    json: bool = options.JSON,
 ) -> None:
     """Tell what a contact conducts: electrical and thermal resistance against force."""
     from roughcontact.contact.dataset import with_conductance

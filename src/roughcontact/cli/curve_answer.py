@@ -144,13 +144,8 @@ class CurveAnswer:
 
 
 def _fit_record(law: PowerLaw) -> dict[str, Any]:
-    return {
-        "exponent": float(law.exponent),
-        "prefactor": float(law.prefactor),
-        "scatter": float(law.scatter),
-        "window": [float(end) for end in law.window],
-        "count": int(law.count),
-    }
+    numbers = {name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter")}
+    return numbers | {"window": [float(end) for end in law.window], "count": int(law.count)}
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -13,6 +13,7 @@ from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import note, reported
 from roughcontact.cli.output import output
 from roughcontact.cli.report import note_files, quantity, screen
@@ -29,20 +30,14 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "curve"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa
-
 roughcontact curve part.x3p --forces 1mN:1N:100 --modulus 110GPa --out result
-
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
-
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
-
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
 """
 
-_LOADS = "Loads (at most one of them)"
 _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
 
 
@@ -50,22 +45,14 @@ _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
 class Loads:
     """Rising loads, as the user gave them."""
 
-    forces: Annotated[
-        str | None,
-        options.option(
-            "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
-            "(default, if no loads are named: 30 forces from 1e-4 to 0.07 of E* h L).",
-            "1mN:1N:100",
-            panel=_LOADS,
-        ),
-    ] = None
-    pressures: Annotated[
-        str | None, options.option("Nominal pressures, likewise.", "1kPa:1MPa:100", panel=_LOADS)
-    ] = None
-    depths: Annotated[
-        str | None,
-        options.option("Indentation depths since first touch, likewise.", "1nm:1um:100", panel=_LOADS),
-    ] = None
+    PANEL: ClassVar = "Loads (at most one of them)"
+    forces: str | None = option(
+        "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
+        "(default, if no loads are named: 30 forces from 1e-4 to 0.07 of E* h L).",
+        "1mN:1N:100",
+    )
+    pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
+    depths: str | None = option("Indentation depths since first touch, likewise.", "1nm:1um:100")
 
     def values(self) -> tuple[str, npt.NDArray[np.float64] | None]:
         """Return what the loads are, and their values in SI units; None where they were left out."""

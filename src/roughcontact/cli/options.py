@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-import typer
-
+from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.unit_options import (
     PRESSURE,
@@ -23,66 +22,47 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    "ENDINGS",
+    "JSON",
+    "LEVEL",
+    "OUT",
+    "OUTPUT",
+    "PERIODIC",
     "Answer",
     "Elasticity",
-    "JsonOption",
-    "LevelOption",
     "Levelling",
-    "OutOption",
-    "OutputArgument",
-    "PeriodicOption",
     "Reading",
     "Source",
     "only_one",
-    "option",
 ]
 
-_READING, _BODIES, _ANSWER = "Reading the file", "The two bodies", "Answer"
+_READING, _ANSWER = "Reading the file", "Answer"
 _MAPS_ONLY = (
     "give a map of heights; a profile is taken by 'surface info', 'surface spectrum' and 'surface prepare'"
 )
-ENDINGS = ".npz, .nc, .x3p, .txt, .npy, or .vti for ParaView"
-
-
-def option(help_text: str, metavar: str | None = None, *names: str, panel: str | None = None) -> Any:
-    """Return an option of a command: what it says in the help, and under which heading."""
-    return typer.Option(*names, metavar=metavar, help=help_text, rich_help_panel=panel)
-
 
 Levelling = StrEnum("Levelling", ["PLANE", "MEAN", "NONE"])
-PeriodicOption = Annotated[
-    bool | None,
-    option(
-        "Whether the surface repeats itself (default: what the file says, else free).",
-        None,
-        "--periodic/--free",
-        panel=_READING,
-    ),
-]
-LevelOption = Annotated[
-    Levelling | None,
-    option("What is removed from the heights (default: a least-squares plane).", panel=_READING),
-]
-OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help=f"File to write: {ENDINGS}.")]
-OutOption = Annotated[Path | None, option("Folder for files and pictures.", "DIR", panel=_ANSWER)]
-JsonOption = Annotated[
-    bool, option("One JSON object on standard output, in SI units.", None, "--json", panel=_ANSWER)
-]
+PERIODIC = option(
+    "Whether the surface repeats itself (default: what the file says, else free).",
+    None,
+    "--periodic/--free",
+    rich_help_panel=_READING,
+)
+LEVEL = option("What is removed from the heights (default: a least-squares plane).", rich_help_panel=_READING)
+OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
+OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
+JSON = option("One JSON object on standard output, in SI units.", default=False, rich_help_panel=_ANSWER)
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
     """How good an answer shall be, and where it goes."""
 
-    tolerance: Annotated[
-        str,
-        option(
-            "Largest residual of the contact conditions, the certificate of an answer.", "1e-8", panel=_ANSWER
-        ),
-    ] = "1e-8"
-    out: OutOption = None
-    json: JsonOption = False
+    PANEL: ClassVar = _ANSWER
+    tolerance: str = option(
+        "Largest residual of the contact conditions: the certificate.", "1e-8", default="1e-8"
+    )
+    out: Path | None = OUT
+    json: bool = JSON
 
     @property
     def residual(self) -> float:
@@ -94,25 +74,17 @@ class Answer:
 class Source:
     """A measured file, and what it leaves open."""
 
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Measured heights: X3P, NumPy, text, ...")]
-    channel: Annotated[str | None, option("Channel of a file with several.", "NAME", panel=_READING)] = None
-    unit: Annotated[
-        str | None,
-        option(
-            "Unit of the heights, or metres per unit; it overrides what the file states.",
-            "um",
-            panel=_READING,
-        ),
-    ] = None
-    size: Annotated[
-        str | None,
-        option(
-            "Side lengths: height x width of the picture, or its width alone (of a profile its length); "
-            "they override what the file states.",
-            "1mm x 2mm",
-            panel=_READING,
-        ),
-    ] = None
+    PANEL: ClassVar = _READING
+    file: Path = argument("Measured heights: X3P, NumPy, text, ...", "FILE")
+    channel: str | None = option("Channel of a file with several.", "NAME")
+    unit: str | None = option(
+        "Unit of the heights, or metres per unit; it overrides what the file states.", "um"
+    )
+    size: str | None = option(
+        "Side lengths: height x width of the picture, or its width alone (of a profile its length); "
+        "they override what the file states.",
+        "1mm x 2mm",
+    )
 
     def map(self, periodic: bool | None) -> Surface:
         """Return the map of heights as the file holds it."""
@@ -154,8 +126,8 @@ class Reading:
     """How to turn a file into the surface to press."""
 
     source: Source
-    periodic: PeriodicOption = None
-    level: LevelOption = None
+    periodic: bool | None = PERIODIC
+    level: Levelling | None = LEVEL
 
     def surface(self) -> Surface:
         """Return the surface to press, read and levelled; say on standard error what was decided unasked.
@@ -191,21 +163,15 @@ class Reading:
 class Elasticity:
     """The constants of the two bodies, as the user gave them."""
 
-    modulus: Annotated[str | None, option("Reduced modulus E*.", "110GPa", panel=_BODIES)] = None
-    young: Annotated[
-        str | None, option("Young's modulus, in place of --modulus.", "210GPa", panel=_BODIES)
-    ] = None
-    poisson: Annotated[str | None, option("Poisson's ratio.", "0.3", panel=_BODIES)] = None
-    young2: Annotated[
-        str | None, option("Young's modulus of the other body (default: rigid).", "70GPa", panel=_BODIES)
-    ] = None
-    poisson2: Annotated[str | None, option("Poisson's ratio of the other.", "0.33", panel=_BODIES)] = None
-    hardness: Annotated[
-        str | None,
-        option(
-            "Largest pressure of a cell, where the softer body is perfectly plastic.", "2GPa", panel=_BODIES
-        ),
-    ] = None
+    PANEL: ClassVar = "The two bodies"
+    modulus: str | None = option("Reduced modulus E*.", "110GPa")
+    young: str | None = option("Young's modulus, in place of --modulus.", "210GPa")
+    poisson: str | None = option("Poisson's ratio.", "0.3")
+    young2: str | None = option("Young's modulus of the other body (default: rigid).", "70GPa")
+    poisson2: str | None = option("Poisson's ratio of the other.", "0.33")
+    hardness: str | None = option(
+        "Largest pressure of a cell: there the softer body is perfectly plastic.", "2GPa"
+    )
 
     def reduced_modulus(self) -> float:
         """Return the reduced modulus E* [Pa].

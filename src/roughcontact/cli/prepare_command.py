@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
 from roughcontact.cli.messages import note, plain, reported
-from roughcontact.cli.report import emit, print_facts, quantity, screen, size_of
+from roughcontact.cli.report import screen, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.steps import Wishes, steps
 
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
-
 __all__ = ["EXAMPLES", "prepare"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact surface prepare part.x3p flat.npz --level plane --long-cutoff 0.8mm
-
 roughcontact surface prepare part.x3p small.x3p --crop 100:612,0:512 --fill --downsample 2
-
 roughcontact surface prepare rough.npz seen.npz --tip 2um --average 4
 """
 _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the work of a filter
@@ -30,11 +23,11 @@ _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and th
 
 def prepare(
     source: options.Source,
-    out: options.OutputArgument,
+    out: Path = options.OUTPUT,
     *,
     wishes: Wishes,
-    periodic: options.PeriodicOption = None,
-    json: options.JsonOption = False,
+    periodic: bool | None = options.PERIODIC,
+    json: bool = options.JSON,
 ) -> None:
     """Crop, level, remove form, fill, scan, filter, average, subsample and taper a surface, in this order; save it.
 
@@ -51,34 +44,5 @@ def prepare(
             with screen().status(f"{step.doing} ..."):
                 surface = step.apply(surface)
         save_surface(surface, out)
-        record = _record(surface, out)
-        if json:
-            emit(record)
-        else:
-            print_facts(_facts(surface, record))
-
-
-def _record(surface: Surface, out: Path) -> dict[str, Any]:
-    grid = surface.grid
-    return {
-        "command": "surface prepare",
-        "file": plain(str(out)),
-        "shape": list(grid.shape),
-        "spacing": list(grid.spacing),
-        "lengths": list(grid.lengths),
-        "periodic": list(grid.periodic),
-        "missing": surface.missing,
-        "rms": surface.rms,
-        "provenance": list(surface.provenance),
-        "units": dict.fromkeys(("spacing", "lengths", "rms"), "m"),
-    }
-
-
-def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
-    return [
-        ("file", record["file"]),
-        ("size", size_of(surface.grid)),
-        ("missing points", str(surface.missing) if surface.missing else "none"),
-        ("rms height", quantity("rms", surface.rms)),
-        *(("history", line) for line in record["provenance"]),
-    ]
+        record = {"command": "surface prepare", "file": plain(str(out))} | surface_record(surface)
+        tell(record, surface_facts(surface, record), as_json=json)

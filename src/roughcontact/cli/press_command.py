@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, screen, solution_facts
@@ -24,33 +25,28 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "press"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
-
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
-
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
-
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """
 
-_LOAD = "Load (one of them)"
 _KINDS = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
 Theory = StrEnum("Theory", ["PERSSON"])
+_THEORY = option(
+    "With --out: draw the distribution of the pressure beside that of a theory.", rich_help_panel="Answer"
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Load:
     """One load, as the user gave it."""
 
-    force: Annotated[str | None, options.option("Normal force.", "10N", panel=_LOAD)] = None
-    pressure: Annotated[
-        str | None, options.option("Nominal pressure: force over area.", "1MPa", panel=_LOAD)
-    ] = None
-    depth: Annotated[
-        str | None, options.option("Indentation depth: approach since first touch.", "1um", panel=_LOAD)
-    ] = None
+    PANEL: ClassVar = "Load (one of them)"
+    force: str | None = option("Normal force.", "10N")
+    pressure: str | None = option("Nominal pressure: force over area.", "1MPa")
+    depth: str | None = option("Indentation depth: approach since first touch.", "1um")
 
     def value(self) -> dict[str, float]:
         """Return the load in SI units, by its name."""
@@ -64,12 +60,7 @@ def press(
     *,
     load: Load,
     elasticity: options.Elasticity,
-    theory: Annotated[
-        Theory | None,
-        options.option(
-            "With --out: draw the distribution of the pressure beside that of a theory.", panel="Answer"
-        ),
-    ] = None,
+    theory: Theory | None = _THEORY,
     answer: options.Answer,
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""

@@ -7,39 +7,37 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
-from roughcontact.cli.output import output
+from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.spectrum_files import write_spectrum
 from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.engineering_units import written
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughcontact.surface.analysis.hurst import HurstFit
     from roughcontact.surface.analysis.power import PowerSpectrum
     from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "spectrum"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact surface spectrum part.x3p --out result
-
 roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
-
 roughcontact surface spectrum scan.csv --out result
 """
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
 _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
+_LIMITS = {"rolloff": "roll-off", "long_cutoff": "long cut-off", "short_cutoff": "short cut-off"}
 _UNITS = {
-    **dict.fromkeys(
-        ("rms", "rms_in_band", "longest", "shortest", "rolloff", "long_cutoff", "short_cutoff"), "m"
-    ),
+    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", *_LIMITS), "m"),
     **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
     **dict.fromkeys(
         ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
@@ -49,45 +47,33 @@ _UNITS = {
 
 Limit = StrEnum("Limit", ["AUTO", "NONE", "ROLLOFF", "LONG_CUTOFF"])
 Direction = StrEnum("Direction", ["AUTO", "RING", "X", "Y"])
-_SPECTRUM = "Spectrum"
+
+# The spectrum, the law fitted to it and, of a profile, C2D of the isotropic surface that has such profiles.
+_Found = tuple["PowerSpectrum", "HurstFit", "PowerSpectrum | None"]
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
     """Which spectrum is asked for, and which law in it."""
 
-    direction: Annotated[
-        Direction,
-        options.option(
-            "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
-            "auto: ring of a map, x of a profile.",
-            panel=_SPECTRUM,
-        ),
-    ] = Direction.AUTO
-    limit: Annotated[
-        Limit, options.option("How the power law may end toward long waves.", panel=_SPECTRUM)
-    ] = Limit.AUTO
-    longest: Annotated[
-        str | None,
-        options.option(
-            "Longest wave that counts (default: a third of a free map's length).", "100um", panel=_SPECTRUM
-        ),
-    ] = None
-    shortest: Annotated[
-        str | None,
-        options.option(
-            "Shortest wave that the instrument follows (default: two cells).", "1um", panel=_SPECTRUM
-        ),
-    ] = None
-    fill: Annotated[
-        bool, options.option("Fill missing points smoothly first.", None, "--fill", panel=_SPECTRUM)
-    ] = False
+    PANEL: ClassVar = "Spectrum"
+    direction: Direction = option(
+        "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+        "auto: ring of a map, x of a profile.",
+        default=Direction.AUTO,
+    )
+    limit: Limit = option("How the power law may end toward long waves.", default=Limit.AUTO)
+    longest: str | None = option(
+        "Longest wave that counts (default: a third of a free map's length).", "100um"
+    )
+    shortest: str | None = option("Shortest wave that the instrument follows (default: two cells).", "1um")
+    fill: bool = option("Fill missing points smoothly first.", default=False)
 
     def band(self) -> dict[str, float]:
         """Return the band that was asked for as wavenumbers [rad/m]."""
         band = {
-            name: 2 * math.pi / parse_positive(text, LENGTH, option, "a wavelength")
-            for name, text, option in (
+            name: 2 * math.pi / parse_positive(text, LENGTH, flag, "a wavelength")
+            for name, text, flag in (
                 ("q_min", self.longest, "--longest"),
                 ("q_max", self.shortest, "--shortest"),
             )
@@ -102,10 +88,10 @@ def spectrum(
     source: options.Source,
     *,
     asked: Asked,
-    periodic: options.PeriodicOption = None,
-    level: options.LevelOption = None,
-    out: options.OutOption = None,
-    json: options.JsonOption = False,
+    periodic: bool | None = options.PERIODIC,
+    level: options.Levelling | None = options.LEVEL,
+    out: Path | None = options.OUT,
+    json: bool = options.JSON,
 ) -> None:
     """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
@@ -119,7 +105,7 @@ def spectrum(
             record = _record(surface, found, law, source.file)
             if folder is not None:
                 isotropic = _isotropic(surface, found, law)
-                write_spectrum((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
+                _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
         if json:
             emit(record)
         else:
@@ -169,22 +155,15 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
     values = {
-        "hurst": law.hurst,
-        "standard_error": law.standard_error,
-        "misfit": law.misfit,
+        **{name: getattr(law, name) for name in ("hurst", "standard_error", "misfit")},
         "longest": 2 * math.pi / spectrum.q_min,
         "shortest": 2 * math.pi / spectrum.q_max,
-        "rolloff": law.rolloff,
-        "long_cutoff": law.long_cutoff,
-        "short_cutoff": law.short_cutoff,
+        **{name: getattr(law, name) for name in _LIMITS},
         "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
         "rms_in_band": moments.rms_height,
-        "rms_slope": moments.rms_slope,
-        "rms_curvature": moments.rms_curvature,
-        "m0": moments.m0,
-        "m2": moments.m2,
-        "m4": moments.m4,
-        "nayak": moments.nayak,
+        **{
+            name: getattr(moments, name) for name in ("rms_slope", "rms_curvature", "m0", "m2", "m4", "nayak")
+        },
     }
     if surface.grid.ndim == 1:
         values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
@@ -201,17 +180,13 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 
 def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
     ends = [
-        (name.replace("_", " "), quantity("lengths", record[key]))
-        for name, key in (
-            ("roll-off", "rolloff"),
-            ("long cut-off", "long_cutoff"),
-            ("short cut-off", "short_cutoff"),
-        )
-        if record[key] is not None
+        (label, quantity("lengths", record[name]))
+        for name, label in _LIMITS.items()
+        if record[name] is not None
     ]
     band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"
     nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
-    return [
+    facts = [
         ("file", record["file"]),
         ("surface" if surface.grid.ndim == 2 else "profile", size_of(surface.grid)),
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
@@ -229,12 +204,10 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
             f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
         ),
         ("Nayak's parameter", nayak),
-        *(
-            [("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band")]
-            if surface.grid.ndim == 1
-            else []
-        ),
     ]
+    if surface.grid.ndim == 1:
+        facts.append(("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band"))
+    return facts
 
 
 def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
@@ -248,3 +221,51 @@ def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> Powe
     except ValueError as error:
         note(f"no C2D: {error}")
         return None
+
+
+def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path) -> None:
+    """Write ``spectrum.csv`` and ``spectrum.png``; the table repeats the numbers of the record."""
+    from matplotlib.figure import Figure
+
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.spectrum_plot import spectrum_curve
+
+    spectrum, law, isotropic = found
+    figure = Figure(figsize=(6.0 if isotropic is None else 10.0, 4.6), layout="constrained")
+    panels = figure.subplots(1, 1 if isotropic is None else 2, squeeze=False)[0]
+    spectrum_curve(panels[0], spectrum, law)
+    if isotropic is not None:
+        spectrum_curve(panels[1], isotropic, label="isotropic surface\nwith this profile")
+    source = provenance(surface, command=command_line())
+    with all_or_none(folder) as aside:
+        write_csv(_table(found, record), aside / "spectrum.csv", source, dimension="bin")
+        save(figure, aside / "spectrum.png")
+
+
+def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:
+    """Return the table: a row a bin, and the numbers that are known about the whole."""
+    import xarray
+
+    spectrum, law, isotropic = found
+    q = spectrum.wavenumber
+    unit = {"C2D": "m4", "C1D": "m3"}[spectrum.kind]
+    columns = {
+        "wavenumber": (q, "rad m-1"),
+        "wavelength": (spectrum.wavelength, "m"),
+        "density": (spectrum.density, unit),
+        "standard_error": (spectrum.standard_error, unit),
+        "law": (law(q), unit),
+    }
+    if isotropic is not None:
+        columns["isotropic_density"] = (isotropic.density, "m4")
+    reliable = (q >= spectrum.q_min * (1 - 1e-9)) & (q <= spectrum.q_max * (1 + 1e-9))
+    scalars = {
+        # The column of that name is the densities'.
+        f"hurst_{name}" if name == "standard_error" else name: ((), record[name], {"units": units})
+        for name, units in record["units"].items()
+        if record[name] is not None
+    }
+    data = {name: ("bin", column, {"units": units}) for name, (column, units) in columns.items()}
+    return xarray.Dataset({**scalars, **data, "reliable": ("bin", reliable)}, attrs={"kind": spectrum.kind})

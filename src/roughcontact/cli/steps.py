@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
-from roughcontact.cli.options import option
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse
 
@@ -27,53 +26,35 @@ TipShape = StrEnum("TipShape", ["SPHERE", "PARABOLOID"])
 WindowShape = StrEnum("WindowShape", ["HANN", "WELCH", "TUKEY"])
 
 
-def _step(help_text: str, metavar: str | None = None, *names: str) -> Any:
-    return option(help_text, metavar, *names, panel="Steps, in the order in which they are taken")
-
-
 @dataclass(frozen=True, slots=True)
 class Wishes:
     """What the user wrote, option by option; None where an option was left out."""
 
-    crop: Annotated[
-        str | None,
-        _step(
-            "1. Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
-            "0:512,100:612",
-        ),
-    ] = None
-    level: Annotated[
-        Trend, _step("2. Remove the mean height, or a least-squares plane or quadratic.", None, "--level")
-    ] = Trend.NONE
-    form: Annotated[
-        str | None, _step("3. Remove a form: a polynomial's degree, sphere or cylinder.", "2")
-    ] = None
-    fill: Annotated[
-        bool, _step("4. Fill missing points smoothly; else they stay missing.", None, "--fill")
-    ] = False
-    tip: Annotated[
-        str | None, _step("5. What a tip of this radius records; a large one takes long.", "2um")
-    ] = None
-    tip_shape: Annotated[TipShape | None, _step("5. Shape of its end (default: sphere).")] = None
-    short_cutoff: Annotated[
-        str | None, _step("6. Gaussian filter: remove waves shorter than this (S-filter).", "10um")
-    ] = None
-    long_cutoff: Annotated[
-        str | None, _step("6. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
-    ] = None
-    average: Annotated[int | None, _step("7. Average over pixels of K x K cells, as a camera does.", "K")] = (
-        None
+    PANEL: ClassVar = "Steps, in the order in which they are taken"
+    crop: str | None = option(
+        "1. Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
+        "0:512,100:612",
     )
-    downsample: Annotated[
-        int | None, _step("8. Keep every K-th row and column; shorter waves are filtered out first.", "K")
-    ] = None
-    alias: Annotated[bool, _step("8. Subsample without that filter.", None, "--alias")] = False
-    window: Annotated[
-        WindowShape | None, _step("9. Taper the heights about their mean to zero at free edges.")
-    ] = None
-    share: Annotated[
-        float | None, _step("9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25")
-    ] = None
+    level: Trend = option(
+        "2. Remove the mean height, or a least-squares plane or quadratic.", default=Trend.NONE
+    )
+    form: str | None = option("3. Remove a form: a polynomial's degree, sphere or cylinder.", "2")
+    fill: bool = option("4. Fill missing points smoothly; else they stay missing.", default=False)
+    tip: str | None = option("5. What a tip of this radius records; a large one takes long.", "2um")
+    tip_shape: TipShape | None = option("5. Shape of its end (default: sphere).")
+    short_cutoff: str | None = option(
+        "6. Gaussian filter: remove waves shorter than this (S-filter).", "10um"
+    )
+    long_cutoff: str | None = option("6. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
+    average: int | None = option("7. Average over pixels of K x K cells, as a camera does.", "K", min=1)
+    downsample: int | None = option(
+        "8. Keep every K-th row and column; shorter waves are filtered out first.", "K", min=1
+    )
+    alias: bool = option("8. Subsample without that filter.", default=False)
+    window: WindowShape | None = option("9. Taper the heights about their mean to zero at free edges.")
+    share: float | None = option(
+        "9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25", min=0, max=1
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +73,7 @@ def steps(wishes: Wishes) -> list[Preparation]:
     UsageError
         If an option makes no sense, alone or without another.
     """
+    factor = wishes.average
     found = [
         _crop(wishes.crop),
         _level(wishes.level),
@@ -101,7 +83,7 @@ def steps(wishes: Wishes) -> list[Preparation]:
         else None,
         _tip(wishes.tip, wishes.tip_shape),
         _filter(wishes.short_cutoff, wishes.long_cutoff),
-        _average(wishes.average),
+        None if factor is None else Preparation("Averaging", lambda surface: surface.averaged(factor)),
         _downsample(wishes.downsample, wishes.alias),
         _window(wishes.window, wishes.share),
     ]
@@ -190,25 +172,12 @@ def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
     return surface.filtered(**cutoffs)
 
 
-def _average(factor: int | None) -> Preparation | None:
-    if factor is None:
-        return None
-    _require_factor(factor, "--average")
-    return Preparation("Averaging", lambda surface: surface.averaged(factor))
-
-
 def _downsample(factor: int | None, alias: bool) -> Preparation | None:
     if factor is None:
         if alias:
             raise UsageError("--alias belongs to --downsample: give its K as well")
         return None
-    _require_factor(factor, "--downsample")
     return Preparation("Subsampling", lambda surface: surface.downsampled(factor, anti_alias=not alias))
-
-
-def _require_factor(factor: int, option: str) -> None:
-    if factor < 1:
-        raise UsageError(f"{option}: K must be a whole number from 1 up, not {factor}")
 
 
 def _window(window: WindowShape | None, share: float | None) -> Preparation | None:
@@ -216,10 +185,6 @@ def _window(window: WindowShape | None, share: float | None) -> Preparation | No
         raise UsageError("--share belongs to --window tukey")
     if window is None:
         return None
-    if share is not None and not (math.isfinite(share) and 0 <= share <= 1):
-        raise UsageError(
-            f"--share: the part of the length that is tapered lies between 0 and 1, not at {share:g}"
-        )
     chosen: Any = window.value
     bent = 0.25 if share is None else share
     return Preparation("Tapering", lambda surface: surface.tapered(chosen, bent))

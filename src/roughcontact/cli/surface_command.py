@@ -2,35 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import as_typed, plain, reported
-from roughcontact.cli.report import emit, print_facts, quantity, size_of
+from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
 
-INFO_EXAMPLES = """Examples:
-
+INFO_EXAMPLES = """
 roughcontact surface info part.x3p
-
 roughcontact surface info heights.csv --unit nm --size 1mm --json
-
 roughcontact surface info scan.csv
 """
-MAKE_EXAMPLES = """Examples:
-
+MAKE_EXAMPLES = """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
-
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
@@ -38,7 +33,7 @@ _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the ro
 _BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
 
 
-def info(source: options.Source, *, json: options.JsonOption = False) -> None:
+def info(source: options.Source, *, json: bool = options.JSON) -> None:
     """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness."""
     file = source.file
     with reported(file):
@@ -49,41 +44,36 @@ def info(source: options.Source, *, json: options.JsonOption = False) -> None:
             surface = source.map_or_line()
         except ReadError as error:
             # What the file leaves open, such as its size, does not hide what it holds.
-            _tell(
+            tell(
                 {"file": plain(str(file)), "channels": channels, "error": str(error)},
                 _channel_facts(channels),
-                json,
+                as_json=json,
             )
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        record = {"file": plain(str(file)), "channels": channels} | _record(surface)
-        _tell(record, [*_channel_facts(channels), *_facts(surface, record)], json)
+        record = {"file": plain(str(file)), "channels": channels} | surface_record(surface)
+        tell(record, [*_channel_facts(channels), *surface_facts(surface, record)], as_json=json)
 
 
-def make(
-    out: options.OutputArgument,
-    *,
-    hurst: Annotated[str, options.option("Hurst exponent, from -1 to 3.", "0.8")],
-    rms: Annotated[str, options.option("Root mean square height.", "1um")],
-    size: Annotated[str, options.option("Width (cells are square), or height x width.", "1mm")],
-    points: Annotated[str, options.option("Points a side, or rows x columns.", "512")] = "512",
-    seed: Annotated[str, options.option("Seed of the random phases.", "1")] = "1",
-    rolloff: Annotated[
-        str | None, options.option("Roll-off: the spectrum of longer waves is constant.", "100um")
-    ] = None,
-    long_cutoff: Annotated[str | None, options.option("Longer waves are absent.", "500um")] = None,
-    short_cutoff: Annotated[str | None, options.option("Shorter waves are absent.", "5um")] = None,
-    periodic: Annotated[
-        bool, options.option("For a surface that repeats itself.", None, "--periodic")
-    ] = False,
-    nodal: Annotated[
-        bool,
-        options.option(
-            "Repeat the first row and column at the end: grids of 2^m + 1 points.", None, "--nodal"
-        ),
-    ] = False,
-    json: options.JsonOption = False,
-) -> None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recipe:
+    """A self-affine surface, as the user described it."""
+
+    hurst: str = option("Hurst exponent, from -1 to 3.", "0.8", default=...)
+    rms: str = option("Root mean square height.", "1um", default=...)
+    size: str = option("Width (cells are square), or height x width.", "1mm", default=...)
+    points: str = option("Points a side, or rows x columns.", "512", default="512")
+    seed: str = option("Seed of the random phases.", "1", default="1")
+    rolloff: str | None = option("Roll-off: the spectrum of longer waves is constant.", "100um")
+    long_cutoff: str | None = option("Longer waves are absent.", "500um")
+    short_cutoff: str | None = option("Shorter waves are absent.", "5um")
+    periodic: bool = option("For a surface that repeats itself.", default=False)
+    nodal: bool = option(
+        "Repeat the first row and column at the end: grids of 2^m + 1 points.", default=False
+    )
+
+
+def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
     with reported(out):
         import numpy as np
@@ -91,32 +81,31 @@ def make(
         import roughcontact as rc
 
         require_output(out)
-        grid = _grid(size, points, periodic)
+        grid = _grid(recipe.size, recipe.points, recipe.periodic)
         require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
-        height, exponent = parse(rms, LENGTH, "--rms"), parse_number(hurst, "--hurst", "0.8")
-        chosen = parse_seed(seed, "--seed")
-        given = {"rolloff": rolloff, "long_cutoff": long_cutoff, "short_cutoff": short_cutoff}
+        height, exponent = parse(recipe.rms, LENGTH, "--rms"), parse_number(recipe.hurst, "--hurst", "0.8")
+        chosen = parse_seed(recipe.seed, "--seed")
         waves = {
             name: parse(text, LENGTH, f"--{name.replace('_', '-')}")
-            for name, text in given.items()
-            if text is not None
+            for name in ("rolloff", "long_cutoff", "short_cutoff")
+            if (text := getattr(recipe, name)) is not None
         }
         surface = rc.self_affine(
             grid,
             exponent,
             height,
             np.random.default_rng(chosen),
-            nodal=nodal,
+            nodal=recipe.nodal,
             rolloff=waves.get("rolloff"),
             long_cutoff=waves.get("long_cutoff"),
             short_cutoff=waves.get("short_cutoff"),
         )
-        recipe = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
-        made = f"made by roughcontact {rc.__version__}: {recipe}"
+        made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
+        made = f"made by roughcontact {rc.__version__}: {made}"
         surface = replace(surface, provenance=(*surface.provenance, made))
         save_surface(surface, out)
-        record = {"file": plain(str(out)), "seed": chosen} | _record(surface)
-        _tell(record, _facts(surface, record), json)
+        record = {"file": plain(str(out)), "seed": chosen} | surface_record(surface)
+        tell(record, surface_facts(surface, record), as_json=json)
 
 
 def _grid(size: str, points: str, periodic: bool) -> Grid:
@@ -138,41 +127,6 @@ def _channels(file: Path) -> list[dict[str, Any]]:
         return [asdict(channel) for channel in channels(file)]
 
 
-def _record(surface: Surface) -> dict[str, Any]:
-    import numpy as np
-
-    grid = surface.grid
-    return {
-        "shape": list(grid.shape),
-        "spacing": list(grid.spacing),
-        "lengths": list(grid.lengths),
-        "periodic": list(grid.periodic),
-        "missing": surface.missing,
-        "rms": surface.rms,
-        "rms_levelled": surface.levelled("plane").rms,
-        "lowest": float(np.nanmin(surface.heights)),
-        "highest": float(np.nanmax(surface.heights)),
-        "provenance": list(surface.provenance),
-        "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
-    }
-
-
-def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
-    """Return what is worth telling of a surface, line by line."""
-    cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
-    missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
-    trend = "plane" if surface.grid.ndim == 2 else "slope"
-    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its {trend}"
-    return [
-        ("size", size_of(surface.grid)),
-        ("cell", cell),
-        ("missing points", missing),
-        ("rms height", rms),
-        ("heights", f"{quantity('heights', record['lowest'])} to {quantity('heights', record['highest'])}"),
-        *(("history", line) for line in record["provenance"]),
-    ]
-
-
 def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
     facts = []
     for channel in channels:
@@ -180,13 +134,6 @@ def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
         unit = "without a unit" if channel["unit"] is None else f"in {channel['unit']}"
         kind = "" if channel["is_height"] else ", not heights"
         if len(channel["shape"]) == 1:
-            kind = ", a line scan"
+            kind = ", a profile"
         facts.append(("channel", f"{channel['name']}: {shape}, {unit}{kind}"))
     return facts
-
-
-def _tell(record: dict[str, Any], facts: list[tuple[str, str]], json: bool) -> None:
-    if json:
-        emit(record)
-    else:
-        print_facts([("file", record["file"]), *facts])

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
-from roughcontact.cli.options import option
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
 
 if TYPE_CHECKING:
@@ -17,31 +17,20 @@ if TYPE_CHECKING:
 
 __all__ = ["Theories", "deviations"]
 
-_PANEL = "Theories"
-
 
 @dataclass(frozen=True, slots=True)
 class Theories:
     """Theories to overlay on a curve, as the user gave them."""
 
-    theory: Annotated[
-        str | None,
-        option(
-            "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
-            "rough-sphere. They take spectrum and moments from the surface.",
-            "persson,gw,...",
-            panel=_PANEL,
-        ),
-    ] = None
-    hurst: Annotated[
-        str | None, option("Hurst exponent, for theories (default: fitted).", "0.8", panel=_PANEL)
-    ] = None
-    rolloff: Annotated[str | None, option("Roll-off wavelength, for finite-size.", "20um", panel=_PANEL)] = (
-        None
+    PANEL: ClassVar = "Theories"
+    theory: str | None = option(
+        "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
+        "rough-sphere. They take spectrum and moments from the surface.",
+        "persson,gw,...",
     )
-    radius: Annotated[
-        str | None, option("Radius of curvature, for hertz and rough-sphere.", "5mm", panel=_PANEL)
-    ] = None
+    hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")
+    rolloff: str | None = option("Roll-off wavelength, for finite-size.", "20um")
+    radius: str | None = option("Radius of curvature, for hertz and rough-sphere.", "5mm")
 
     def check(self) -> None:
         """Raise a `UsageError` for what makes no sense, before anything is computed."""
