@@ -59,7 +59,7 @@ class Loads:
         given = asdict(self)
         if not any(text is not None for text in given.values()):
             return "forces", None
-        name = options.only_one({f"--{key}": text for key, text in given.items()}, "the loads")[2:]
+        name = options.only_one(given, "the loads")
         return name, parse_loads(given[name], _KINDS[name], f"--{name}")
 
 

@@ -183,10 +183,8 @@ class Elasticity:
         """
         import roughcontact as rc
 
-        only_one(
-            {"--modulus": self.modulus, "--young": self.young},
-            "the elastic constants, such as --modulus 110GPa",
-        )
+        given = {"modulus": self.modulus, "young": self.young}
+        only_one(given, "the elastic constants, such as --modulus 110GPa")
         if self.modulus is not None:
             if any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
                 raise UsageError("--modulus is that of the pair: leave out --poisson, --young2, --poisson2")
@@ -203,7 +201,7 @@ class Elasticity:
 
 
 def only_one(given: dict[str, Any], what: str) -> str:
-    """Return the name of the one option that was given.
+    """Return the name of the one option that was given, of those by their names.
 
     Raises
     ------
@@ -212,9 +210,11 @@ def only_one(given: dict[str, Any], what: str) -> str:
     """
     names = [name for name, value in given.items() if value is not None]
     if not names:
-        raise UsageError(f"give {what} ({' or '.join(given)})")
+        raise UsageError(f"give {what} ({' or '.join(f'--{name}' for name in given)})")
     if len(names) > 1:
-        raise UsageError(f"{' and '.join(names)} exclude each other: give one of them")
+        raise UsageError(
+            f"{' and '.join(f'--{name}' for name in names)} exclude each other: give one of them"
+        )
     return names[0]
 
 

@@ -18,8 +18,6 @@ from roughcontact.cli.report import emit, note_files, print_facts, screen, solut
 from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_load
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
 
@@ -51,7 +49,7 @@ class Load:
     def value(self) -> dict[str, float]:
         """Return the load in SI units, by its name."""
         given = asdict(self)
-        name = options.only_one({f"--{key}": text for key, text in given.items()}, "one load")[2:]
+        name = options.only_one(given, "one load")
         return {name: parse_load(given[name], _KINDS[name], f"--{name}")}
 
 
@@ -116,9 +114,11 @@ def _write(
     solution: Solution, record: dict[str, Any], folder: Path, control: str, theory: Theory | None
 ) -> None:
     from roughcontact.contact.dataset import solution_dataset
+    from roughcontact.contact.theories import persson_pressures
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json, write_netcdf
     from roughcontact.plot.canvas import save, solution_figure
+    from roughcontact.plot.pressures import pressure_distribution_figure
 
     problem = solution.problem
     source = provenance(
@@ -132,15 +132,9 @@ def _write(
         write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
         save(solution_figure(solution), aside / "pressure.png")
         if theory is not None:
-            save(_distribution(solution), aside / "distribution.png")
+            theories = {"Persson": persson_pressures(solution)}
+            save(pressure_distribution_figure(solution, theories), aside / "distribution.png")
         write_json(record, aside / "summary.json", source)
-
-
-def _distribution(solution: Solution) -> Figure:
-    from roughcontact.contact.theories import persson_pressures
-    from roughcontact.plot.pressures import pressure_distribution_figure
-
-    return pressure_distribution_figure(solution, {"Persson": persson_pressures(solution)})
 
 
 def _tell(solution: Solution, record: dict[str, Any], json: bool) -> None:

@@ -46,15 +46,13 @@ class Wishes:
         "6. Gaussian filter: remove waves shorter than this (S-filter).", "10um"
     )
     long_cutoff: str | None = option("6. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
-    average: int | None = option("7. Average over pixels of K x K cells, as a camera does.", "K", min=1)
+    average: int | None = option("7. Average over pixels of K x K cells, as a camera does.", "K")
     downsample: int | None = option(
-        "8. Keep every K-th row and column; shorter waves are filtered out first.", "K", min=1
+        "8. Keep every K-th row and column; shorter waves are filtered out first.", "K"
     )
     alias: bool = option("8. Subsample without that filter.", default=False)
     window: WindowShape | None = option("9. Taper the heights about their mean to zero at free edges.")
-    share: float | None = option(
-        "9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25", min=0, max=1
-    )
+    share: float | None = option("9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +71,6 @@ def steps(wishes: Wishes) -> list[Preparation]:
     UsageError
         If an option makes no sense, alone or without another.
     """
-    factor = wishes.average
     found = [
         _crop(wishes.crop),
         _level(wishes.level),
@@ -83,7 +80,7 @@ def steps(wishes: Wishes) -> list[Preparation]:
         else None,
         _tip(wishes.tip, wishes.tip_shape),
         _filter(wishes.short_cutoff, wishes.long_cutoff),
-        None if factor is None else Preparation("Averaging", lambda surface: surface.averaged(factor)),
+        _average(wishes.average),
         _downsample(wishes.downsample, wishes.alias),
         _window(wishes.window, wishes.share),
     ]
@@ -172,11 +169,24 @@ def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
     return surface.filtered(**cutoffs)
 
 
+def _average(factor: int | None) -> Preparation | None:
+    if factor is None:
+        return None
+    _require_factor(factor, "--average")
+    return Preparation("Averaging", lambda surface: surface.averaged(factor))
+
+
+def _require_factor(factor: int, name: str) -> None:
+    if factor < 1:
+        raise UsageError(f"{name}: K must be a whole number from 1 up, not {factor}")
+
+
 def _downsample(factor: int | None, alias: bool) -> Preparation | None:
     if factor is None:
         if alias:
             raise UsageError("--alias belongs to --downsample: give its K as well")
         return None
+    _require_factor(factor, "--downsample")
     return Preparation("Subsampling", lambda surface: surface.downsampled(factor, anti_alias=not alias))
 
 
@@ -185,6 +195,8 @@ def _window(window: WindowShape | None, share: float | None) -> Preparation | No
         raise UsageError("--share belongs to --window tukey")
     if window is None:
         return None
+    if share is not None and not 0 <= share <= 1:
+        raise UsageError(f"--share: the tapered part of the length lies between 0 and 1, not at {share:g}")
     chosen: Any = window.value
     bent = 0.25 if share is None else share
     return Preparation("Tapering", lambda surface: surface.tapered(chosen, bent))

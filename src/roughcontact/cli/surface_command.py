@@ -96,9 +96,7 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
             height,
             np.random.default_rng(chosen),
             nodal=recipe.nodal,
-            rolloff=waves.get("rolloff"),
-            long_cutoff=waves.get("long_cutoff"),
-            short_cutoff=waves.get("short_cutoff"),
+            **waves,  # type: ignore[arg-type]
         )
         made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
         made = f"made by roughcontact {rc.__version__}: {made}"
