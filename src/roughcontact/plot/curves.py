@@ -79,11 +79,11 @@ def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     """Draw the real contact area against force, both logarithmic; the right axis gives the relative one."""
     x, y = _draw(axes, curve, "contact_area")
     _draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
-    outer_axis(axes, "right", "relative real contact area", _parts_of(curve.nominal_area * y.factor))
+    outer_axis(axes, "right", "relative real contact area A/A0", _parts_of(curve.nominal_area * y.factor))
 
 
 def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the depth since first touch against force, both logarithmic."""
+    """Draw the indentation depth, since first touch, against force, both logarithmic."""
     _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
 
 
