@@ -25,7 +25,7 @@ def elsewhere(surface, library):
 OPERATORS = {
     "free": lambda: rc.half_space(rc.Grid((13, 20), (0.3, 0.5)), 2.0),
     "periodic": lambda: rc.half_space(rc.Grid((12, 21), (0.3, 0.5), True), 2.0),
-    "dense": lambda: rc.half_space(rc.Grid((6, 7), (0.3, 0.5)), 2.0, "dense"),
+    "dense": lambda: rc.half_space(rc.Grid((6, 7), (0.3, 0.5)), 2.0, method="dense"),
     "ring": lambda: rc.ring(rc.RadialGrid.uniform(20, 1.0), 2.0),
     "line": lambda: rc.line(rc.Grid(50, 0.5), 2.0),
     "periodic line": lambda: rc.line(rc.Grid(50, 0.5, True), 2.0),

@@ -11,8 +11,7 @@ MOST = 150  # products of a step: among a thousand such problems, on up to 200 x
 def worst(answer, before):
     """Return the largest violation of Coulomb's law over the largest displacement, on a product of the whole grid."""
     problem, contact = answer.problem, answer.problem.pressed.contact
-    bodies = problem.bodies if isinstance(problem.bodies, tuple) else (problem.bodies,)
-    operator = rc.shear_half_space(problem.pressed.problem.grid, bodies)
+    operator = rc.shear_half_space(problem.pressed.problem.grid, problem.bodies)
     then = np.zeros((2, 1)) if before is None else before.slip[:, contact]
     moved = operator.apply(answer.traction)[:, contact]
     slip = moved - answer.displacement[:, None] - then

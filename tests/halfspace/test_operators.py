@@ -1,6 +1,7 @@
 """The contract of every operator."""
 
 import gc
+from dataclasses import replace
 from weakref import ref
 
 import numpy as np
@@ -8,11 +9,11 @@ import oracles
 import pytest
 
 import roughcontact as rc
+from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.operators.line_contact import LineOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite, self_influence
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
-from roughcontact.halfspace.sums.multilevel import MultilevelOperator
+from roughcontact.halfspace.sums.multilevel import Multilevel
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
 PLANES = [
@@ -46,7 +47,7 @@ OTHERS = {
     },
     **{
         f"moving grid {shape}": lambda shape=shape: rc.half_space(
-            rc.Grid(shape, (0.3, 0.5)), 2.0, "moving-grid"
+            rc.Grid(shape, (0.3, 0.5)), 2.0, method="moving-grid"
         )
         for shape in SHAPES
     },
@@ -55,9 +56,11 @@ OTHERS = {
         rc.Grid((13, 20), 0.5), 2.0, method="multilevel"
     ),
     # Where all pairs are near, all are corrected, and the sum is exact.
-    "multilevel": lambda: MultilevelOperator(rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), near=80),
+    "multilevel": lambda: replace(
+        rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), summation=Multilevel(near=80)
+    ),
     "multilevel along a line": lambda: LineOperator(
-        MultilevelOperator(rc.line(rc.Grid(601, 0.5), 2.0).plane, near=600)
+        replace(rc.line(rc.Grid(601, 0.5), 2.0).plane, summation=Multilevel(near=600))
     ),
     "foundation": lambda: rc.foundation(rc.Grid(20, 0.5), 2.0),
     "foundation of a periodic line": lambda: rc.foundation(rc.Grid(20, 0.5, True), 2.0),
@@ -67,7 +70,7 @@ OTHERS = {
 @pytest.fixture(params=PLANES, ids=str)
 def plane(request):
     shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method)
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
 
 
 @pytest.fixture(params=[*PLANES, *OTHERS], ids=str)
@@ -75,7 +78,7 @@ def operator(request):
     if request.param in OTHERS:
         return OTHERS[request.param]()
     shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method)
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
 
 
 def fields(operator, count=2, seed=0):
@@ -164,9 +167,9 @@ def test_loads_in_corners_meet(operator):
 def test_scale_laws(method, periodic):
     """Cells larger by a factor move by that factor; a stiffer body moves less."""
     p = np.random.default_rng(0).standard_normal((12, 9))
-    base = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2.0, method).apply(p)
-    large = rc.half_space(rc.Grid((12, 9), (3e-7, 5e-7), periodic), 2.0, method).apply(p)
-    stiff = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2e11, method).apply(p)
+    base = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2.0, method=method).apply(p)
+    large = rc.half_space(rc.Grid((12, 9), (3e-7, 5e-7), periodic), 2.0, method=method).apply(p)
+    stiff = rc.half_space(rc.Grid((12, 9), (0.3, 0.5), periodic), 2e11, method=method).apply(p)
     np.testing.assert_allclose(large, base * 1e-6, rtol=0, atol=1e-20)
     np.testing.assert_allclose(stiff, base * 1e-11, rtol=0, atol=1e-25)
 

@@ -30,7 +30,7 @@ def loading_curves(
     depths: Sequence[float] | Array | None = None,
     energy: bool = True,
 ) -> LineCurves:
-    """Return the loading curves of rough lines pressed into a foundation of springs (thesis, section A.2).
+    """Return the loading curves of rough lines pressed into a Winkler foundation (thesis, section A.2).
 
     Parameters
     ----------

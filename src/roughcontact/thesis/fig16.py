@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
-from roughcontact.halfspace.operators.ring import ring
+from roughcontact.halfspace.operators.build import ring
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict

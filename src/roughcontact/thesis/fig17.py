@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.loading import loading_curve
 from roughcontact.contact.solution import Solution
-from roughcontact.halfspace.operators.ring import ring
+from roughcontact.halfspace.operators.build import ring
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.theory.power_law_indenter import contact
 from roughcontact.thesis import fig15

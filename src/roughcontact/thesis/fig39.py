@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import RadialGrid
-from roughcontact.halfspace.operators.ring import ring
+from roughcontact.halfspace.operators.build import ring
 from roughcontact.plot.raster import LABEL, TICK
 from roughcontact.thesis.verdict import Verdict
 

@@ -8,7 +8,7 @@ import roughcontact as rc
 
 def test_one_load_shows_the_influence_function():
     """Eq. A.48 at every offset, with K00 = 4 ln(1 + sqrt 2), K10 and K11 (unit cells, pi E* = 1)."""
-    operator = rc.half_space(rc.Grid((3, 4), 1.0), 1 / np.pi, "moving-grid")
+    operator = rc.half_space(rc.Grid((3, 4), 1.0), 1 / np.pi, method="moving-grid")
     p = np.zeros((3, 4))
     p[1, 2] = 1.0
     u = operator.apply(p)
@@ -30,7 +30,7 @@ def test_equal_to_the_transforms(shape):
 
 
 def test_cells_without_pressure_cost_nothing():
-    operator = rc.half_space(rc.Grid((300, 300), 1.0), 1.0, "moving-grid")
+    operator = rc.half_space(rc.Grid((300, 300), 1.0), 1.0, method="moving-grid")
     np.testing.assert_array_equal(operator.apply(np.zeros((300, 300))), 0.0)
 
 
@@ -51,7 +51,7 @@ def test_any_solver_runs_on_it():
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])
 def test_periodic_grids_are_refused(method):
     with pytest.raises(ValueError, match=f"'{method}' is for free grids"):
-        rc.half_space(rc.Grid((8, 8), 1.0, True), 1.0, method)
+        rc.half_space(rc.Grid((8, 8), 1.0, True), 1.0, method=method)
     with pytest.raises(ValueError, match=f"'{method}' is for free grids"):
         rc.line(rc.Grid(8, 1.0, True), 1.0, method=method)
     with pytest.raises(ValueError, match="method must be one of"):
@@ -61,4 +61,4 @@ def test_periodic_grids_are_refused(method):
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])
 def test_arrays_of_others_are_refused_and_not_converted(method):
     with pytest.raises(TypeError, match="NumPy's arrays"):
-        rc.half_space(rc.Grid((2, 2), 1.0), 1.0, method).apply([[1.0, 2.0], [3.0, 4.0]])
+        rc.half_space(rc.Grid((2, 2), 1.0), 1.0, method=method).apply([[1.0, 2.0], [3.0, 4.0]])
