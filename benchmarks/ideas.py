@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.halfspace.sums.particle_mesh import PatchOperator
+from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.kernels import loader
 from roughcontact.solver import nested_iteration
 from roughcontact.solver.inner_operator import FullGrid
@@ -107,7 +107,7 @@ def main(n):
         "no Schur": (
             EXTRAS,
             (FullGrid, "diagonal_correction", none),
-            (PatchOperator, "diagonal_correction", none),
+            (TileOperator, "diagonal_correction", none),
         ),
         "no window": without("positive"),
         "no list": without("submatrix"),

@@ -19,6 +19,7 @@ import subprocess
 import sys
 import time
 import tracemalloc
+from dataclasses import replace
 
 os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
@@ -28,7 +29,7 @@ from pairs import without
 import roughcontact as rc
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.sums import levels, near_sum
-from roughcontact.halfspace.sums.multilevel import MultilevelOperator
+from roughcontact.halfspace.sums.multilevel import Multilevel
 
 # For the matrix, and for the moving grid.
 SMALL = {"plane": (16, 32, 64), "shear": (16, 32, 48), "line": (256, 1024, 4096)}
@@ -38,7 +39,7 @@ SETTINGS = ((4, 4), (6, 6), (8, 8), (8, 10), (10, 14), (12, 16))
 
 def operator(geometry, method, n):
     if geometry == "plane":
-        return rc.half_space(rc.Grid((n, n), 1.0), 1.0, method)
+        return rc.half_space(rc.Grid((n, n), 1.0), 1.0, method=method)
     if geometry == "shear":
         return rc.shear_half_space(rc.Grid((n, n), 1.0), rc.Solid(1.0, 0.3), method=method)
     if method == "dense":
@@ -137,7 +138,7 @@ def settings(n, repeats):
     free = rc.half_space(rc.Grid((n, n), 1.0), 1.0)
     fields = pressures(free.grid.shape)
     for order, near in SETTINGS:
-        subject = MultilevelOperator(free, order, near)
+        subject = replace(free, summation=Multilevel(order, near))
         off = max(error(subject, free, p) for p in fields)
         fast = seconds(subject.apply, fields[0], repeats)
         with without(levels, "add_near", near_sum.add_near_by_products):

@@ -57,8 +57,8 @@ _ROOMS = {
     "material_ratio": "surface.parameters.material_ratio",
     "stratified_parameters": "surface.parameters.material_ratio",
     "half_space": "halfspace.operators.build",
-    "ring": "halfspace.operators.ring",
-    "singly_periodic": "halfspace.operators.singly_periodic",
+    "ring": "halfspace.operators.build",
+    "singly_periodic": "halfspace.operators.build",
     "layer": "halfspace.operators.layer",
     "Stress": "halfspace.subsurface.fields_below",
     "Displacement": "halfspace.subsurface.fields_below",
@@ -159,13 +159,13 @@ if TYPE_CHECKING:
     from roughcontact.grid import Grid as Grid
     from roughcontact.grid import RadialGrid as RadialGrid
     from roughcontact.halfspace.operators.build import half_space as half_space
+    from roughcontact.halfspace.operators.build import ring as ring
+    from roughcontact.halfspace.operators.build import singly_periodic as singly_periodic
     from roughcontact.halfspace.operators.geometry import Geometry as Geometry
     from roughcontact.halfspace.operators.layer import layer as layer
     from roughcontact.halfspace.operators.line_contact import line as line
     from roughcontact.halfspace.operators.operator import Capabilities as Capabilities
     from roughcontact.halfspace.operators.operator import Operator as Operator
-    from roughcontact.halfspace.operators.ring import ring as ring
-    from roughcontact.halfspace.operators.singly_periodic import singly_periodic as singly_periodic
     from roughcontact.halfspace.shear.shear_operator import ShearOperator as ShearOperator
     from roughcontact.halfspace.shear.shear_operator import shear_half_space as shear_half_space
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement

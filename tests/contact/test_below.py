@@ -6,8 +6,8 @@ from scipy.optimize import minimize_scalar
 
 import roughcontact as rc
 from roughcontact.contact.below import below, displacement_below, largest_von_mises
+from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 
 MODULUS = 2.0
 STEEL, SOFT = rc.Solid(3.0, 0.3), rc.Solid(2.0, 0.4)

@@ -9,8 +9,8 @@ import scipy.linalg
 import roughcontact as rc
 from libraries import LIBRARIES
 from roughcontact.contact import solution as solution_module
+from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
 
 DEPTH = 1e-3
 WITHIN = 1e-6  # what is claimed of both numbers

@@ -50,6 +50,8 @@ OPERATORS = {
 @pytest.mark.parametrize(("dtype", "digits"), [("float64", 1e-14), ("float32", 1e-5)])
 def test_operators(library, name, product, dtype, digits):
     """Single precision: 6e-8, times what a transform of some hundred values adds up."""
+    if (name, product) == ("dense", "approximate_inverse"):
+        pytest.skip("of a matrix no inverse is known")
     operator = getattr(OPERATORS[name], product)
     field = np.random.default_rng(0).standard_normal((2, *OPERATORS[name].grid.shape))
     found = operator(library.put(field, dtype))

@@ -1,5 +1,7 @@
 """What a solution claims, checked with a full matrix and Coulomb's law written out, on contacts of any kind."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,8 +12,8 @@ from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slide import slide, slide_path
 from roughcontact.friction.slip_step import SlipStep
-from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
 from roughcontact.halfspace.shear.shear_operator import shear_half_space
+from roughcontact.halfspace.sums.multilevel import Multilevel
 from roughcontact.solver.control import Status
 
 MU = 0.4
@@ -75,15 +77,15 @@ def wide():
     surface = rc.self_affine(grid, hurst=0.7, rms=1e-7, rng=np.random.default_rng(5))
     solution = rc.press(surface, bodies, pressure=0.006 * rc.reduced_modulus(*bodies))
     operator = ContactCells.of(SUMS["multilevel"](grid, bodies), solution.contact).operator
-    assert all(hierarchy.levels for hierarchy in operator._hierarchies)
+    assert all(hierarchy.levels for hierarchy in operator._sum.components)
     return solution, bodies
 
 
 SUMS = {
     "moving-grid": lambda grid, bodies: shear_half_space(grid, bodies, method="moving-grid"),
     "multilevel": lambda grid, bodies: shear_half_space(grid, bodies, method="multilevel"),
-    "a rough sum, wrong by a thousandth": lambda grid, bodies: MultilevelShear(
-        shear_half_space(grid, bodies), order=4, near=4
+    "a rough sum, wrong by a thousandth": lambda grid, bodies: replace(
+        shear_half_space(grid, bodies), summation=Multilevel(order=4, near=4)
     ),
 }
 

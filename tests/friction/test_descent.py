@@ -117,7 +117,7 @@ def test_what_does_not_hold_still_is_given_up():
 
     class Noisy:
         grid, weights = step.interface.operator.grid, step.interface.operator.weights
-        approximate_inverse = step.interface.operator.approximate_inverse
+        capabilities = step.interface.operator.capabilities
 
         @staticmethod
         def apply(traction):

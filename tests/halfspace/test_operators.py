@@ -1,6 +1,7 @@
 """The contract of every operator."""
 
 import gc
+from dataclasses import replace
 from weakref import ref
 
 import numpy as np
@@ -8,11 +9,11 @@ import oracles
 import pytest
 
 import roughcontact as rc
+from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.operators.line_contact import LineOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite, self_influence
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
-from roughcontact.halfspace.sums.multilevel import MultilevelOperator
+from roughcontact.halfspace.sums.multilevel import Multilevel
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]  # the last: several slabs of columns
 PLANES = [
@@ -55,9 +56,11 @@ OTHERS = {
         rc.Grid((13, 20), 0.5), 2.0, method="multilevel"
     ),
     # Where all pairs are near, all are corrected, and the sum is exact.
-    "multilevel": lambda: MultilevelOperator(rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), near=80),
+    "multilevel": lambda: replace(
+        rc.half_space(rc.Grid((33, 20), (0.3, 0.5)), 2.0), summation=Multilevel(near=80)
+    ),
     "multilevel along a line": lambda: LineOperator(
-        MultilevelOperator(rc.line(rc.Grid(601, 0.5), 2.0).plane, near=600)
+        replace(rc.line(rc.Grid(601, 0.5), 2.0).plane, summation=Multilevel(near=600))
     ),
     "foundation": lambda: rc.foundation(rc.Grid(20, 0.5), 2.0),
     "foundation of a periodic line": lambda: rc.foundation(rc.Grid(20, 0.5, True), 2.0),

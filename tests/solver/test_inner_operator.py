@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.sums import particle_mesh as patches
-from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches, PatchOperator
+from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh, TileOperator
 from roughcontact.kernels import loader
 from roughcontact.solver import inner_operator as drivers
 from roughcontact.solver import tuning
@@ -55,7 +55,7 @@ def rough(request):
     return rc.self_affine(grid, hurst=0.8, rms=1e-3, rng=np.random.default_rng(5))
 
 
-TILES = pytest.param(PatchOperator, marks=needs_machine_code)
+TILES = pytest.param(TileOperator, marks=needs_machine_code)
 
 
 @pytest.fixture(params=[TILES, SingleFullGrid])
@@ -63,10 +63,10 @@ def used(request, monkeypatch):
     """Let one kind of driver stand in wherever it can, and count its products."""
     kind = request.param
     for part in ("cover", "filled"):
-        monkeypatch.setattr(Patches, part, 2.0 if kind is PatchOperator else 0.0)
-    monkeypatch.setattr(patches, "LEAST", 0)
+        monkeypatch.setattr(ParticleMesh, part, 2.0 if kind is TileOperator else 0.0)
+    monkeypatch.setattr(patches, "LEAST_PLANE", 0)
     if kind is SingleFullGrid:
-        monkeypatch.setattr(ListPatches, "tiles", lambda *_: None)
+        monkeypatch.setattr(ListParticleMesh, "tiles", lambda *_: None)
         monkeypatch.setattr(tuning, "LIST_FILLING", 0.0)  # planes, not lists
     counts = [0]
     apply = kind.apply
@@ -177,7 +177,7 @@ def test_who_drives():
     few = np.zeros((512, 512), dtype=bool)
     few[40:60, 100:130] = True
     tiles = inner_operator_on(large, few)
-    assert type(tiles) is PatchOperator
+    assert type(tiles) is TileOperator
     assert inner_operator_on(large, few, tiles) is tiles
     assert inner_operator_on(large, few[::-1], tiles) is not tiles
 

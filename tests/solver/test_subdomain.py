@@ -8,7 +8,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace.operators import cell_list as lists
 from roughcontact.halfspace.operators.cell_list import CellsOperator
-from roughcontact.halfspace.sums.spectral import FreeOperator
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
 from roughcontact.kernels import loader
 from roughcontact.solver import tuning
 from roughcontact.solver.subdomain import SubdomainSolver
@@ -53,12 +53,12 @@ def parts(monkeypatch, rough):
         pytest.skip("no machine code here")
     monkeypatch.setattr(tuning, "LARGE_BOX", 0)
     monkeypatch.setattr(tuning, "LIST_FILLING", 1.0)
-    monkeypatch.setattr(lists, "MANY", 0)
+    monkeypatch.setattr(lists, "PAIRS_FOR_TILES", 0)
     found, chosen = Counter(), SubdomainSolver._subdomain
 
     def counted(self, region):
         place = chosen(self, region)
-        if isinstance(self.operator, FreeOperator) and self.operator.grid == rough.grid:
+        if isinstance(self.operator, InfluenceOperator) and self.operator.grid == rough.grid:
             found["box" if isinstance(place, tuple) else "list"] += 1
         return place
 
@@ -130,8 +130,8 @@ def test_the_curve_is_that_on_the_plane(rough, parts, solver, missing):
 @pytest.mark.parametrize("share", [0.02, 0.1])
 def test_the_stiffness_of_a_list_is_that_on_the_plane(monkeypatch, rough, share, way):
     """2 % of the cells are solved by a factorisation, 10 % are not."""
-    monkeypatch.setattr(lists, "MANY", 0)
-    monkeypatch.setattr(lists, "SUMS", np.inf if way == "tiles" else -1.0)
+    monkeypatch.setattr(lists, "PAIRS_FOR_TILES", 0)
+    monkeypatch.setattr(lists, "TILE_SUMS_PER_CELL", np.inf if way == "tiles" else -1.0)
     heights = rough.heights
     region = heights > np.quantile(heights, 1 - share)
     # A list that holds more than the region.
@@ -204,8 +204,8 @@ class TestParts:
         pressure = np.random.default_rng(1).random(len(cells))
         exact = part.as_matrix() @ pressure
         for many, sums in ((np.inf, 0.0), (0, np.inf), (0, -1.0)):
-            monkeypatch.setattr(lists, "MANY", many)
-            monkeypatch.setattr(lists, "SUMS", sums)
+            monkeypatch.setattr(lists, "PAIRS_FOR_TILES", many)
+            monkeypatch.setattr(lists, "TILE_SUMS_PER_CELL", sums)
             np.testing.assert_allclose(part.apply(pressure), exact, rtol=1e-13)
 
     def test_the_box_is_kept_while_it_holds(self):

@@ -80,7 +80,7 @@ def conductance(
     Parameters
     ----------
     contact : Curve or Solution
-        Of a surface, of rings, or of a foundation of springs. Of a solution under a hardness the cells that give
+        Of a surface, of rings, or of a Winkler foundation. Of a solution under a hardness the cells that give
         way conduct like the others.
     resistivities, conductivities : tuple of float
         At least one of the two, see `Conductors`.

@@ -11,9 +11,8 @@ import numpy.typing as npt
 
 from roughcontact.arrays import beside, is_numpy, namespace
 from roughcontact.grid import Grid
-from roughcontact.halfspace.operators.operator import exact_of, self_influence
-from roughcontact.halfspace.shear.shear_operator import ShearOperator
-from roughcontact.halfspace.shear.shear_sums import DenseShear
+from roughcontact.halfspace.operators.operator import capabilities, exact_of, self_influence
+from roughcontact.halfspace.shear.shear_operator import ShearOperator, dense_shear
 from roughcontact.solver.subdomain import bounding_box
 from roughcontact.validation import Array
 
@@ -127,7 +126,7 @@ class ContactCells:
             if not floating and _few(region):
                 matrix = part.as_matrix(np.flatnonzero(region))
                 cells = Grid((1, len(matrix) // 2), operator.grid.spacing)
-                part, region = DenseShear(cells, matrix), np.ones(cells.shape, dtype=bool)
+                part, region = dense_shear(cells, matrix), np.ones(cells.shape, dtype=bool)
         own = self_influence(part)
         return cls(part, exact_of(part), Selection.of(region), basis, Selection.of(contact), floating, own)
 
@@ -151,7 +150,11 @@ class ContactCells:
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a traction [Pa] that would cause about this `displacement` [m]; symmetric and definite."""
-        return self._through(self.operator.approximate_inverse, displacement)
+        inverse = capabilities(self.operator).approximate_inverse
+        if inverse is not None:
+            return self._through(inverse, displacement)
+        # What each cell alone would need; the one cell of a period never moves.
+        return displacement / (self.self_influence if self.self_influence > 0 else 1.0)
 
     def zeros(self) -> Array:
         """Return zero on every cell."""

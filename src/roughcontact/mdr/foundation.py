@@ -1,4 +1,4 @@
-"""The Winkler foundation, independent springs, on which the method of dimensionality reduction presses its lines."""
+"""The Winkler foundation on which the method of dimensionality reduction presses its lines."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Cells = npt.NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True)
 class Foundation:
-    """Springs of stiffness E* times their width, which are independent of each other (thesis, eq. A.60).
+    """A Winkler foundation: independent springs of stiffness E* times their width (thesis, eq. A.60).
 
     Its pressure is a force per length [N/m]: E* times the depth to which a spring is pressed.
 
@@ -140,5 +140,5 @@ def foundation(grid: Grid, modulus: float | Solid | tuple[Solid, Solid]) -> Foun
     [0.0, 1e-09, 2e-09, 0.0]
     """
     if not isinstance(grid, Grid) or grid.ndim != 1:
-        raise ValueError("a foundation of springs carries a line: give a grid of one axis, Grid(n, spacing)")
+        raise ValueError("a Winkler foundation carries a line: give a grid of one axis, Grid(n, spacing)")
     return Foundation(grid, as_modulus(modulus))

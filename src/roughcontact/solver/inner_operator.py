@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
 from roughcontact.halfspace.operators.operator import Linear, Operator, capabilities, self_influence
-from roughcontact.halfspace.sums.local_inverse import RELIEF, LocalInverse
-from roughcontact.halfspace.sums.particle_mesh import PatchOperator
+from roughcontact.halfspace.sums.local_inverse import DIAGONAL_CORRECTION, LocalInverse
+from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.halfspace.sums.tiles import Tiles
 from roughcontact.solver import tuning
 
@@ -86,7 +86,7 @@ class FullGrid:
     @property
     def diagonal_correction(self) -> float:
         """Of the truncated inverse."""
-        return 0.0 if self.local_inverse is None else RELIEF
+        return 0.0 if self.local_inverse is None else DIAGONAL_CORRECTION
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return the field."""
@@ -136,7 +136,7 @@ def inner_operator_on(
     operator: Operator, support: Mask, previous: InnerOperator | None = None
 ) -> InnerOperator:
     """Return the inner operator of least cost on some cells, the previous one if it still covers them."""
-    if isinstance(previous, PatchOperator) and previous.tiles.hold(support):
+    if isinstance(previous, TileOperator) and previous.tiles.hold(support):
         return previous
     if not _fits_single(operator):
         return FullGrid(operator)

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from roughcontact.halfspace.influence import love as kernels
-from roughcontact.halfspace.influence.love import love, love_table, periodic_multiplier
+from roughcontact.halfspace.influence.love import love, love_table, wave_compliance
 
 # Thesis, K(i, j) of the unit cell; 60-digit arithmetic.
 TABLE = {
@@ -127,4 +127,4 @@ def test_cells_add_up():
 
 
 def test_the_mean_of_a_periodic_body_does_not_move():
-    np.testing.assert_array_equal(periodic_multiplier([0.0, 1.0, 4.0]), [0.0, 2.0, 0.5])
+    np.testing.assert_array_equal(wave_compliance([0.0, 1.0, 4.0]), [0.0, 2.0, 0.5])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.halfspace.influence.tables import NEAR, Love, Periodic, Strip, Tables, table_of_waves
+from roughcontact.halfspace.influence.tables import FIRST_TABLE, Love, Periodic, Strip, Tables, table_of_waves
 
 LIMIT = (150, 200)
 INFLUENCES = {
@@ -147,7 +147,7 @@ def test_wide_ones_and_long_ones_in_turn(tables, shapes):
 
 
 @pytest.mark.parametrize("both", [False, True])
-@pytest.mark.parametrize("far", [(20, 30), (NEAR, NEAR), (100, 20), LIMIT], ids=str)
+@pytest.mark.parametrize("far", [(20, 30), (FIRST_TABLE, FIRST_TABLE), (100, 20), LIMIT], ids=str)
 def test_single_values_of_either_sign(tables, far, both):
     """From the table, beyond it, and from the larger one that many of them are worth."""
     if both:

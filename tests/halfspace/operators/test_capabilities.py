@@ -122,7 +122,6 @@ def test_another_record_is_refused():
         lambda: rc.half_space(rc.Grid((6, 8), 1.0), 2.0),
         lambda: rc.half_space(rc.Grid((6, 8), 1.0, True), 2.0),
         lambda: rc.half_space(rc.Grid((6, 8), 1.0, (True, False)), 2.0),
-        lambda: rc.half_space(rc.Grid((6, 8), 1.0), 2.0, method="multilevel"),
         lambda: rc.layer(rc.Grid((6, 8), 1.0, True), 2.0, 1.0, base="rigid-frictionless"),
         lambda: rc.half_space(rc.Grid((6, 8), 1.0), 2.0).submatrix(np.arange(5)),
     ],

@@ -6,11 +6,11 @@ import pytest
 import roughcontact as rc
 from roughcontact.halfspace.operators import cell_list as lists
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.sums import direct_sum
 from roughcontact.halfspace.sums.direct_sum import DirectSum
-from roughcontact.halfspace.sums.particle_mesh import ListPatches
-from roughcontact.halfspace.sums.spectral import FreeOperator
+from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh
 from roughcontact.kernels import loader
 from roughcontact.threads import limit_threads
 
@@ -68,9 +68,9 @@ def way(request, monkeypatch):
 
 def go(monkeypatch, way):
     many, sums = WAYS[way]
-    monkeypatch.setattr(lists, "MANY", many)
-    monkeypatch.setattr(lists, "SUMS", sums)
-    monkeypatch.setattr(lists, "TABLE", 0.0)
+    monkeypatch.setattr(lists, "PAIRS_FOR_TILES", many)
+    monkeypatch.setattr(lists, "TILE_SUMS_PER_CELL", sums)
+    monkeypatch.setattr(lists, "PAIRS_PER_ENTRY", 0.0)
 
 
 def pressure_on(count, seed=3):
@@ -151,7 +151,7 @@ def taken(monkeypatch):
     for kind, name, way in (
         (CellsOperator, "_by_cells", "cell by cell"),
         (DirectSum, "apply", "tile by tile"),
-        (FreeOperator, "apply", "by the plane"),
+        (InfluenceOperator, "apply", "by the plane"),
     ):
         original = getattr(kind, name)
 
@@ -179,7 +179,7 @@ def test_these_are_the_ways(way, taken):
     ],
 )
 def test_the_shortest_way(taken, cells, loaded, way):
-    """Below MANY pairs cell by cell; 900 cells touch all of the 40 tiles, and the plane has 2257 cells."""
+    """Below PAIRS_FOR_TILES pairs cell by cell; 900 cells touch all of the 40 tiles, and the plane has 2257 cells."""
     rc.half_space(rc.Grid(SHAPE, SPACING), 2.0).submatrix(some(cells)).apply(
         1.0 * (np.arange(cells) < loaded)
     )
@@ -278,7 +278,7 @@ def test_it_drives_by_its_tiles():
     operator = plane.submatrix(some(900, (96, 130)))
     region = np.random.default_rng(7).random(900) < 0.1
     patches = operator.capabilities.particle_mesh()
-    assert isinstance(patches, ListPatches)
+    assert isinstance(patches, ListParticleMesh)
     tiles = patches.tiles(region)
     assert tiles.hold(region)
     assert len(tiles) < len(patches.whole)

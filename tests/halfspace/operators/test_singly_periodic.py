@@ -8,7 +8,7 @@ from scipy.special import eval_legendre, k0, zeta
 import roughcontact as rc
 import roughcontact.halfspace.influence.love_singly_periodic as kernel
 from roughcontact.halfspace.influence.love_singly_periodic import repeated_love
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
+from roughcontact.halfspace.operators.build import singly_periodic
 
 MODULUS, PERIOD = 2.0, 1.7
 PAGE = 2 * np.exp(-np.euler_gamma) * PERIOD  # the reference length that takes 1/(|m| period) from each image

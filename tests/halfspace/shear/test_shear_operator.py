@@ -5,6 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.influence.cerruti import cerruti
+from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, dundurs_parameter, shear_half_space
 
 SHAPES = [(1, 1), (1, 6), (7, 5), (8, 8), (13, 2), (33, 20), (6, 75)]
@@ -34,7 +35,7 @@ def close(a, b, scale=1.0):
 
 def close_to_exact(operator, a, b, scale=1.0):
     """The same where the sum is exact; else as near as it claims to be."""
-    inexact = INEXACT * np.abs(b).max() if hasattr(operator, "exact") else 0.0
+    inexact = INEXACT * np.abs(b).max() if capabilities(operator).exact else 0.0
     np.testing.assert_allclose(a, b, rtol=0, atol=1e-14 * scale + inexact)
 
 
@@ -107,10 +108,12 @@ def test_the_whole_is_not_a_part(operator):
 
 
 def test_the_approximate_inverse_is_symmetric_and_definite(operator):
+    inverse = capabilities(operator).approximate_inverse
+    if inverse is None:  # of a matrix none is known
+        return
     p, q = fields(operator)
-    there, back = np.vdot(operator.approximate_inverse(p), q), np.vdot(p, operator.approximate_inverse(q))
-    assert there == pytest.approx(back, rel=1e-10, abs=1e-10 * p.size)
-    assert np.vdot(operator.approximate_inverse(p), p) > 0
+    assert np.vdot(inverse(p), q) == pytest.approx(np.vdot(p, inverse(q)), rel=1e-10, abs=1e-10 * p.size)
+    assert np.vdot(inverse(p), p) > 0
 
 
 @pytest.mark.parametrize("shape", SHAPES)

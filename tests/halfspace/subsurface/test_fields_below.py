@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.influence.love import love
-from roughcontact.halfspace.operators.singly_periodic import singly_periodic
+from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.subsurface.fields_below import Stress, displacement, stress
 from roughcontact.halfspace.subsurface.love_field import (
     displacement_table,

@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.halfspace.sums import local_inverse
-from roughcontact.halfspace.sums.local_inverse import BLOCK, LARGE, RELIEF, LocalInverse
+from roughcontact.halfspace.sums.local_inverse import BLOCK, DIAGONAL_CORRECTION, LARGE_PLANE, LocalInverse
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import ActiveCells, with_margins
 from roughcontact.kernels.constants import REACH
@@ -26,7 +26,7 @@ def spacing(request):
 @pytest.fixture(params=[False, True], ids=["near", "near and far"])
 def far(request, monkeypatch):
     """Whether blocks carry the long waves of a plane that is small."""
-    monkeypatch.setattr(local_inverse, "LARGE", 1 if request.param else math.inf)
+    monkeypatch.setattr(local_inverse, "LARGE_PLANE", 1 if request.param else math.inf)
     return request.param
 
 
@@ -90,13 +90,13 @@ def test_symmetric_and_definite_on_any_region(spacing, far, shape):
 
 @pytest.mark.parametrize("shape", [(12, 10), (21, 20)])
 def test_definite_without_what_the_outside_takes_off(spacing, far, shape):
-    """On any region: were all weights but the first negative, 1 - RELIEF of the least number would be left at least."""
+    """On any region: were all weights but the first negative, at least what is not taken off of the least is left."""
     inverse = LocalInverse.of(MODULUS, shape, spacing)
     for name, inside in regions(shape).items():
         found = matrix(inverse, inside)
-        relieved = found - RELIEF * np.diag(found.sum(axis=0))
+        relieved = found - DIAGONAL_CORRECTION * np.diag(found.sum(axis=0))
         least, most = (np.linalg.eigvalsh(one / found.max())[0] for one in (relieved, found))
-        assert least > (1 - RELIEF) * most * (1 - 1e-12) > 0, name
+        assert least > (1 - DIAGONAL_CORRECTION) * most * (1 - 1e-12) > 0, name
 
 
 def test_what_the_outside_takes_off_brings_it_nearer_the_inverse():
@@ -111,7 +111,7 @@ def test_what_the_outside_takes_off_brings_it_nearer_the_inverse():
         numbers = np.linalg.eigvals(inverse @ influence).real
         return numbers.max() / numbers.min()
 
-    assert spread(found - RELIEF * np.diag(found.sum(axis=0))) < 0.8 * spread(found)
+    assert spread(found - DIAGONAL_CORRECTION * np.diag(found.sum(axis=0))) < 0.8 * spread(found)
 
 
 def test_symmetric_and_definite_in_single_precision(spacing, far):
@@ -152,7 +152,7 @@ def test_waves_of_slender_cells_are_known_within_a_factor_of_three(name):
 
 def test_blocks_know_the_long_waves_within_a_fourth(spacing, monkeypatch):
     """Those of up to a third of the plane; it is as long as its blocks repeat themselves."""
-    monkeypatch.setattr(local_inverse, "LARGE", 1)
+    monkeypatch.setattr(local_inverse, "LARGE_PLANE", 1)
     inverse = LocalInverse.of(MODULUS, (240, 240), spacing)
     found = [response(inverse, (240, 240), spacing, *waves) for waves in around(240, 6, 80)]
     assert 0.75 < min(found) <= max(found) < 1.25
@@ -166,7 +166,7 @@ def test_without_blocks_the_longest_waves_are_unknown():
 
 def test_large_planes_have_blocks():
     spacing, shape = SPACINGS["square"], (768, 800)
-    assert math.prod(shape) > LARGE
+    assert math.prod(shape) > LARGE_PLANE
     assert LocalInverse.of(MODULUS, (512, 800), spacing).far is None
     inverse = LocalInverse.of(MODULUS, shape, spacing)
     assert inverse.far.lengths == (768 // BLOCK, 800 // BLOCK)
@@ -197,7 +197,7 @@ def test_scale_laws(spacing, far, shape):
 
 def test_the_far_part_is_added_to_the_near_one(spacing, monkeypatch):
     """Block by block: what a displacement that sums to nothing on each block leaves is near."""
-    monkeypatch.setattr(local_inverse, "LARGE", 1)
+    monkeypatch.setattr(local_inverse, "LARGE_PLANE", 1)
     shape = (4 * BLOCK, 6 * BLOCK)
     inverse = LocalInverse.of(MODULUS, shape, spacing)
     region = ActiveCells(np.ones(shape))

@@ -11,7 +11,7 @@ Array = npt.NDArray[np.float64]
 
 # Below NEAR shorter sides the closed form, beyond Gauss's rule across the cell of the integral along it, with fewer
 # points beyond FAR: each is good to some 1e-14 of Love's integral where it is used, at any ratio of the sides
-# (tests/halfspace/test_cerruti.py).
+# (tests/halfspace/influence/test_cerruti.py).
 NEAR = 5.0
 FAR = 60.0
 BLOCK = 16384  # cells of a table that are computed in one go

@@ -16,17 +16,17 @@ Array = npt.NDArray[Any]  # real wavenumbers, or complex ones where a kernel is 
 
 
 class Base(Protocol):
-    """The answer to waves of wavenumber q, with ``t = q thickness``: ``2/(E* q) * multiplier(t)``, E* of the layer."""
+    """The answer to waves of wavenumber q, with ``t = q thickness``: ``2/(E* q) * ratio(t)``, E* of the layer."""
 
     @property
     def slope(self) -> float:
-        """Limit of ``multiplier(t)/t`` at t = 0: a constant pressure p presses in by ``2 slope thickness p/E*``.
+        """Limit of ``ratio(t)/t`` at t = 0: a constant pressure p presses in by ``2 slope thickness p/E*``.
 
         Zero for one that moves nothing, and for one that would move an endless body without bound.
         """
         ...
 
-    def multiplier(self, t: Array) -> Array:
+    def ratio(self, t: Array) -> Array:
         """Return the ratio of the answer to that of a half-space, at t > 0."""
         ...
 
@@ -44,7 +44,7 @@ class Frictionless:
         """A half: u = p thickness/E*."""
         return 0.5
 
-    def multiplier(self, t: Array) -> Array:
+    def ratio(self, t: Array) -> Array:
         """Return M."""
         e, rest = np.exp(-2 * t), -np.expm1(-2 * t)
         return np.asarray(rest**2 / (rest * (1 + e) + 4 * t * e))
@@ -74,7 +74,7 @@ class Bonded:
         nu = self.poisson_ratio
         return (1 - 2 * nu) / (2 * (1 - nu) ** 2)
 
-    def multiplier(self, t: Array) -> Array:
+    def ratio(self, t: Array) -> Array:
         """Return M."""
         k, e, rest = self._k, np.exp(-2 * t), -np.expm1(-2 * t)
         # sinh 2t - 2t apart: near t = 0 it is all that an incompressible layer has.
@@ -106,7 +106,7 @@ class OnHalfSpace:
         """Zero: the mean displacement of an endless body is set to zero."""
         return 0.0
 
-    def multiplier(self, t: Array) -> Array:
+    def ratio(self, t: Array) -> Array:
         """Return M."""
         c, e = self._constants, np.exp(-2 * t)
         # (1 - e^2) - 4 t e = 2 e (sinh 2t - 2t), and what is left of the two where layer or base is stiff

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base
 from roughcontact.halfspace.influence.layer_kernel import LayerKernel, layer_kernel
-from roughcontact.halfspace.influence.love import love, love_table, periodic_multiplier
+from roughcontact.halfspace.influence.love import love, love_table, wave_compliance
 from roughcontact.halfspace.influence.tables import Love, table_of_waves, wavenumbers
 
 __all__ = ["LayerCells", "LayerWaves", "Stack", "kernel_for"]
@@ -55,7 +56,7 @@ class Stack:
     def answer(self, wavenumber: Array) -> Array:
         """Return displacement per pressure wave times q/2 [1/Pa]: 1/E* of a half-space, and what takes its place."""
         return np.asarray(
-            self.base.multiplier(wavenumber * self.thickness) / self.modulus + self.partner_compliance
+            self.base.ratio(wavenumber * self.thickness) / self.modulus + self.partner_compliance
         )
 
     def inverse(self, shape: tuple[int, int], spacing: tuple[float, ...]) -> Array:
@@ -71,6 +72,7 @@ class LayerCells:
     spacing: tuple[float, ...]
     stack: Stack
     kernel: LayerKernel
+    modulus: ClassVar[None] = None
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
@@ -136,18 +138,19 @@ class LayerWaves:
 
     grid: Grid
     stack: Stack
+    modulus: ClassVar[None] = None
 
-    def multiplier(self) -> Array:
+    def transfer_function(self) -> Array:
         """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
         q = wavenumbers(self.grid.shape, self.grid.spacing)
         q[0, 0] = 1.0
-        multiplier = periodic_multiplier(q) * self.stack.answer(q)
-        multiplier[0, 0] = self.stack.mean
-        return np.asarray(multiplier)
+        transfer = wave_compliance(q) * self.stack.answer(q)
+        transfer[0, 0] = self.stack.mean
+        return np.asarray(transfer)
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        return table_of_waves(self.multiplier(), self.grid.shape, shape)
+        return table_of_waves(self.transfer_function(), self.grid.shape, shape)
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
@@ -158,8 +161,9 @@ class LayerWaves:
         """Return the pressure per displacement wave [Pa/m]."""
         return self.stack.inverse(shape, self.grid.spacing)
 
-    def coarsened(self, grid: Grid) -> None:
-        """Return None: the cells of `grid`, which lie in a window, need not divide the period."""
+    def coarsened(self, grid: Grid) -> LayerWaves | None:
+        """Return the same body on the cells of `grid`; None in a window, whose cells need not divide the period."""
+        return LayerWaves(grid, self.stack) if all(grid.periodic) else None
 
 
 def kernel_for(grid: Grid, stack: Stack, known: LayerKernel | None = None) -> LayerKernel:

@@ -20,7 +20,7 @@ Deviation = Callable[[npt.NDArray[Any]], npt.NDArray[Any]]
 
 # Lengths in thicknesses from here on. The transforms are smooth over a thickness near the load, and over the distance
 # further away: polynomials of COUNT coefficients on intervals that grow by GROWTH hold them to 1e-13 of the
-# half-space's (tests/halfspace/test_layer.py).
+# half-space's (tests/halfspace/operators/test_layer.py).
 FIRST = 0.5
 GROWTH = 1.5
 COUNT = 16

@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import Polynomial
 
-__all__ = ["love", "love_table", "periodic_multiplier", "strip"]
+__all__ = ["love", "love_table", "strip", "wave_compliance"]
 
 Array = npt.NDArray[np.float64]
 
-# Measured against 60-digit arithmetic (tests/halfspace/test_kernels.py): beyond FAR longer sides the
+# Measured against 60-digit arithmetic (tests/halfspace/influence/test_love.py): beyond FAR longer sides the
 # expansion of 1/r by multipoles, beyond NEAR shorter sides Gauss's rule across the cell, else the
 # closed form. Each is good to some 1e-14 where it is used.
 FAR = 18.0
@@ -68,7 +68,7 @@ def love_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     return table
 
 
-def periodic_multiplier(wavenumber: npt.ArrayLike) -> Array:
+def wave_compliance(wavenumber: npt.ArrayLike) -> Array:
     """Return 2/q, zero at q = 0: the displacement of a unit pressure wave, times E* [m].
 
     The mean displacement of a periodic half-space is a matter of convention; here it is zero.

@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import factorial, xlog1py, zeta
 
+from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love
+from roughcontact.halfspace.influence.tables import Love
 
-__all__ = ["repeated_love"]
+__all__ = ["SinglyPeriodicLove", "repeated_love"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+Offsets = npt.NDArray[np.intp]
 Form = Callable[[Array, Array, tuple[float, float], float], Array]
 
 # In periods. What lies nearer than NEAR to the row is divided into pieces of CELL at most, whose images are summed one
 # by one up to IMAGES on either side, and beyond by powers of the distance over theirs. What lies further away is done
 # in one piece, however long, by waves along the row, of which WAVES are left. Each form is good to 1e-14 where it is
-# used (tests/halfspace/test_half_periodic.py).
+# used (tests/halfspace/operators/test_singly_periodic.py).
 IMAGES = 4
 NEAR = 0.5
 CELL = 0.25
@@ -33,6 +37,56 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(POWERS)
 STEP = 0.2
 _COSH = np.cosh(STEP * np.arange(18))
 _SHARES = STEP * np.where(np.arange(18) == 0, 0.5, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class SinglyPeriodicLove:
+    """A uniformly loaded cell and its images along one axis, on a half-space of reduced modulus `modulus` [Pa]."""
+
+    grid: Grid
+    modulus: float
+    reference: float
+
+    @property
+    def axis(self) -> int:
+        """The axis along which the load repeats itself."""
+        return self.grid.periodic.index(True)
+
+    def table(self, shape: tuple[int, ...]) -> Array:
+        """Return the table [m/Pa]; along the periodic axis it is even about half the period."""
+        along = self.axis
+        period = self.grid.shape[along]
+        half = min(shape[along], period // 2 + 1)
+        values = self._values(np.arange(shape[1 - along]), np.arange(half)[:, None])  # rows along the period
+        steps = np.arange(shape[along])
+        values = values[np.minimum(steps, period - steps)]
+        return np.ascontiguousarray(values if along == 0 else values.T)
+
+    def at(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return single values [m/Pa]."""
+        offsets = np.broadcast_arrays(rows, columns)
+        across, along = offsets[1 - self.axis], offsets[self.axis]
+        return self._values(across.ravel(), along.ravel()).reshape(across.shape)
+
+    def _values(self, across: Offsets, along: Offsets) -> Array:
+        step_along, step_across = self.grid.spacing[self.axis], self.grid.spacing[1 - self.axis]
+        value = repeated_love(
+            across * step_across,
+            along * step_along,
+            (step_across, step_along),
+            self.grid.lengths[self.axis],
+            self.reference,
+        )
+        value /= math.pi * self.modulus
+        return value
+
+    def inverse(self, shape: tuple[int, int]) -> Array:
+        """Return E* q/2 [Pa/m]: that of the half-space as if it repeated itself along both axes."""
+        return Love(self.grid.spacing, self.modulus).inverse(shape)
+
+    def coarsened(self, grid: Grid) -> SinglyPeriodicLove | None:
+        """Return the same body on the cells of `grid`; None in a window, whose cells need not divide the period."""
+        return SinglyPeriodicLove(grid, self.modulus, self.reference) if any(grid.periodic) else None
 
 
 def repeated_love(

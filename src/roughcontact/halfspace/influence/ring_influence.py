@@ -13,7 +13,7 @@ __all__ = ["ring_matrix"]
 Array = npt.NDArray[np.float64]
 Pairs = npt.NDArray[np.intp]
 
-# Measured against 60-digit arithmetic (tests/halfspace/test_ring.py).
+# Measured against 60-digit arithmetic (tests/halfspace/operators/test_ring.py).
 WIDE = 1e-3  # product of two rings' widths over their radii: from here on differences of discs keep 12 digits
 NEAR = 3.0  # gap over the wider width: below, the logarithm needs a rule of its own
 FAR = ((40.0, 3), (10.0, 4), (NEAR, 6))  # from which gap on, and how many points of Gauss's rule serve

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -11,12 +12,15 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence.love import love, love_table, periodic_multiplier, strip
+from roughcontact.halfspace.influence.love import love, love_table, strip, wave_compliance
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
-SMALL = 64  # cells to the side of a table up to which it is made of the waves one by one (tried by hand)
-NEAR = 64  # cells: within, single values of the half-space are dear, beyond, a short series does
+# Cells to the side of a table up to which it is made of the waves one by one (tried by hand).
+SMALL_TABLE = 64
+MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that their offsets stay in cache
+# Cells to the side of the first table: single values cost much within, and a short series beyond.
+FIRST_TABLE = 64
 
 Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
@@ -24,6 +28,11 @@ Offsets = npt.NDArray[np.intp]
 
 class Influence(Protocol):
     """An even, translation-invariant influence function on cells of one size."""
+
+    @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        ...
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the displacement per pressure [m/Pa] at offsets of whole cells from zero up to `shape`."""
@@ -110,13 +119,13 @@ class Periodic:
     grid: Grid
     modulus: float
 
-    def multiplier(self) -> Array:
+    def transfer_function(self) -> Array:
         """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
-        return periodic_multiplier(wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
+        return wave_compliance(wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        return table_of_waves(self.multiplier(), self.grid.shape, shape)
+        return table_of_waves(self.transfer_function(), self.grid.shape, shape)
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
@@ -127,8 +136,9 @@ class Periodic:
         """Return E* q/2 [Pa/m]."""
         return self.modulus / 2 * definite(wavenumbers(shape, self.grid.spacing))
 
-    def coarsened(self, grid: Grid) -> None:
-        """Return None: the cells of `grid`, which lie in a window, need not divide the period."""
+    def coarsened(self, grid: Grid) -> Periodic | None:
+        """Return the same body on the cells of `grid`; None in a window, whose cells need not divide the period."""
+        return Periodic(grid, self.modulus) if all(grid.periodic) else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -208,8 +218,8 @@ class Tables:
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
         if not self.has(needed):
-            if min(self._largest.values.shape) < NEAR and needed != (1, 1):
-                self.table(tuple(min(NEAR, end) for end in self.limit))
+            if min(self._largest.values.shape) < FIRST_TABLE and needed != (1, 1):
+                self.table(tuple(min(FIRST_TABLE, end) for end in self.limit))
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
@@ -230,15 +240,38 @@ class Tables:
     def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:
         """Return the shape of a new table: that and what there is, with room to spare if it is not the first."""
         large = self._largest.values
-        spare = 4 if large.size > NEAR * NEAR else math.inf
+        spare = 4 if large.size > FIRST_TABLE * FIRST_TABLE else math.inf
         return tuple(
             min(end, max(have, n + int(n // spare)))
             for n, have, end in zip(shape, large.shape, self.limit, strict=True)
         )
 
+    @property
+    def modulus(self) -> float | None:
+        """Reduced modulus E* [Pa] of a half-space; None of another body."""
+        return self.influence.modulus
+
+    def transfer_function(self) -> Array:
+        """Return the displacement per pressure wave over a period [m/Pa]; only for what is periodic."""
+        kernel: Any = self.influence
+        transfer: Array = kernel.transfer_function()
+        return transfer
+
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return the pressure per displacement wave [Pa/m]."""
         return self.influence.inverse(shape)
+
+    def components(self) -> tuple[Callable[[Offsets, Offsets], Array], ...]:
+        """Return the function itself, without its table."""
+        return (self.influence.at,)
+
+    def matrix(self, rows: Offsets, columns: Offsets) -> Array:
+        """Return the matrix [m/Pa] between cells."""
+        reach = spans(rows, columns)
+        matrix = np.empty((len(rows), len(rows)))
+        for part in blocks(len(rows), len(rows)):
+            matrix[part] = self.at(rows[part, None] - rows, columns[part, None] - columns, reach)
+        return matrix
 
     def coarsened(self, grid: Grid) -> Tables | None:
         """Return the influence function of the same body on the cells of `grid`; None if there is none."""
@@ -246,12 +279,24 @@ class Tables:
         return None if coarse is None else Tables(coarse, grid.shape)
 
 
-def table_of_waves(multiplier: Array, period: tuple[int, ...], shape: tuple[int, ...]) -> Array:
+def spans(*places: Offsets) -> tuple[int, int]:
+    """Return the shape of the table that holds all offsets between cells of these rows and columns."""
+    down, across = (int(np.ptp(one)) + 1 if one.size else 1 for one in places)
+    return down, across
+
+
+def blocks(length: int, width: int) -> list[slice]:
+    """Return the rows of a matrix in parts whose offsets stay in cache."""
+    size = max(MATRIX_ROWS, 8192 // max(1, width))
+    return [slice(start, start + size) for start in range(0, length, size)]
+
+
+def table_of_waves(transfer: Array, period: tuple[int, ...], shape: tuple[int, ...]) -> Array:
     """Return the values, at offsets from zero up to `shape`, of what has this even transform over a period."""
     ny, nx = period
-    if max(shape) <= SMALL:  # a transform would make the whole table
-        return _waves(ny, shape[0]) @ multiplier @ _waves(nx, shape[1]).T
-    full = np.concatenate([multiplier, multiplier[ny - multiplier.shape[0] : 0 : -1]])
+    if max(shape) <= SMALL_TABLE:  # a transform would make the whole table
+        return _waves(ny, shape[0]) @ transfer @ _waves(nx, shape[1]).T
+    full = np.concatenate([transfer, transfer[ny - transfer.shape[0] : 0 : -1]])
     return np.ascontiguousarray(scipy.fft.irfft2(full, s=(ny, nx))[: shape[0], : shape[1]])
 
 

@@ -6,16 +6,17 @@ import math
 from typing import Literal
 
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
+from roughcontact.halfspace.influence.love_singly_periodic import SinglyPeriodicLove
+from roughcontact.halfspace.influence.ring_influence import ring_matrix
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
+from roughcontact.halfspace.operators.methods import Sum, summed
 from roughcontact.halfspace.operators.operator import Operator, capabilities
-from roughcontact.halfspace.operators.ring import ring
-from roughcontact.halfspace.operators.singly_periodic import SinglyPeriodicOperator, singly_periodic
-from roughcontact.halfspace.sums.methods import Sum, summed
-from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
+from roughcontact.validation import numeric
 
-__all__ = ["body_on", "half_space"]
+__all__ = ["body_on", "half_space", "ring", "singly_periodic"]
 
 
 def half_space(
@@ -35,7 +36,7 @@ def half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
         free grid by shifting the influence function from cell to cell (the time of the matrix without its memory),
-        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `MultilevelOperator`).
+        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `Multilevel`).
 
     Returns
     -------
@@ -68,16 +69,111 @@ def half_space(
             "a half-space needs a grid of two axes; rings have ring(grid, modulus), and a line must name its own "
             "operator: operator=line(grid, modulus), or foundation(grid, modulus)"
         )
-    operator: FreeOperator | PeriodicOperator | SinglyPeriodicOperator
     if all(grid.periodic):
-        operator = PeriodicOperator(grid, Periodic(grid, value))
+        operator = InfluenceOperator(grid, Tables(Periodic(grid, value), grid.shape), positive=False)
     elif any(grid.periodic):
         operator = singly_periodic(grid, value)
     else:
-        operator = FreeOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
+        operator = InfluenceOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
         return DenseOperator(grid, operator.as_matrix(), operator.positive, value)
     return summed(operator, method)
+
+
+@numeric
+def singly_periodic(
+    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
+) -> InfluenceOperator:
+    """Return the half-space under loads that repeat themselves along one axis and are alone along the other.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of two axes, periodic along one of them.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    reference_length : float, optional
+        Distance from the row of loads at which its mean displacement vanishes [m]; by default the longest
+        distance on the grid, half a period and the whole of the other axis. Depths depend on it, by
+        ``2 F ln(L2/L1)/(pi E* period)``: a row of loads sinks without bound into an endless body. Pressures at given
+        force do not.
+
+    Returns
+    -------
+    Operator
+        Displacement [m] from pressure [Pa] on the cells of the grid.
+
+    Raises
+    ------
+    ValueError
+        If the grid is not periodic along one axis, or the reference length is shorter than the longest distance.
+
+    Notes
+    -----
+    Forces are those on one period. Cells under constant pressure and displacements in their middles, as on a free
+    grid, and all images of them (`roughcontact.halfspace.influence.love_singly_periodic`). A constant
+    pressure is no exception: it presses the body down.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((16, 16), 1e-6, periodic=(True, False))
+    >>> displacement = rc.singly_periodic(grid, 1e9).apply(np.ones(grid.shape))
+    >>> bool(np.allclose(displacement, displacement[:1], rtol=1e-9, atol=0))  # every row alike
+    True
+    """
+    value = as_modulus(modulus)
+    if not isinstance(grid, Grid) or grid.ndim != 2 or sum(grid.periodic) != 1:
+        raise ValueError(
+            "a row of contacts needs a grid of two axes that is periodic along one of them: "
+            "Grid((ny, nx), spacing, periodic=(True, False))"
+        )
+    longest = math.hypot(*(n / 2 if p else n for n, p in zip(grid.lengths, grid.periodic, strict=True)))
+    reference = longest if reference_length is None else float(reference_length)
+    if not (math.isfinite(reference) and reference >= longest * (1 - 1e-9)):
+        raise ValueError(
+            f"the reference length must be finite and at least the longest distance on the grid, {longest:g} m, not "
+            f"{reference:g}: with a shorter one a load would lift cells far away"
+        )
+    return InfluenceOperator(grid, Tables(SinglyPeriodicLove(grid, value, reference), grid.shape))
+
+
+def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> DenseOperator:
+    """Return the half-space under constant pressures on rings, wide or narrow, to twelve digits.
+
+    Displacements are means over a ring, so that the map is symmetric under the areas of the rings and every
+    solver takes it. It holds ``8 n^2`` bytes for n rings.
+
+    Parameters
+    ----------
+    grid : RadialGrid
+        Rings of any widths.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+
+    Returns
+    -------
+    DenseOperator
+        Mean displacement of each ring [m] from the pressures on the rings [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the grid is not one of rings.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(50, radius=1e-5)
+    >>> body = rc.ring(rings, 1e9)
+    >>> body.as_matrix().shape
+    (50, 50)
+    """
+    if not isinstance(grid, RadialGrid):
+        raise ValueError(f"rings need a RadialGrid, not {type(grid).__name__}")
+    value = as_modulus(modulus)
+    return DenseOperator(grid, ring_matrix(grid.edges) / (math.pi * value), modulus=value)
 
 
 def body_on(

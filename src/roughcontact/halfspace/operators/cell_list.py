@@ -11,10 +11,10 @@ import numpy.typing as npt
 
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence.tables import Tables
+from roughcontact.halfspace.influence.tables import Tables, blocks, spans
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.halfspace.sums.direct_sum import DirectSum
-from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches
+from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh
 from roughcontact.halfspace.sums.tiles import Tiles
 from roughcontact.kernels import loader
 
@@ -23,10 +23,10 @@ __all__ = ["CellsOperator"]
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
-MANY = 50_000  # pairs of cells from which on sums go tile by tile
-TABLE = 1.0  # pairs for each cell of a table that is not at hand
-SUMS = 4.0  # over a tile for each cell, and cell of the plane: more cost more than its product
-BLOCK = 16  # rows of a matrix that are made in one go, so that their offsets stay in cache
+PAIRS_FOR_TILES = 50_000  # pairs of a loaded cell and a cell from which on sums go tile by tile
+PAIRS_PER_ENTRY = 1.0  # pairs for each entry of a table that is not at hand, from which on it is made
+# Sums over a tile for each cell of the plane, up to which they cost less than its product (benchmarks/lists.py).
+TILE_SUMS_PER_CELL = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,12 +64,12 @@ class CellsOperator:
         return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive, plane)
 
     @cached_property
-    def _particle_mesh(self) -> ListPatches | None:
+    def _particle_mesh(self) -> ListParticleMesh | None:
         """What works on the tiles of a region; None where nothing of the kind is known."""
         plane = capabilities(self.plane).particle_mesh()
-        if not isinstance(plane, Patches) or not len(self.rows):
+        if not isinstance(plane, ParticleMesh) or not len(self.rows):
             return None
-        return ListPatches(plane, self._tiles, self.influence)
+        return ListParticleMesh(plane, self._tiles, self.influence)
 
     @property
     def capabilities(self) -> Capabilities:
@@ -90,19 +90,21 @@ class CellsOperator:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
         pairs = len(loaded) * len(pressure)
-        table = 0.0 if self.influence.has(self._reach) else TABLE * math.prod(self._reach)
-        if pairs < max(MANY, table) or not loader.is_available():
+        table = 0.0 if self.influence.has(self._reach) else PAIRS_PER_ENTRY * math.prod(self._reach)
+        if pairs < max(PAIRS_FOR_TILES, table) or not loader.is_available():
             return self._by_cells(pressure, loaded)
         sums = (len(loaded) + len(self._tiles)) * len(self._tiles)  # a tile without load is looked at too
-        if self.plane is not None and sums > SUMS * math.prod(self.plane.grid.shape):
+        if self.plane is not None and sums > TILE_SUMS_PER_CELL * math.prod(self.plane.grid.shape):
             return self._by_the_plane(pressure, loaded)
         return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
 
     def _by_cells(self, pressure: Array, loaded: Cells) -> Array:
         p = pressure[loaded]
         displacement = np.empty(len(pressure))
-        for part in self._blocks(len(loaded)):
-            displacement[part] = self._influences(part, loaded) @ p
+        for part in blocks(len(self.rows), len(loaded)):
+            down = self.rows[part, None] - self.rows[loaded]
+            across = self.columns[part, None] - self.columns[loaded]
+            displacement[part] = self.influence.at(down, across, self._reach) @ p
         return displacement
 
     def _by_the_plane(self, pressure: Array, loaded: Cells) -> Array:
@@ -113,12 +115,8 @@ class CellsOperator:
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` of the list (all without)."""
-        some = self if cells is None else self.submatrix(cells)
-        matrix = np.empty((len(some.rows), len(some.rows)))
-        everything = slice(None)
-        for part in some._blocks(len(some.rows)):
-            matrix[part] = some._influences(part, everything)
-        return matrix
+        some = slice(None) if cells is None else cells
+        return self.influence.matrix(self.rows[some], self.columns[some])
 
     def restrict(self, window: tuple[slice, ...]) -> CellsOperator:
         """Return the map between a part of the list."""
@@ -142,14 +140,4 @@ class CellsOperator:
     @cached_property
     def _reach(self) -> tuple[int, int]:
         """Shape of the table that would hold every offset of the list."""
-        if not len(self.rows):
-            return 1, 1
-        return int(np.ptp(self.rows)) + 1, int(np.ptp(self.columns)) + 1
-
-    def _influences(self, to: slice, of: Cells | slice) -> Array:
-        rows, columns = self.rows[to, None] - self.rows[of], self.columns[to, None] - self.columns[of]
-        return self.influence.at(rows, columns, self._reach)
-
-    def _blocks(self, width: int) -> list[slice]:
-        size = max(BLOCK, 8192 // max(1, width))
-        return [slice(start, start + size) for start in range(0, len(self.rows), size)]
+        return spans(self.rows, self.columns)

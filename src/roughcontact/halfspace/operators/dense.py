@@ -19,14 +19,14 @@ Cells = npt.NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DenseOperator:
-    """A full matrix over the cells of a grid (thesis, eq. A.6).
+    """A full matrix over the cells of a grid (thesis, eq. A.6), or over both components of traction on them.
 
     Parameters
     ----------
     grid : Grid or RadialGrid
         The grid, of any number of axes.
-    matrix : array, shape (n, n)
-        Displacement per pressure [m/Pa] between the n cells in flat order.
+    matrix : array, shape (n, n), or (2 n, 2 n)
+        Displacement per pressure [m/Pa] between the n cells in flat order; of traction first all x components, then y.
     positive : bool
         Whether no entry is negative.
     modulus : float, optional
@@ -53,18 +53,23 @@ class DenseOperator:
         return Capabilities(
             modulus=self.modulus,
             positive=self.positive,
-            self_influences=lambda: np.diagonal(self.matrix).reshape(self.grid.shape).copy(),
+            self_influences=lambda: (
+                np.diagonal(self.matrix)[: self.grid.size].reshape(self.grid.shape).copy()
+            ),
         )
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         xp = namespace(pressure)
         product = self._placed.beside(pressure) @ xp.reshape(pressure, (-1,))
-        return xp.reshape(product, self.grid.shape)  # type: ignore[no-any-return]
+        return xp.reshape(product, pressure.shape)  # type: ignore[no-any-return]
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return self.matrix.copy() if cells is None else self.matrix[np.ix_(cells, cells)]
+        if cells is None:
+            return self.matrix.copy()
+        some = np.concatenate([cells + first for first in range(0, len(self.matrix), self.grid.size)])
+        return np.asarray(self.matrix[np.ix_(some, some)])
 
     def restrict(self, window: tuple[slice, ...]) -> DenseOperator:
         """Return the map between the cells of `window`, with no pressure outside."""

@@ -10,10 +10,10 @@ __all__ = ["Geometry"]
 
 
 class Geometry(Enum):
-    """The four geometries of the thesis: three of its half-space and that of the springs.
+    """The four geometries of the thesis: three of its half-space and that of the Winkler foundation.
 
     On a line every force, stiffness, energy and contact area is per unit length along the cylinder; on a
-    foundation of springs forces are forces, the pressure is a force per length, and areas are lengths.
+    Winkler foundation forces are forces, the pressure is a force per length, and areas are lengths.
     """
 
     SURFACE = "surface"

@@ -3,106 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
 from roughcontact.halfspace.influence.tables import Tables
-from roughcontact.halfspace.operators.cell_list import CellsOperator
-from roughcontact.halfspace.operators.operator import Capabilities
-from roughcontact.halfspace.sums.spectral import FreeOperator
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.transforms import Convolution
 from roughcontact.validation import moderate, numeric
 
-__all__ = ["LayerOperator", "layer"]
-
-Array = npt.NDArray[np.float64]
-Cells = npt.NDArray[np.intp]
+__all__ = ["layer"]
 
 ROUNDING = 1e-9  # of a half-space's answer: a layer's that is smaller may have either sign
-
-
-@dataclass(frozen=True, eq=False)
-class LayerOperator:
-    """The periodic layer: a product in Fourier space, the mean with them.
-
-    Parameters
-    ----------
-    grid : Grid
-        Periodic grid of two axes.
-    influence : LayerWaves
-        Its multiplier.
-    """
-
-    grid: Grid
-    influence: LayerWaves
-    positive: bool = False
-
-    @property
-    def capabilities(self) -> Capabilities:
-        """What it can do beyond the protocol."""
-        return Capabilities(
-            positive=self.positive,
-            # A constant pressure moves nothing on an endless base, nor through an incompressible bonded layer.
-            semidefinite=self.influence.stack.mean == 0,
-            submatrix=self.submatrix,
-            coarsened=self.coarsened,
-            approximate_inverse=self.approximate_inverse,
-        )
-
-    @property
-    def weights(self) -> float:
-        """Area of a cell [m^2]."""
-        return self.grid.cell_area
-
-    @cached_property
-    def _tables(self) -> Tables:
-        return Tables(self.influence, self.grid.shape)
-
-    @cached_property
-    def _product(self) -> Convolution:
-        return Convolution(self.influence.multiplier(), (self.grid.shape[0], self.grid.shape[1]))
-
-    def apply(self, pressure: Array) -> Array:
-        """Return the displacement [m] under `pressure` [Pa]."""
-        # The mean apart: where it moves nothing, its rounding moves nothing either.
-        mean = float(pressure.mean())
-        displacement = self._product.apply(pressure - mean)
-        displacement += self.influence.stack.mean * mean - displacement.mean()
-        return displacement
-
-    @cached_property
-    def _inverse(self) -> Convolution:
-        lengths = self.grid.shape[0], self.grid.shape[1]
-        return Convolution(self.influence.inverse(lengths), lengths)
-
-    def approximate_inverse(self, displacement: Array) -> Array:
-        """Return the pressure [Pa] that causes this `displacement` [m], but for its mean."""
-        return self._inverse.apply(displacement)
-
-    def as_matrix(self, cells: Cells | None = None) -> Array:
-        """Return the matrix [m/Pa] between `cells` (flat indices; all cells without)."""
-        return self.submatrix(np.arange(self.grid.size) if cells is None else cells).as_matrix()
-
-    def submatrix(self, cells: Cells) -> CellsOperator:
-        """Return the map between a list of cells (flat indices), with no pressure elsewhere."""
-        return CellsOperator.of(self.grid, self._tables, cells, self.positive)
-
-    def restrict(self, window: tuple[slice, ...]) -> FreeOperator | LayerOperator:
-        """Return the map between the cells of `window`, with no pressure outside."""
-        part = self.grid.window(window)
-        return self if part.shape == self.grid.shape else FreeOperator(part, self._tables, self.positive)
-
-    def coarsened(self, grid: Grid) -> LayerOperator:
-        """Return the same body on `grid`, whose cells are larger."""
-        return LayerOperator(grid, LayerWaves(grid, self.influence.stack))
 
 
 @numeric
@@ -113,7 +28,7 @@ def layer(
     *,
     base: Literal["rigid-frictionless", "bonded"] | Solid,
     against: Solid | None = None,
-) -> FreeOperator | LayerOperator:
+) -> InfluenceOperator:
     """Return an elastic layer on a base, its upper face without friction.
 
     Parameters
@@ -145,7 +60,7 @@ def layer(
 
     Notes
     -----
-    A wave of pressure of wavenumber q is answered by ``2/(E* q) M(q thickness)``; the multipliers M and their limits
+    A wave of pressure of wavenumber q is answered by ``2/(E* q) M(q thickness)``; the functions M and their limits
     stand in `roughcontact.halfspace.influence.layer_bases`. On free grids the influence of a cell is Love's
     integral plus the integral of the difference of both bodies, a Hankel transform tabulated to 1e-13 of
     Love's. A layer may rise beside a load, so that contact need not lie where the bodies overlap: only layers
@@ -175,10 +90,11 @@ def layer(
     partner = 0.0 if against is None else 1 / as_modulus(against)
     stack = Stack(value, float(thickness), _base(modulus, base), partner)
     if all(grid.periodic):
-        return LayerOperator(grid, LayerWaves(grid, stack))
+        waves = Tables(LayerWaves(grid, stack), grid.shape)
+        return InfluenceOperator(grid, waves, positive=False, constant=stack.mean)
     kernel = kernel_for(grid, stack)
     positive = kernel.least + value * partner > ROUNDING
-    return FreeOperator(grid, Tables(LayerCells(grid.spacing, stack, kernel), grid.shape), positive)
+    return InfluenceOperator(grid, Tables(LayerCells(grid.spacing, stack, kernel), grid.shape), positive)
 
 
 def _base(modulus: float | Solid, base: str | Solid) -> Base:

@@ -12,10 +12,9 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
+from roughcontact.halfspace.operators.methods import Sum, summed
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
-from roughcontact.halfspace.sums.methods import Sum, Summed, summed
-from roughcontact.halfspace.sums.multilevel import MultilevelOperator
-from roughcontact.halfspace.sums.spectral import FreeOperator, PeriodicOperator
 from roughcontact.material import Solid, as_modulus
 from roughcontact.validation import numeric
 
@@ -31,11 +30,11 @@ class LineOperator:
 
     Parameters
     ----------
-    plane : FreeOperator or PeriodicOperator, or another sum of the former
+    plane : InfluenceOperator
         On a grid of shape ``(1, n)`` and spacing ``(1, dx)``.
     """
 
-    plane: Summed
+    plane: InfluenceOperator
 
     @property
     def grid(self) -> Grid:
@@ -48,7 +47,7 @@ class LineOperator:
         """What it can do beyond the protocol: what its plane can, but for tiles."""
         plane = capabilities(self.plane)
         return Capabilities(
-            exact=LineOperator(self.plane.exact) if isinstance(self.plane, MultilevelOperator) else None,
+            exact=None if self.plane.exact is None else LineOperator(self.plane.exact),
             geometry=Geometry.LINE,
             modulus=plane.modulus,
             positive=plane.positive,
@@ -148,16 +147,18 @@ def line(
     if all(grid.periodic):
         if reference_length is not None:
             raise ValueError("a periodic line has no reference length: its mean displacement is zero")
-        return LineOperator(summed(PeriodicOperator(plane, Periodic(plane, value)), method))
-    length = grid.lengths[0]
-    reference = length if reference_length is None else float(reference_length)
-    if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
-        raise ValueError(
-            f"the reference length must be finite and at least that of the grid, {length:g} m, not {reference:g}: "
-            "with a shorter one a load would lift the far end"
-        )
-    free = FreeOperator(plane, Tables(Strip(plane.spacing, value, reference), plane.shape))
-    return LineOperator(summed(free, method))
+        kernel: Periodic | Strip = Periodic(plane, value)
+    else:
+        length = grid.lengths[0]
+        reference = length if reference_length is None else float(reference_length)
+        if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
+            raise ValueError(
+                f"the reference length must be finite and at least that of the grid, {length:g} m, not "
+                f"{reference:g}: with a shorter one a load would lift the far end"
+            )
+        kernel = Strip(plane.spacing, value, reference)
+    body = InfluenceOperator(plane, Tables(kernel, plane.shape), positive=isinstance(kernel, Strip))
+    return LineOperator(summed(body, method))
 
 
 def _plane(grid: Grid) -> Grid:

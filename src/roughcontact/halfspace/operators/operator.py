@@ -14,7 +14,7 @@ import numpy.typing as npt
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
-from roughcontact.halfspace.sums.particle_mesh import ListPatches, Patches
+from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh
 
 __all__ = [
     "Capabilities",
@@ -181,7 +181,7 @@ class Capabilities:
     coarsened: Callable[[Grid], Operator | None] = _absent
     approximate_inverse: Callable[[Array], Array] | None = None
     local_inverse: Callable[[], LocalInverse | None] = _absent
-    particle_mesh: Callable[[], Patches | ListPatches | None] = _absent
+    particle_mesh: Callable[[], ParticleMesh | ListParticleMesh | None] = _absent
 
 
 def capabilities(operator: object) -> Capabilities:

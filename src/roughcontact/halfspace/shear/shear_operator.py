@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol, get_args, runtime_checkable
+from typing import Literal, Protocol, cast, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import AnyGrid, Grid
-from roughcontact.halfspace.shear.shear_influence import Cerruti, ShearCompliance, ShearWaves
-from roughcontact.halfspace.shear.shear_moving_grid import MovingGridShear
-from roughcontact.halfspace.shear.shear_multilevel import MultilevelShear
-from roughcontact.halfspace.shear.shear_sums import DenseShear, FreeShear, PeriodicShear
-from roughcontact.halfspace.sums.methods import Sum
+from roughcontact.halfspace.influence.shear_influence import (
+    Cerruti,
+    ShearCompliance,
+    ShearWaves,
+    TensorTables,
+)
+from roughcontact.halfspace.operators.dense import DenseOperator
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
+from roughcontact.halfspace.operators.methods import Sum, summed
 from roughcontact.material import Bodies, Solid, pair_of, reduced_modulus
 
-__all__ = ["ShearOperator", "dundurs_parameter", "shear_compliance", "shear_half_space"]
+__all__ = ["ShearOperator", "dense_shear", "dundurs_parameter", "shear_compliance", "shear_half_space"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
@@ -53,21 +57,6 @@ class ShearOperator(Protocol):
         -------
         array, shape (2, ny, nx)
             [m]
-        """
-        ...
-
-    def approximate_inverse(self, displacement: Array) -> Array:
-        """Return a traction that would cause about a displacement; symmetric and definite.
-
-        Parameters
-        ----------
-        displacement : array, shape (2, ny, nx)
-            [m]
-
-        Returns
-        -------
-        array, shape (2, ny, nx)
-            [Pa]
         """
         ...
 
@@ -123,7 +112,7 @@ def shear_half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done, as for `half_space`: by fast Fourier transforms; with the full matrix (32
         n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
-        (inexact by some 1e-6, see `MultilevelShear`; what drives with it is certified by the exact sum).
+        (inexact by some 1e-6, see `Multilevel`; what drives with it is certified by the exact sum).
 
     Returns
     -------
@@ -150,21 +139,16 @@ def shear_half_space(
     if any(grid.periodic) != all(grid.periodic):
         raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
     compliance = shear_compliance(*pair_of(bodies))
-    operator: FreeShear | PeriodicShear
-    if all(grid.periodic):
-        operator = PeriodicShear(grid, ShearWaves(grid, compliance))
-    else:
-        operator = FreeShear(grid, Cerruti(grid.spacing, compliance))
-    if method == "fft":
-        return operator
+    tensor = ShearWaves(grid, compliance) if all(grid.periodic) else Cerruti(grid.spacing, compliance)
+    operator = InfluenceOperator(grid, TensorTables(tensor), positive=False)
     if method == "dense":
-        return DenseShear(grid, operator.as_matrix())
-    if method not in get_args(Sum):
-        names = ", ".join(map(repr, get_args(Sum)))
-        raise ValueError(f"method must be one of {names} or 'dense', not {method!r}")
-    if not isinstance(operator, FreeShear):
-        raise ValueError(f"the method {method!r} is for free grids; a periodic one is summed by 'fft'")
-    return MovingGridShear(operator) if method == "moving-grid" else MultilevelShear(operator)
+        return dense_shear(grid, operator.as_matrix())
+    return summed(operator, method)
+
+
+def dense_shear(grid: Grid, matrix: Array) -> ShearOperator:
+    """Return the operator of a full matrix [m/Pa] between n cells of a grid of two axes, shape ``(2 n, 2 n)``."""
+    return cast(ShearOperator, DenseOperator(grid, matrix, positive=False))  # whose other grids are of rings
 
 
 def shear_compliance(first: Solid, second: Solid | None = None) -> ShearCompliance:

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import numpy.typing as npt
+import scipy.fft
 
 from roughcontact.cached import cached_property
 from roughcontact.grid import AnyGrid, Grid
-from roughcontact.halfspace.subsurface.field_transform import (
-    Parity,
-    convolve_each,
-    padded_lengths,
-    parity_multiplier,
-)
 from roughcontact.halfspace.subsurface.love_field import (
     DISPLACEMENT_PARITY,
     STRESS_PARITY,
@@ -25,7 +20,9 @@ from roughcontact.halfspace.subsurface.love_field import (
 )
 from roughcontact.halfspace.subsurface.row_field import row_stress_table
 from roughcontact.halfspace.subsurface.wave_field import displacement_waves, stress_waves
+from roughcontact.halfspace.sums.fourier_sum import Parity, padded_lengths, transfer_function
 from roughcontact.material import Solid
+from roughcontact.transforms import SLAB
 
 __all__ = ["Displacement", "Stress", "displacement", "stress"]
 
@@ -131,8 +128,8 @@ def stress(pressure: Array, grid: AnyGrid, depth: float | Array, poisson_ratio: 
     """
     p, plane = _checked(pressure, grid)
     at, nu = _depths(depth), _ratio(poisson_ratio)
-    multipliers = partial(_stress_multipliers, plane, poisson_ratio=nu)
-    return Stress(plane, at, *_fields(p, plane, at, multipliers, STRESS_PARITY))
+    transfers = partial(_stress_transfers, plane, poisson_ratio=nu)
+    return Stress(plane, at, *_fields(p, plane, at, transfers, STRESS_PARITY))
 
 
 def displacement(pressure: Array, grid: AnyGrid, depth: float | Array, solid: Solid) -> Displacement:
@@ -156,9 +153,9 @@ def displacement(pressure: Array, grid: AnyGrid, depth: float | Array, solid: So
     if any(grid.periodic) != all(grid.periodic):
         raise ValueError("below a row of loads displacements have no bound; stresses have")
     at = _depths(depth)
-    multipliers = partial(_displacement_multipliers, plane, poisson_ratio=solid.poisson_ratio)
+    transfers = partial(_displacement_transfers, plane, poisson_ratio=solid.poisson_ratio)
     return Displacement(
-        plane, at, *_fields(p / solid.shear_modulus, plane, at, multipliers, DISPLACEMENT_PARITY)
+        plane, at, *_fields(p / solid.shear_modulus, plane, at, transfers, DISPLACEMENT_PARITY)
     )
 
 
@@ -166,29 +163,60 @@ def _fields(
     pressure: Array,
     grid: Grid,
     depth: float | Array,
-    multipliers: Callable[[float], Sequence[Array]],
+    transfers: Callable[[float], Sequence[Array]],
     parities: Sequence[Parity],
 ) -> Array:
     """Return the components at every depth, shape ``(components, *depths, ny, nx)``."""
     depths = np.atleast_1d(depth)
     fields = np.empty((len(parities), len(depths), *grid.shape))
     for i, z in enumerate(depths.tolist()):
-        found = convolve_each(pressure, multipliers(z), parities, _padded(grid))
+        found = _convolve_each(pressure, transfers(z), parities, padded_lengths(grid))
         for field, component in zip(fields, found, strict=True):
             field[i] = component
     return fields if np.ndim(depth) else fields[:, 0]
 
 
-def _padded(grid: Grid) -> tuple[int, int]:
-    """Return the lengths of the transforms: those of a period, or enough for a free axis."""
-    y, x = (
-        n if periodic else free
-        for n, periodic, free in zip(grid.shape, grid.periodic, padded_lengths(grid.shape), strict=True)
-    )
-    return y, x
+def _convolve_each(
+    field: Array, transfers: Sequence[Array], parities: Sequence[Parity], padded: tuple[int, int]
+) -> Iterator[Array]:
+    """Yield the convolution of `field`, padded by zeros to `padded`, with each kernel, cut back to its own shape.
+
+    Parameters
+    ----------
+    field : array, shape (ny, nx)
+    transfers : arrays, shape (My//2 + 1, Mx//2 + 1)
+        As `transfer_function` returns them.
+    parities : pairs of bool
+        Of each kernel.
+    padded : tuple of int
+        Lengths ``(My, Mx)`` of the transforms, at least those of the field.
+
+    Notes
+    -----
+    As in `roughcontact.transforms.convolve`, only rows that hold data are transformed along x, and the padded columns
+    exist for one slab at a time. The field is transformed once.
+    """
+    ny, nx = field.shape
+    my, mx = padded
+    rows = scipy.fft.rfft(field, n=mx, axis=1)
+    spectra = np.empty((len(transfers), *rows.shape), rows.dtype)
+    upper = my // 2 + 1
+    for start in range(0, rows.shape[1], SLAB):
+        part = slice(start, start + SLAB)
+        column = scipy.fft.fft(rows[:, part], n=my, axis=0)
+        for spectrum, transfer, (odd_y, odd_x) in zip(spectra, transfers, parities, strict=True):
+            factor = transfer[:, part] * (-1j) ** (odd_y + odd_x)
+            product = np.empty_like(column)
+            np.multiply(column[:upper], factor, out=product[:upper])
+            np.multiply(column[upper:], factor[my - upper : 0 : -1], out=product[upper:])
+            if odd_y:
+                product[upper:] *= -1
+            spectrum[:, part] = scipy.fft.ifft(product, axis=0, overwrite_x=True)[:ny]
+    for spectrum in spectra:
+        yield np.asarray(scipy.fft.irfft(spectrum, n=mx, axis=1)[:, :nx])
 
 
-def _stress_multipliers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
+def _stress_transfers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
     if all(grid.periodic):
         return list(stress_waves(grid, depth, poisson_ratio))
     if not any(grid.periodic):
@@ -201,7 +229,7 @@ def _stress_multipliers(grid: Grid, depth: float, poisson_ratio: float) -> Seque
     return _transformed(grid, kernels, STRESS_PARITY)
 
 
-def _displacement_multipliers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
+def _displacement_transfers(grid: Grid, depth: float, poisson_ratio: float) -> Sequence[Array]:
     if all(grid.periodic):
         return list(displacement_waves(grid, depth, poisson_ratio))
     kernels = displacement_table(grid.shape, grid.spacing, depth, poisson_ratio)
@@ -210,7 +238,7 @@ def _displacement_multipliers(grid: Grid, depth: float, poisson_ratio: float) ->
 
 def _transformed(grid: Grid, kernels: Array, parities: Sequence[Parity]) -> Sequence[Array]:
     return [
-        parity_multiplier(kernel, parity, _padded(grid), grid.periodic)
+        transfer_function(kernel, parity, padded_lengths(grid), grid.periodic)
         for kernel, parity in zip(kernels, parities, strict=True)
     ]
 

@@ -12,7 +12,7 @@ __all__ = ["row_stress_table"]
 Array = npt.NDArray[np.float64]
 
 # Images on either side that are summed one by one; the others are a strip, and what that lacks is of the order of the
-# fifth power of their distance: below 1e-8 of the mean pressure (tests/halfspace/test_subsurface.py).
+# fifth power of their distance: below 1e-8 of the mean pressure (tests/halfspace/subsurface/test_fields_below.py).
 IMAGES = 12
 ENDLESS = 1e9  # periods
 

@@ -19,7 +19,7 @@ __all__ = ["DirectSum"]
 Field = npt.NDArray[Any]  # of single or double precision
 Indices = npt.NDArray[np.int64]
 
-SEVERAL = 100_000  # pairs of a loaded cell and a tile from which on a second thread comes in time
+PAIRS_FOR_THREADS = 100_000  # pairs of a loaded cell and a tile from which on a second thread comes in time
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,5 +58,5 @@ class DirectSum:
         def join(_: int) -> None:
             sum_pairs(counters, size, *where, *sources, self.kernel, self.kernel.shape[1], sums)
 
-        join_in(join, threads() if starts[-1] * size >= SEVERAL else 1)
+        join_in(join, threads() if starts[-1] * size >= PAIRS_FOR_THREADS else 1)
         return sums

@@ -10,16 +10,17 @@ import numpy.typing as npt
 from scipy.sparse import csr_array
 
 from roughcontact.halfspace.sums.near_sum import add_near
-from roughcontact.halfspace.sums.transfer import Nodes, interpolation, offset_weights
+from roughcontact.halfspace.sums.transfer import NodeGrid, interpolation, offset_weights
 
-__all__ = ["Hierarchy", "Kernel", "Level", "descend"]
+__all__ = ["GridLevel", "Kernel", "LevelSum", "coarsen"]
 
 Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 Transfer = csr_array | None  # none along an axis that stays as it is
 
-FEW = 512  # nodes between which a full matrix costs no more than another level
-ROUNDING = 1 + 1e-9  # a length that is a multiple of another is so whatever their last digits
+# Nodes up to which a full matrix between them costs no more than another level.
+COARSEST_NODES = 512
+LENGTH_ROUNDING = 1 + 1e-9  # a length that is a multiple of another is so whatever their last digits
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +61,7 @@ class Kernel:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Level:
+class GridLevel:
     """What leads from nodes to coarser ones and back.
 
     Parameters
@@ -77,13 +78,13 @@ class Level:
     taps: Array
     sign: int
 
-    def spread(self, loads: Array) -> Array:
+    def restrict(self, loads: Array) -> Array:
         """Return the loads on the coarser nodes (thesis, eq. A.58; its factors 2^d cancel)."""
         along_y, along_x = self.transfers
         coarse = loads if along_y is None else along_y.T @ loads
         return np.ascontiguousarray(coarse if along_x is None else (along_x.T @ coarse.T).T)
 
-    def gather(self, coarse: Array, loads: Array) -> Array:
+    def prolong(self, coarse: Array, loads: Array) -> Array:
         """Return the sums at the nodes from those at the coarser ones and from the loads near by."""
         along_y, along_x = self.transfers
         sums = coarse if along_x is None else (along_x @ coarse.T).T
@@ -93,18 +94,18 @@ class Level:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Hierarchy:
+class LevelSum:
     """Levels, finest first, and the matrix between the coarsest nodes [m/Pa]."""
 
-    levels: tuple[Level, ...]
+    levels: tuple[GridLevel, ...]
     coarsest: Array
 
     @classmethod
-    def of(cls, kernel: Kernel, nodes: Nodes, order: int, near: int) -> Hierarchy:
-        """Return the levels for a kernel between cells; see `descend`."""
+    def of(cls, kernel: Kernel, nodes: NodeGrid, order: int, near: int) -> LevelSum:
+        """Return the levels for a kernel between cells; see `coarsen`."""
         levels = []
-        while nodes.size > FEW and 2 in nodes.steps(order):
-            level, nodes, kernel = descend(nodes, kernel, order, near)
+        while nodes.size > COARSEST_NODES and 2 in nodes.steps(order):
+            level, nodes, kernel = coarsen(nodes, kernel, order, near)
             levels.append(level)
         return cls(tuple(levels), kernel.matrix(nodes.shape))
 
@@ -112,20 +113,20 @@ class Hierarchy:
         """Return the sum over all cells of the kernel times the loads, at every cell."""
         below = [loads]
         for level in self.levels:
-            below.append(level.spread(below[-1]))
+            below.append(level.restrict(below[-1]))
         last = below.pop()
         sums = (self.coarsest @ last.ravel()).reshape(last.shape)
         for level in reversed(self.levels):
-            sums = level.gather(sums, below.pop())
+            sums = level.prolong(sums, below.pop())
         return sums
 
 
-def descend(nodes: Nodes, kernel: Kernel, order: int, near: int) -> tuple[Level, Nodes, Kernel]:
+def coarsen(nodes: NodeGrid, kernel: Kernel, order: int, near: int) -> tuple[GridLevel, NodeGrid, Kernel]:
     """Return the level below `nodes`, the coarser nodes, and the kernel between those.
 
     Parameters
     ----------
-    nodes : Nodes
+    nodes : NodeGrid
         So many along one axis at least that coarsening makes them fewer.
     kernel : Kernel
         Between the nodes.
@@ -147,13 +148,13 @@ def descend(nodes: Nodes, kernel: Kernel, order: int, near: int) -> tuple[Level,
     """
     steps = nodes.steps(order)
     width = max(h for h, step in zip(nodes.spacing, steps, strict=True) if step == 2)
-    radius = near * width * ROUNDING
+    radius = near * width * LENGTH_ROUNDING
 
     def along(axis: int) -> _Axis:
         count, spacing, step = nodes.shape[axis], nodes.spacing[axis], steps[axis]
         cell = spacing / kernel.stride[axis]
         reach = min(int((radius + cell / 2) / spacing), count - 1)
-        chosen = int(order * width * ROUNDING / (step * spacing))  # within half a stencil
+        chosen = int(order * width * LENGTH_ROUNDING / (step * spacing))  # within half a stencil
         if step == 1:
             weights = np.eye(min(max(reach, chosen), count - 1) + 1)[None]
         else:
@@ -181,7 +182,7 @@ def descend(nodes: Nodes, kernel: Kernel, order: int, near: int) -> tuple[Level,
     transfers = [
         interpolation(n, order) if step == 2 else None for n, step in zip(nodes.shape, steps, strict=True)
     ]
-    level = Level((transfers[0], transfers[1]), taps, kernel.sign)
+    level = GridLevel((transfers[0], transfers[1]), taps, kernel.sign)
     below = Kernel(kernel.at, kernel.sign, coarse.stride, chosen.reshape(y.chosen, x.chosen))
     return level, nodes.coarsened(steps, order), below
 

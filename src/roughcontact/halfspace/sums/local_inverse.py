@@ -26,17 +26,20 @@ from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_block
 from roughcontact.kernels.constants import REACH
 from roughcontact.transforms import Convolution, fast_even_length
 
-__all__ = ["RELIEF", "LocalInverse", "local_inverse"]
+__all__ = ["DIAGONAL_CORRECTION", "LocalInverse", "local_inverse"]
 
 Array = npt.NDArray[np.float64]
 Field = npt.NDArray[Any]  # of single or double precision
 Pair = tuple[int, int]
 
-BOX = 64  # cells: the longest wave that the weights are fitted to
+FITTED = 64  # cells of the longest wave that the weights are fitted to
 BLOCK = 4  # cells to the side of a block
-SMOOTH = 0.125  # times the square of the waves of blocks: how those near the shortest are damped
-RELIEF = 0.7  # of its answer to a constant on a region, taken off its diagonal
-LARGE = 2**19  # cells of a plane from which on long waves are worth a transform of blocks
+# Exponent over the square of a wavenumber times a block: how short waves of blocks are damped.
+BLOCK_DAMPING = 0.125
+# Of its answer to a constant on a region, taken off its diagonal (benchmarks/ideas.py).
+DIAGONAL_CORRECTION = 0.7
+# Cells of a plane from which on long waves are worth a transform of blocks.
+LARGE_PLANE = 2**19
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,13 +68,13 @@ class LocalInverse:
         shape, spacing : tuple
             Cells along each axis, and their size [m].
         """
-        large = math.prod(shape) >= LARGE
+        large = math.prod(shape) >= LARGE_PLANE
         near = modulus / 2 / spacing[1] * _near(spacing[0] / spacing[1], large)
         if not large:
             return cls(near, None)
         blocks = tuple(fast_even_length(-(-n // BLOCK)) for n in shape)
         box = blocks[0], blocks[1]
-        damping = [np.exp(-SMOOTH * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box]
+        damping = [np.exp(-BLOCK_DAMPING * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box]
         q = definite(wavenumbers(box, tuple(BLOCK * d for d in spacing)))
         return cls(near, Convolution(modulus / 2 / BLOCK**2 * q * np.outer(*damping), box))
 
@@ -92,20 +95,21 @@ def local_inverse(modulus: float, grid: Grid) -> LocalInverse | None:
 @lru_cache(maxsize=64)
 def _near(ratio: float, large: bool) -> Array:
     """Return the weights of near cells, as long as so many widths, for ``q``; with blocks for the rest of it."""
-    wanted = definite(wavenumbers((BOX, BOX), (ratio, 1.0)))
+    wanted = definite(wavenumbers((FITTED, FITTED), (ratio, 1.0)))
     if not large:
         return _fitted(wanted, wanted)
-    angle = 2 * math.pi / BOX * np.arange(BOX // 2 + 1) * BLOCK
-    seen = np.where(angle <= math.pi, np.sinc(angle / (2 * math.pi)) ** 2 * np.exp(-SMOOTH * angle**2), 0.0)
+    angle = 2 * math.pi / FITTED * np.arange(FITTED // 2 + 1) * BLOCK
+    damped = np.sinc(angle / (2 * math.pi)) ** 2 * np.exp(-BLOCK_DAMPING * angle**2)
+    seen = np.where(angle <= math.pi, damped, 0.0)
     return _fitted(wanted - wanted * np.outer(seen, seen), wanted)
 
 
 def _fitted(wanted: Array, scale: Array) -> Array:
     """Return the weights whose transform is the nearest to the one that is wanted, over the scale of each wave."""
-    cosines = np.cos(2 * math.pi / BOX * np.outer(np.arange(REACH + 1), np.arange(BOX // 2 + 1)))
+    cosines = np.cos(2 * math.pi / FITTED * np.outer(np.arange(REACH + 1), np.arange(FITTED // 2 + 1)))
     cosines[1:] *= 2
     waves = np.einsum("iy,jx->ijyx", cosines, cosines).reshape((REACH + 1) ** 2, -1)
-    often = np.where(np.arange(BOX // 2 + 1) % (BOX // 2) == 0, 1.0, 2.0)
+    often = np.where(np.arange(FITTED // 2 + 1) % (FITTED // 2) == 0, 1.0, 2.0)
     share = np.sqrt(np.outer(often, often)).ravel() / scale.ravel()
     near = np.linalg.lstsq((waves * share).T, wanted.ravel() * share, rcond=None)[0]
     # Definite, whatever the fit: no wave is answered with less than nothing.

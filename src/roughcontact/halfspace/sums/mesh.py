@@ -1,4 +1,4 @@
-"""Nodes under tiles: what is smooth is carried by few of them, through B-splines."""
+"""The mesh under tiles: charge assignment to its nodes and interpolation from them, by B-splines (Essmann 1995)."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from scipy.interpolate import BSpline
 
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles, count
 
-__all__ = ["ORDER", "Nodes", "node_shape", "sharpened"]
+__all__ = ["SPLINE_ORDER", "Mesh", "deconvolved", "mesh_shape"]
 
 Array = npt.NDArray[np.float64]
 Single = npt.NDArray[Any]  # of single precision
 Cells = npt.NDArray[np.intp]
 Pair = tuple[int, int]
 
-ORDER = 6  # of the splines: each cell has as many nodes along each axis
+SPLINE_ORDER = 6  # of the B-splines, nodes of a cell along each axis
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Nodes:
+class Mesh:
     """Nodes every few cells, and how they lie under tiles.
 
     Attributes
@@ -31,7 +31,7 @@ class Nodes:
     shape : tuple of int
         Nodes along each axis.
     indices : int array, shape (tiles, m)
-        The nodes that each tile is spread to.
+        The nodes that each tile is assigned to.
     weights : array, shape (SIDE * SIDE, m)
         The splines of these at the cells of a tile.
     """
@@ -41,9 +41,9 @@ class Nodes:
     weights: Single
 
     @classmethod
-    def under(cls, tiles: Tiles, step: Pair, periodic: bool) -> Nodes:
+    def under(cls, tiles: Tiles, step: Pair, periodic: bool) -> Mesh:
         """Return the nodes of a plane, `step` cells apart, and beyond its edges unless it is `periodic`."""
-        shape, before = node_shape(tiles.shape, step, periodic), ORDER // 2 - 1
+        shape, before = mesh_shape(tiles.shape, step, periodic), SPLINE_ORDER // 2 - 1
         ky, kx = (np.arange(-before, SIDE // s + before + 1) for s in step)
         y = tiles.rows[:, None] * (SIDE // step[0]) + ky
         x = tiles.columns[:, None] * (SIDE // step[1]) + kx
@@ -56,8 +56,8 @@ class Nodes:
             np.ascontiguousarray(weights, dtype=np.float32),
         )
 
-    def spread(self, values: Single) -> Single:
-        """Return the field on the nodes that values on the tiles add up to."""
+    def assign(self, values: Single) -> Single:
+        """Return the field on the nodes to which values on the tiles are assigned (charge assignment)."""
         parts = (values @ self.weights).ravel()
         return (
             np.bincount(self.indices.ravel(), parts, math.prod(self.shape))
@@ -65,25 +65,27 @@ class Nodes:
             .astype(np.float32)
         )
 
-    def gather(self, field: Single) -> Single:
-        """Return what a field on the nodes is in the cells of the tiles: the transpose of `spread`."""
+    def interpolate(self, field: Single) -> Single:
+        """Return a field on the nodes in the cells of the tiles: the transpose of `assign`."""
         return np.asarray(field.ravel()[self.indices] @ self.weights.T)
 
 
-def node_shape(cells: Pair, step: Pair, periodic: bool) -> Pair:
+def mesh_shape(cells: Pair, step: Pair, periodic: bool) -> Pair:
     """Return how many nodes a plane takes."""
     ny, nx = (
-        n // s if periodic else count(n) * (SIDE // s) + ORDER - 1 for n, s in zip(cells, step, strict=True)
+        n // s if periodic else count(n) * (SIDE // s) + SPLINE_ORDER - 1
+        for n, s in zip(cells, step, strict=True)
     )
     return ny, nx
 
 
-def sharpened(transform: Array, lengths: Pair) -> Array:
-    """Return the transform of a function on nodes, so that splines before and after it do not blur.
+def deconvolved(transform: Array, lengths: Pair) -> Array:
+    """Return the transfer function of a kernel on nodes over those of the splines before and after it (deconvolution).
 
     Parameters
     ----------
     transform : array, shape (lengths[0] // 2 + 1, lengths[1] // 2 + 1)
+        Of the kernel.
     lengths : tuple of int
         Nodes along each axis.
     """
@@ -94,8 +96,8 @@ def sharpened(transform: Array, lengths: Pair) -> Array:
 def _spectrum(length: int) -> Array:
     """Return the square of the transform of a spline at the nodes."""
     angle = 2 * math.pi * np.arange(length // 2 + 1) / length
-    k = np.arange(1, ORDER // 2)
-    values = _spline(np.arange(ORDER // 2))
+    k = np.arange(1, SPLINE_ORDER // 2)
+    values = _spline(np.arange(SPLINE_ORDER // 2))
     return np.asarray((values[0] + 2 * np.cos(angle[:, None] * k) @ values[1:]) ** 2)
 
 
@@ -106,5 +108,5 @@ def _splines(nodes: Cells, step: int) -> Array:
 
 def _spline(x: npt.ArrayLike) -> Array:
     """Return the central B-spline at distances of `x` nodes."""
-    knots = np.arange(ORDER + 1) - ORDER / 2
+    knots = np.arange(SPLINE_ORDER + 1) - SPLINE_ORDER / 2
     return np.nan_to_num(BSpline.basis_element(knots, extrapolate=False)(np.asarray(x, dtype=float)))

@@ -19,7 +19,7 @@ __all__ = ["TileInverse"]
 Single = npt.NDArray[Any]  # of single precision
 Indices = npt.NDArray[np.int64]
 
-GROUP = 2048  # tiles that one thread takes at a time
+TILES_PER_TASK = 2048  # tiles that one thread takes at a time
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,10 +63,10 @@ class TileInverse:
 
         def near(start: int) -> None:
             scratch = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
-            some = start, min(start + GROUP, size), numbers, numbers.shape[1], places
+            some = start, min(start + TILES_PER_TASK, size), numbers, numbers.shape[1], places
             sum_near(*some, field, pressure, weights, scratch)
 
-        spread(near, range(0, size, GROUP))
+        spread(near, range(0, size, TILES_PER_TASK))
         if self.local.far is not None:
             blocks: Single = np.zeros(self.shape, dtype=np.float32)
             all_ = size, self.places, self.shape[1], BLOCK

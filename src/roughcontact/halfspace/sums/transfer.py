@@ -9,16 +9,16 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_array
 
-__all__ = ["Nodes", "coarse_count", "interpolation", "offset_weights"]
+__all__ = ["NodeGrid", "coarse_count", "interpolation", "offset_weights"]
 
 Array = npt.NDArray[np.float64]
 
 # Axes are coarsened together while their spacings differ by less than this factor; else the finer one goes first.
-ALIKE = math.sqrt(2)
+SAME_SPACING = math.sqrt(2)
 
 
 @dataclass(frozen=True, slots=True)
-class Nodes:
+class NodeGrid:
     """Equally spaced nodes along two axes: the centres of cells, or every second one of finer nodes.
 
     Parameters
@@ -41,13 +41,15 @@ class Nodes:
         """Return 2 for each axis to coarsen next and 1 for the others: those that it would not shorten."""
         able = [coarse_count(n, order) < n for n in self.shape]
         finest = min((h for h, yes in zip(self.spacing, able, strict=True) if yes), default=0.0)
-        y, x = (2 if yes and h < ALIKE * finest else 1 for h, yes in zip(self.spacing, able, strict=True))
+        y, x = (
+            2 if yes and h < SAME_SPACING * finest else 1 for h, yes in zip(self.spacing, able, strict=True)
+        )
         return y, x
 
-    def coarsened(self, steps: tuple[int, int], order: int) -> Nodes:
+    def coarsened(self, steps: tuple[int, int], order: int) -> NodeGrid:
         """Return the coarser nodes, with those outside that the interpolation needs."""
         y, x = (n if step == 1 else coarse_count(n, order) for n, step in zip(self.shape, steps, strict=True))
-        return Nodes((y, x), (self.spacing[0] * steps[0], self.spacing[1] * steps[1]))
+        return NodeGrid((y, x), (self.spacing[0] * steps[0], self.spacing[1] * steps[1]))
 
 
 def coarse_count(count: int, order: int) -> int:
@@ -58,7 +60,7 @@ def coarse_count(count: int, order: int) -> int:
 def interpolation(count: int, order: int) -> csr_array:
     """Return Lagrange's interpolation from every second node to all of them (thesis, eq. A.52).
 
-    Its transpose spreads loads on the nodes over the coarse ones (A.53).
+    Its transpose restricts loads on the nodes to the coarse ones (A.53).
 
     Parameters
     ----------
