@@ -2,9 +2,10 @@
 
     python benchmarks/path.py [n]
 
-A small rough surface with a few cells in contact is pressed twice; the calls of the second press are traced. Printed
-are the number of files that it passes through, how often one call or return leads from a file to another, and the way:
-each file in the order in which it is first entered, with the files that it calls.
+A small rough surface with a few cells in contact (by default 64 x 64 cells, one of them in contact) is pressed twice;
+the calls of the second press are traced. Printed are the number of files that it passes through, how often a call is
+made in another file than the call before, and the way: each file in the order in which it is first entered, with the
+files of the next calls.
 """
 
 from __future__ import annotations
@@ -54,4 +55,4 @@ def main(n: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 128)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)

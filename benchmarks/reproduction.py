@@ -234,8 +234,8 @@ WORDS = """## Words and symbols
 * 20 cells, 20 springs: twenty times the stiffness of a single one. Below, single ones decide, and nothing is fitted.
 * Case: one solution, or one curve over all forces. Sample: one draw of the random phases, the same for all parameters.
   Sizes, rms heights and moduli of studies are bare numbers: what is found does not depend on them.
-* Holds: within the tolerance that the module of the figure, `roughcontact.thesis.figN`, states. Does not hold: outside,
-  for averages by more than three standard errors. Open: outside by less, or the text is no number to judge by.
+* Holds: within the tolerance that the module of the figure, `roughcontact.thesis.figN_...`, states. Does not hold:
+  outside, for averages by more than three standard errors. Open: outside by less, or the text is no number to judge by.
 """
 
 

@@ -21,22 +21,6 @@ from numpydoc.validate import Validator, validate
 import roughcontact
 from roughcontact.cached import cached_property
 
-# The rooms whose docstrings are complete and stay so; one that is not here is not checked.
-CHECKED = {
-    *(
-        "contact",
-        "files",
-        "friction",
-        "grid",
-        "halfspace",
-        "material",
-        "mdr",
-        "solver",
-        "statistics",
-        "surface",
-    ),
-    "theory",
-}
 # Of numpydoc's checks those of content: there is a docstring (GL08); it names the parameters of the signature, no
 # other, in their order, with a type (PR01, PR02, PR03, PR04); it says what is returned or yielded (RT01, YD01).
 # Layout is ruff's affair (GL, SS). A description of every parameter (PR07) would repeat types that say all, as in
@@ -62,10 +46,17 @@ class PublicName:
             return [] if self.value.__doc__ else ["GL08 a docstring"]
         lacks = _of_class(self.value) if inspect.isclass(self.value) else _of_function(self.value)
         doc = _parsed(self.value)
-        called = not inspect.isclass(self.value) or (doc["Parameters"] and not _never_called(self.value))
-        if self.path.count(".") == 1 and called and not doc["Examples"]:
+        if self._wants_example(doc) and not doc["Examples"]:
             lacks.append("EX01 an example")
         return lacks
+
+    def _wants_example(self, doc: NumpyDocString) -> bool:
+        """Return whether it is a function or class of the package itself, or a function of `theory` or `mdr`."""
+        of_package = self.path.count(".") == 1
+        if inspect.isclass(self.value):
+            return of_package and bool(doc["Parameters"]) and not _never_called(self.value)
+        is_method = "." in inspect.unwrap(self.value).__qualname__
+        return of_package or (self.room in ("theory", "mdr") and not is_method)
 
 
 def public_names() -> list[PublicName]:
@@ -130,7 +121,7 @@ def _of_class(cls: type) -> list[str]:
 
 
 def _entries(doc: NumpyDocString, section: str) -> set[str]:
-    return {name.strip() for entry in doc[section] for name in entry.name.split(",")}
+    return {name.strip().lstrip("*") for entry in doc[section] for name in entry.name.split(",")}
 
 
 if __name__ == "__main__":

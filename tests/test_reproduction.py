@@ -88,7 +88,7 @@ def test_a_scale_is_that_of_the_studies_and_not_of_fewer_samples(script):
 
 def test_averages_are_taken_over_with_what_they_are_and_without_a_place(script, bare, tmp_path, monkeypatch):
     [study] = module("fig37").studies("small")
-    monkeypatch.setattr("roughcontact.thesis.fig37.verdicts", lambda data: ())
+    monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.verdicts", lambda data: ())
     attrs = {"studies": [study.to_toml()], "history": "now: roughcontact thesis fig37 --out /some/where"}
     counts = {"cases_done": [17], "cases_failed": [1], "cases_missing": [2], "cases_seconds": [1e4]}
     source = tmp_path / "averages"

@@ -17,7 +17,7 @@ def few(monkeypatch):
         parameters = ensembles.sphere_study("small").parameters | {"points": 17, "loads": 5}
         return Study(name=f"few-{scale}", case="curve", samples=2, parameters=parameters)
 
-    monkeypatch.setattr("roughcontact.thesis.fig37.sphere_study", study)
+    monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.sphere_study", study)
 
 
 def test_it_lists_its_figures(invoke):
@@ -90,10 +90,12 @@ def test_what_failed_is_told(invoke, tmp_path, monkeypatch):
         rows = ({}, {"long_cutoff": 1e-3})
         return Study(name="some", case="curve", samples=1, parameters=parameters, rows=rows)
 
-    monkeypatch.setattr("roughcontact.thesis.fig37.sphere_study", study)
-    monkeypatch.setattr("roughcontact.thesis.fig37.averages", lambda data: data.isel(row=0))
-    monkeypatch.setattr("roughcontact.thesis.fig37.draw", lambda figure, data: None)
-    monkeypatch.delattr("roughcontact.thesis.fig37.verdicts")
+    monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.sphere_study", study)
+    monkeypatch.setattr(
+        "roughcontact.thesis.fig37_stiffness_of_sphere.averages", lambda data: data.isel(row=0)
+    )
+    monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.draw", lambda figure, data: None)
+    monkeypatch.delattr("roughcontact.thesis.fig37_stiffness_of_sphere.verdicts")
     answer = invoke("thesis", "fig37", "--out", tmp_path, "--workers", "1")
     assert answer.exit_code == 0, answer.stderr
     assert "1 case of some failed" in answer.stderr

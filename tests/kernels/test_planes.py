@@ -162,7 +162,7 @@ def test_scale_down(sized, precision, share):
     (inside, lacking, base), kept = zip(
         *(amid(np.full(shape, np.nan, precision)) for _ in range(3)), strict=True
     )
-    scale_down(s, u, p, region, depth=depth, unit=unit, inside=inside, lacking=lacking, base=base)
+    scale_down(p, u, s, region, (inside, lacking, base), depth=depth, unit=unit)
     np.testing.assert_array_equal(inside, region)
     there = np.isfinite(s)
     assert (lacking[~there] == np.array(NEVER, precision)).all()
@@ -217,8 +217,7 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
                 predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
                 level_range(s, u, region),
             ]
-            named = dict(zip(("inside", "lacking", "base"), written, strict=True))
-            scale_down(s, u, p, region, depth=0.5, unit=0.3, **named)
+            scale_down(p, u, s, region, tuple(written), depth=0.5, unit=0.3)
             written.append(add_scaled(p, change, inside, 0.3))
             written.append(predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])
         answers.append((totals, written))

@@ -100,7 +100,7 @@ def test_the_answer_is_that_of_the_exact_operator(rough, used):
 def test_the_stiffness_is_that_of_the_exact_operator(rough, used):
     mask = pressed(rough, None).contact
     operator = rc.half_space(rough.grid, 1e9)
-    left = np.arange(rough.grid.shape[1]) < 40  # a part of the tiles, and more cells than are direct_limit
+    left = np.arange(rough.grid.shape[1]) < 40  # a part of the tiles, and more cells than are factorised
     region = mask | (left & (rough.heights > np.quantile(rough.heights[:, left], 0.4)))
     expected = rc.contact_stiffness(region, rough.grid, 1e9, operator=plain(operator))
     before = used[0]

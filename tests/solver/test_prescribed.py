@@ -39,7 +39,7 @@ def watched(request):
 
 @pytest.fixture(params=[0.1, 0.9], ids=["few", "many"])
 def inside(request):
-    """Few cells are direct_limit, many iterated; they reach all sides, so that no box is cut out."""
+    """Few cells are factorised, many iterated; they reach all sides, so that no box is cut out."""
     return region(SHAPE, share=request.param)
 
 
@@ -162,7 +162,7 @@ def test_the_matrix_is_as_it_was(weights):
         [],
         [3],
         [0, 1, 2, 3, 4],
-    ):  # let go of few, and of so many that the rest is direct_limit anew
+    ):  # let go of few, and of so many that the rest is factorised anew
         unknowns = np.isin(np.arange(10), pulls) & system.kept
         if unknowns.any():
             system.deactivate(unknowns)
@@ -195,7 +195,7 @@ def test_a_matrix_that_must_not_be_written_to_is_left_alone(watched):
 
 
 def test_products_have_the_last_word_where_the_matrix_is_another(watched, wanted):
-    """A triangle of it is direct_limit: where the other says otherwise, the operator is asked."""
+    """A triangle of it is factorised: where the other says otherwise, the operator is asked."""
     few = region(SHAPE, share=0.1)
     cells = np.flatnonzero(few)
     matrix = watched.as_matrix(cells)

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import xarray
 
-from roughcontact.files.aside import WriteError
+from roughcontact.files.write import write_netcdf
 from roughcontact.study.case import Positive, Pressure
-from roughcontact.study.export import assemble, export, write_export
+from roughcontact.study.export import assemble, export
+from roughcontact.study.long_table import write_long_csv
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
@@ -361,14 +362,9 @@ class TestStore:
             run(self.study(), tmp_path / name)
             with Store.open(tmp_path / name) as store:
                 found = export(store)
-            for ending in ("nc", "csv"):
-                write_export(found, tmp_path / f"{name}.{ending}")
+            write_netcdf(found, tmp_path / f"{name}.nc")
+            write_long_csv(found, tmp_path / f"{name}.csv")
         assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
         one, other = (xarray.load_dataset(tmp_path / f"{n}.nc", engine="h5netcdf") for n in "ab")
         assert one.identical(other)
         assert one.identical(found)
-
-
-def test_another_ending_is_refused(tmp_path):
-    with pytest.raises(WriteError, match="a study is exported as"):
-        write_export(xarray.Dataset(), tmp_path / "out.xlsx")

@@ -7,7 +7,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import roughcontact as rc
 from roughcontact.study.study import Study
 from roughcontact.theory import greenwood_williamson
-from roughcontact.thesis import fig31, fig32, fig33
+from roughcontact.thesis import fig31_asperities_smooth as fig31
+from roughcontact.thesis import fig32_asperities_rough as fig32
+from roughcontact.thesis import fig33_asperity_exponents as fig33
 from roughcontact.thesis.asperity_ensembles import (
     HURST,
     asperity_averages,
@@ -15,7 +17,7 @@ from roughcontact.thesis.asperity_ensembles import (
     greenwood_williamson_stiffness,
     law_exponent,
 )
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 
@@ -65,7 +67,7 @@ def test_figures_31_and_32_show_all_realisations(module, asperities):
     data = module.averages(asperities)
     assert data["stiffness"].sizes == {"sample": 3, "load": 13}
     assert float(data["hurst"]) == module.HURST
-    slope, linear = module.verdicts(data)
+    slope, linear = verdicts(module, data)
     assert f"{law_exponent(module.HURST):.4f}" in slope.thesis
     assert linear.holds
     picture = drawn(module, data)
@@ -77,6 +79,6 @@ def test_figures_31_and_32_show_all_realisations(module, asperities):
 def test_figure_33_compares_five_dimensions(asperities):
     data = fig33.averages(asperities)
     assert "sample" not in data.dims
-    [verdict] = fig33.verdicts(data)
+    [verdict] = verdicts(fig33, data)
     assert verdict.thesis.endswith("D_f = 2.9, 2.7, 2.5, 2.3, 2.1")
     FigureCanvasAgg(drawn(fig33, data)).draw()

@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
+from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
 from roughcontact.thesis.ensembles import (
     coarse_square_study,
     curve_averages,
     curve_fits,
+    full_contact_study,
     laws,
     resolution_studies,
-    saturation_study,
     sphere_study,
     square_study,
-    stiffness_at,
 )
 from thesis.computed import exported
 from thesis.synthetic import curves, lines
@@ -31,7 +31,7 @@ def test_the_studies_have_the_counts_of_the_thesis():
     [one] = sphere.combinations()
     assert (sphere.samples, one.points, one.radius, one.hurst, one.rms) == (50, 513, 0.5, 0.7, 9e-3)
     assert [each.samples for each in resolution_studies("thesis")][:2] == [500, 500]
-    assert {each.points for each in saturation_study("thesis").combinations()} == {1025}
+    assert {each.points for each in full_contact_study("thesis").combinations()} == {1025}
     assert {each.points for each in coarse_square_study("thesis").combinations()} == {257}
 
 
@@ -40,7 +40,7 @@ def test_every_store_has_one_study(scale):
     found = [
         square_study(scale),
         coarse_square_study(scale),
-        saturation_study(scale),
+        full_contact_study(scale),
         *resolution_studies(scale),
         sphere_study(scale),
     ]
@@ -48,7 +48,7 @@ def test_every_store_has_one_study(scale):
 
 
 def test_small_studies_are_other_stores_than_the_large_ones():
-    for study in (square_study, coarse_square_study, saturation_study, sphere_study):
+    for study in (square_study, coarse_square_study, full_contact_study, sphere_study):
         assert study("small").name != study("thesis").name
 
 
@@ -83,7 +83,7 @@ def test_fits_find_the_law_in_the_window_of_the_thesis_or_another():
 
 
 def test_between_loads_a_law_is_met_exactly():
-    at = stiffness_at(curve_averages(curves(0.5, 1.0, HURST)), (3e-4, 0.011, 0.2))
+    at = on_common(curve_averages(curves(0.5, 1.0, HURST)), (3e-4, 0.011, 0.2), at="force")
     np.testing.assert_allclose(at["stiffness"][:, :2], [[3e-4**0.5, 0.011**0.5]] * 3, rtol=1e-12)
     assert np.isnan(at["stiffness"][:, 2]).all()
     assert at["resolved"].to_numpy().tolist() == [[False, True, False]] * 3

@@ -7,8 +7,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.mdr.calibration import calibrated_lambda
 from roughcontact.solver.control import Status
-from roughcontact.thesis import fig29, fig30
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis import fig29_spectrum_factor as fig29
+from roughcontact.thesis import fig30_crossover as fig30
+from roughcontact.thesis.figures import drawn, verdicts
 from roughcontact.thesis.line_match import Ensemble, match
 
 HURST = [0.4, 1.0, 2.2]
@@ -76,8 +77,7 @@ def test_of_power_laws_figure_29_is_their_closed_form(lines, surfaces):
         error = 2 * (1 + min(hurst, 2)) * stiffness * expected
         assert float(one["factor_error"]) == pytest.approx(error, rel=0.5)
     assert float(found["window_low"].min()) == pytest.approx(20 * 0.0017)
-    verdicts = fig29.verdicts(found)
-    assert verdicts[-1].holds
+    assert verdicts(fig29, found)[-1].holds
     FigureCanvasAgg(drawn(fig29, found)).draw()
 
 
@@ -88,7 +88,7 @@ def test_a_surface_of_another_shape_is_told(lines, surfaces):
     )
     found = fig29.averages(lines, bent)
     assert 0.05 < float(found["mismatch"].min()) < 0.25
-    assert not fig29.verdicts(found)[-1].holds
+    assert not verdicts(fig29, found)[-1].holds
 
 
 def test_figure_30_moves_lines_to_surfaces_and_shows_what_is_left(lines):
@@ -117,7 +117,7 @@ def test_figure_30_moves_lines_to_surfaces_and_shows_what_is_left(lines):
     apart = found.isel(load=int(np.flatnonzero(~low)[0]))
     alpha = [1 / (1 + min(h, 2)) for h in HURST]
     np.testing.assert_allclose(apart["line"] / apart["surface"], 0.5 ** np.array(alpha), rtol=1e-9)
-    assert fig30.verdicts(found)[0].holds
+    assert verdicts(fig30, found)[0].holds
     FigureCanvasAgg(drawn(fig30, found)).draw()
 
 

@@ -8,7 +8,7 @@ import roughcontact as rc
 from roughcontact.study.study import Study
 from roughcontact.theory import persson
 from roughcontact.thesis import outlook_cutoff
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 ROWS = [(16, 1 / 4), (32, 1 / 4), (32, 1 / 8)]
@@ -75,9 +75,9 @@ def test_means_stand_at_common_forces_and_changes_are_over_all_waves(found):
 def test_it_is_drawn_and_judged(found):
     few = found.assign_coords(hurst=[0.2, outlook_cutoff.SHOWN])
     FigureCanvasAgg(drawn(outlook_cutoff, few)).draw()
-    verdicts = outlook_cutoff.verdicts(few)
-    assert len(verdicts) == 5
-    assert verdicts[-1].holds is None
+    claims = verdicts(outlook_cutoff, few)
+    assert len(claims) == 5
+    assert claims[-1].holds is None
 
 
 def test_the_study_shares_the_waves_of_a_sample_and_gives_each_four_cells():

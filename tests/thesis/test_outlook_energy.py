@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
 from roughcontact.thesis import outlook_energy
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 
@@ -57,7 +57,7 @@ def test_a_contact_whose_energy_is_known_obeys_both_equations():
     np.testing.assert_allclose(found["by_gap"], 1, rtol=1e-4)
     np.testing.assert_allclose(found["length"].isel(load=0), 0.4 * 1e-3 ** (2 / 3) / 0.01, rtol=1e-12)
     np.testing.assert_allclose(found["area_length"] / found["length"], 1e4, rtol=1e-12)
-    exact, wrong, small, *_ = outlook_energy.verdicts(found)
+    exact, wrong, small, *_ = verdicts(outlook_energy, found)
     assert (exact.holds, wrong.holds, small.holds) == (True, False, True)
 
 
@@ -72,7 +72,7 @@ def test_a_body_that_sinks_in_does_not_obey_that_of_the_gap():
         rtol=1e-10,
     )
     np.testing.assert_allclose(found["by_gap_interfacial"].sel(periodic=False), 0.75 / 0.8, rtol=1e-4)
-    exact, wrong, small, *_ = outlook_energy.verdicts(found)
+    exact, wrong, small, *_ = verdicts(outlook_energy, found)
     assert (exact.holds, wrong.holds, small.holds) == (True, False, False)
 
 
@@ -112,4 +112,4 @@ def test_a_few_computed_surfaces_are_drawn_and_judged(export):
     np.testing.assert_allclose(found["whole_by_approach"], 1, atol=0.01)
     assert (found["by_gap"].sel(periodic=False).isel(interval=-1) > 1.5).all()
     FigureCanvasAgg(drawn(outlook_energy, found)).draw()
-    assert len(outlook_energy.verdicts(found)) == 5
+    assert len(verdicts(outlook_energy, found)) == 5

@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import roughcontact as rc
 from roughcontact.study.study import Study
 from roughcontact.thesis import outlook_hardness
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 
@@ -69,4 +69,4 @@ def test_waves_with_and_without_a_ceiling_end_in_the_same_rows(found):
 
 def test_it_is_drawn_and_judged(found):
     FigureCanvasAgg(drawn(outlook_hardness, found)).draw()
-    assert len(outlook_hardness.verdicts(found)) == 4
+    assert len(verdicts(outlook_hardness, found)) == 4

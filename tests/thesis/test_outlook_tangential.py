@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from roughcontact.study.study import Study
 from roughcontact.theory import mindlin, pohrt_popov
 from roughcontact.thesis import outlook_tangential
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
 RMS = 0.01
@@ -65,7 +65,7 @@ def test_contacts_that_obey_the_laws_are_found_to():
     np.testing.assert_allclose(
         found["path"].where(known, 0), found["path_by_depth"].where(known, 0), rtol=1e-10
     )
-    ratio, stiffness, slip, law, printed, way = outlook_tangential.verdicts(found)
+    ratio, stiffness, slip, law, printed, way = verdicts(outlook_tangential, found)
     assert [each.holds for each in (ratio, stiffness, slip, law, way)] == [True] * 5
     # The printed constants are those of a zeta up to 18 % below 1.7/(H + 1).
     assert printed.holds is False
@@ -76,7 +76,7 @@ def test_contacts_that_do_not_are_found_not_to():
     found = outlook_tangential.averages(export(stiffer=0.8, further=1.2))
     np.testing.assert_allclose(found["ratio"], 1 / 0.8, rtol=1e-12)
     np.testing.assert_allclose(found["slip_by_depth"], 1.2, rtol=1e-12)
-    ratio, stiffness, slip, law, _, way = outlook_tangential.verdicts(found)
+    ratio, stiffness, slip, law, _, way = verdicts(outlook_tangential, found)
     assert [each.holds for each in (ratio, stiffness, slip, law, way)] == [False] * 5
 
 

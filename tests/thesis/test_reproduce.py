@@ -7,7 +7,7 @@ import pytest
 
 from roughcontact.study.executors.serial import Serial
 from roughcontact.study.study import Study
-from roughcontact.thesis import fig37
+from roughcontact.thesis import fig37_stiffness_of_sphere as fig37
 from roughcontact.thesis.figures import FIGURES, figure, is_ensemble, module, verdicts
 from roughcontact.thesis.reproduce import averages_of, planned, run_study
 

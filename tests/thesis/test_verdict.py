@@ -1,8 +1,9 @@
 """What is said about a claim, and when nothing can be said."""
 
 import numpy as np
+import xarray
 
-from roughcontact.thesis.verdict import Verdict, judged, spanned
+from roughcontact.thesis.verdict import Verdict, counted, judged, listed, series, spanned
 
 
 def test_a_verdict_has_a_word():
@@ -23,3 +24,15 @@ def test_deviations_are_judged_by_their_errors():
 def test_numbers_are_told_by_their_ends():
     assert spanned([0.1, np.nan, -0.02], "+.1%") == "-2.0% to +10.0%"
     assert spanned([np.nan], ".2g") == "none"
+
+
+def test_averages_in_words():
+    found = xarray.Dataset(
+        {"k": ("hurst", [1.0, 2.0]), "k_error": ("hurst", [0.5, np.nan])},
+        {"hurst": [0.5, 1.0]},
+        {"surfaces": 20, "cells": 128},
+    )
+    assert listed(found, "k", "hurst") == "1.00 ± 0.50 at H = 0.5, 2.00 at H = 1"
+    assert counted(found) == "20 samples of 128² cells"
+    assert series(found["k"], ".1f") == "1.0, 2.0"
+    assert series([0.5, 0.25], between=" and ") == "0.500 and 0.250"

@@ -1,4 +1,4 @@
-"""The verb ``thesis``: a figure of the thesis, computed."""
+"""The command ``thesis``: a figure of the thesis, computed."""
 
 from __future__ import annotations
 

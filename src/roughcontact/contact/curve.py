@@ -16,7 +16,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import unit_of
+from roughcontact.labels.variables import CURVE_POINTS, unit_of
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
@@ -26,19 +26,12 @@ from roughcontact.validation import number
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["POINTS", "SCALES", "Curve", "collect"]
+__all__ = ["Curve", "collect"]
 
 Array = npt.NDArray[np.float64]
 
 SUGGESTED = (1e-4, 0.07)  # dimensionless forces from the first cells to the end of the power law
 SUGGESTED_ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
-
-# What a curve takes over from each state, and what it is measured by.
-POINTS = (
-    *("force", "depth", "stiffness", "interfacial_stiffness"),
-    *("contact_area", "mean_gap", "elastic_energy"),
-)
-SCALES = ("modulus", "rms", "full_contact_stiffness", "cell_stiffness", "nominal_area")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -275,7 +268,7 @@ def collect(path: Iterable[Solution]) -> Curve:
     problem: ContactProblem | None = None
     for solution in path:
         problem = solution.problem
-        numbers = (getattr(solution, name) for name in POINTS)
+        numbers = (getattr(solution, name) for name in CURVE_POINTS)
         points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
         status.append(solution.status)
     if problem is None:
@@ -283,7 +276,7 @@ def collect(path: Iterable[Solution]) -> Curve:
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
-        **dict(zip((*POINTS, "residual", "stiffness_residual"), columns, strict=True)),
+        **dict(zip((*CURVE_POINTS, "residual", "stiffness_residual"), columns, strict=True)),
         spots=spots.astype(np.intp),
         status=tuple(status),
         modulus=problem.modulus,

@@ -7,18 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.contact.curve import POINTS, SCALES, Curve
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
+from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
 
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
 
 __all__ = ["curve_dataset", "curve_record", "solution_dataset", "solution_record"]
 
 _CURVE_ARRAYS = (
-    *(*POINTS, "spots", "dimensionless_force", "dimensionless_stiffness"),
+    *(*CURVE_POINTS, "spots", "dimensionless_force", "dimensionless_stiffness"),
     *("residual", "stiffness_residual", "resolved"),
 )
 _SOLUTION_MAPS = ("pressure", "displacement", "gap", "contact")
@@ -49,7 +50,7 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     data = {name: variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_ARRAYS}
     data["status"] = variable("status", ("load",), [each.value for each in curve.status])
     data["secant_stiffness"] = variable("secant_stiffness", ("interval",), curve.secant_stiffness, kind)
-    data |= {name: variable(name, (), getattr(curve, name), kind) for name in SCALES}
+    data |= {name: variable(name, (), getattr(curve, name), kind) for name in CURVE_SCALES}
     if math.isfinite(curve.hardness):
         data["hardness"] = variable("hardness", (), curve.hardness, kind)
     data |= sizes(curve)
@@ -90,7 +91,7 @@ def curve_record(curve: Curve) -> dict[str, Any]:
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
     """
-    names = (*_CURVE_ARRAYS, "secant_stiffness", *SCALES, "lengths", "spacing", "periodic")
+    names = (*_CURVE_ARRAYS, "secant_stiffness", *CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(curve, name)) for name in names}
     record["status"] = [each.value for each in curve.status]
     return record | {"geometry": curve.geometry.value, "units": units_of(record, curve.geometry)}

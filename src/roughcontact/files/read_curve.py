@@ -11,16 +11,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.contact.curve import POINTS, SCALES, Curve
+from roughcontact.contact.curve import Curve
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ReadError
 from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
 from roughcontact.solver.control import Status
 
 __all__ = ["read_curve"]
 
-_ARRAYS = (*POINTS, "residual", "stiffness_residual")
+_ARRAYS = (*CURVE_POINTS, "residual", "stiffness_residual")
 _SIZES = ("lengths", "spacing", "periodic")
 _REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
 
@@ -57,7 +58,9 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
     if Path(path).suffix.casefold() != ".nc":
         raise ReadError(file, "loading curves are read from NetCDF files (.nc) only", _REMEDY)
     with opened(data, file) as (variables, attributes):
-        missing = [name for name in (*_ARRAYS, *SCALES, *_SIZES, "spots", "status") if name not in variables]
+        missing = [
+            name for name in (*_ARRAYS, *CURVE_SCALES, *_SIZES, "spots", "status") if name not in variables
+        ]
         if missing or variables["force"].dimensions != ("load",):
             raise ReadError(file, f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
         kind = _word(attributes.get("geometry", ""))
@@ -66,7 +69,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
         geometry = Geometry(kind)
         shape, axes = variables["force"].shape, (len(geometry.axes),)
         values: dict[str, Any] = {name: _numbers(variables, name, shape, file) for name in _ARRAYS}
-        values |= {name: float(_numbers(variables, name, (), file)) for name in SCALES}
+        values |= {name: float(_numbers(variables, name, (), file)) for name in CURVE_SCALES}
         sizes = {name: _numbers(variables, name, axes, file).tolist() for name in _SIZES}
         hardness = float(_numbers(variables, "hardness", (), file)) if "hardness" in variables else math.inf
         return Curve(

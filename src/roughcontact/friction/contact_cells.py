@@ -90,7 +90,7 @@ class ContactCells:
     operator : ShearOperator
         On the box that holds the cells, or on the cells alone.
     exact : ShearOperator
-        The same without the error of its sum: what certifies. Most sums are exact themselves.
+        The same without the error of its sum, for the certificate. Most sums are exact themselves.
     region : Selection
         The cells on the operator's grid.
     basis : array, shape (k, 2)
@@ -119,9 +119,9 @@ class ContactCells:
         floating = bool(all(operator.grid.periodic) and namespace(contact).all(contact))
         basis = np.eye(2) if along is None else np.array([along])
         part, region = operator, contact
-        if is_numpy(contact):  # elsewhere it would cost a look at every side
+        if is_numpy(contact):  # elsewhere each side of the box would cost a transfer
             box = bounding_box(contact)
-            assert box is not None  # who comes here has asked
+            assert box is not None  # callers have checked it
             part, region = operator.restrict(box), contact[box]
             if not floating and _few(region):
                 matrix = part.as_matrix(np.flatnonzero(region))
@@ -145,7 +145,7 @@ class ContactCells:
         return self._through(self.exact.apply, traction)
 
     def estimate(self, traction: Array) -> Array:
-        """Return the displacement by a sum that may be inexact: good enough to find a correction with."""
+        """Return the displacement by a sum that may be inexact: accurate enough for a correction."""
         return self._through(self.operator.apply, traction)
 
     def approximate_inverse(self, displacement: Array) -> Array:
@@ -157,7 +157,7 @@ class ContactCells:
         return displacement / (self.self_influence if self.self_influence > 0 else 1.0)
 
     def zeros(self) -> Array:
-        """Return nothing on every cell."""
+        """Return zero on every cell."""
         xp, mask = namespace(self.contact), self.contact
         shape = (len(self.basis), self.chosen.count)
         return xp.zeros(shape, dtype=xp.float64, device=mask.device)  # type: ignore[no-any-return]

@@ -1,4 +1,4 @@
-"""Down the energy of a step of partial slip, wherever one stands: what Newton's method falls back on."""
+"""Projected descent of the energy of a step of partial slip: the safeguard of Newton's method."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from roughcontact.validation import Array
 
 __all__ = ["descended"]
 
-GRADIENT_STEPS = 3  # of a descent: enough to sort out who slips, and Newton's method is faster at the rest
+GRADIENT_STEPS = 3  # of a descent: enough to find the cells that slip; Newton's method is faster at the rest
 SUFFICIENT = 0.1  # part of what the slope promises that must come true
 SHORTER, MUCH_SHORTER = 0.5, 0.1  # bounds of what a trial that went too far is shortened by
 TRIALS = 20  # of a gradient step: what is wrong after so many is rounding
 
 
 def descended(step: SlipStep, state: SlipState, trial: SlipState) -> tuple[SlipState, int]:
-    """Return a state of lower energy than `state`, from which a `trial` went too far, and the products it took.
+    """Return a state of lower energy than `state`, from which a `trial` went too far, and the number of products.
 
     First to the lowest point between the two, at no cost: whatever lies between is within the limits too, and the
     energy is quadratic. Then along its slope, projected on the limits, as far as the curvature that was last met allows
@@ -45,7 +45,7 @@ def descended(step: SlipStep, state: SlipState, trial: SlipState) -> tuple[SlipS
 
 
 def _between(state: SlipState, other: SlipState) -> tuple[float, float, float]:
-    """Return slope and curvature of the energy from one state to another, and the square of the way."""
+    """Return slope and curvature of the energy from one state to another, and the squared distance."""
     way = other.traction - state.traction
     curvature = inner(way, other.displacement - state.displacement)
     return inner(state.slipped, way), curvature, inner(way, way)

@@ -1,4 +1,4 @@
-"""Partial slip by Newton's method: guess which cells slip and which way, solve what is free, flip what violates."""
+"""Partial slip by an active-set (semi-smooth Newton) method: predict stick and slip, solve the free part, update."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ from roughcontact.solver.control import Status
 __all__ = ["SlipNewton"]
 
 REDUCTION = 0.1  # of the error by each linear solve: the next guess is another problem
-FALL = 0.9  # of the residual, below its least, that an iteration must bring, lest it goes in circles
-PATIENCE = 20  # descents without a smaller residual or energy, after which rounding has the better of it
+FALL = (
+    0.9  # of the residual, below its least, that an iteration must reach, so that the iteration cannot cycle
+)
+PATIENCE = 20  # descents without a smaller residual or energy, after which only rounding is left
 ROUNDING = float(np.finfo(np.float64).eps)
 
 
@@ -27,13 +29,13 @@ class SlipNewton:
 
     The conditions of a step say that the energy ``q.Aq/2 - q.(slip + shift)`` is as low as tractions within their
     limits allow. An iteration solves for the traction of the cells that stick and the direction of that of those that
-    slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, just as far as
-    the guess deserves; its end is projected on the limits.
+    slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, to a
+    reduction of the error by ten; the result is projected onto the limits.
 
-    Where many cells flip at once, each takes the others for what they were, and all go too far together: left alone,
-    they flip back and forth for ever. So an iteration that does not take the residual down counts as no more than a
-    direction, and the energy is made to fall instead: see `descended`. The residual falls but so often until it is
-    within the tolerance, and energy that goes on falling leads to its minimum: this ends at the answer.
+    Where many cells change state at once, the iteration may cycle. So an iteration that does not reduce the residual
+    serves as a direction only, along which the energy is reduced: see `descended`. The residual can be reduced by a
+    given part only finitely often until it is within the tolerance, and descent leads to the minimum of the energy:
+    the method converges.
     """
 
     max_steps: int = 5000
@@ -67,13 +69,13 @@ class SlipNewton:
 
 
 def _guessed(step: SlipStep, state: SlipState, max_steps: int) -> tuple[SlipState, int]:
-    """Return where the guess leads that a state suggests, and the products it took."""
+    """Return the state that follows from the predicted stick and slip sets of a state, and the number of products."""
     xp, q, interface = namespace(state.traction), state.traction, step.interface
     forward = xp.sum(state.slipped * state.normal, axis=0)
     slips = xp.any(state.normal != 0, axis=0) & (forward <= 0)
     freedom = Freedom(
         normal=xp.where(slips, state.normal, 0.0),
-        turning=xp.where(slips, -forward / step.limit, 0.0),
+        rotation=xp.where(slips, -forward / step.limit, 0.0),
         held=step.force is not None,
     )
     change = corrected(interface, freedom, -state.slipped, reduction=REDUCTION, max_steps=max_steps)

@@ -49,14 +49,14 @@ def slide(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> TangentialSolution:
-    """Pull at a pressed contact whose pressure is held, and return what sticks and what slips, with a certificate.
+    """Load a pressed contact tangentially at constant pressure: stick, slip and traction, with a certificate.
 
     The work is done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of
     theirs.
 
     Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
-    opposed to the traction at its end: exact where slip does not turn within the step, as from rest along a line, or
-    back along it, for nu = 0; where it may turn, take more steps. (Cattaneo 1938, Mindlin 1949 for a sphere;
+    opposed to the traction at its end: exact where slip keeps its direction within the step, as from rest along a line,
+    or back along it, for nu = 0; where it may rotate, take more steps. (Cattaneo 1938, Mindlin 1949 for a sphere;
     Ciavarella 1998, Jaeger 1998 for any shape; thesis, chapter 7.)
 
     Parameters
@@ -77,7 +77,7 @@ def slide(
         were. Without one the contact is at rest and free of traction.
     along : pair of floats, optional
         Let traction act in this direction (x, y) only, as the closed forms do, and leave out what moves the surfaces
-        across it. Without, it may turn.
+        across it. Without, it may rotate.
     operator : ShearOperator, optional
         Another body than the half-spaces on the grid of the contact, or another way to sum them: see
         `shear_half_space`.
@@ -204,7 +204,7 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     cycles : int
         Number of full cycles; 0 ends at the amplitude.
     steps : int
-        Number of equal steps from zero to the amplitude. From one turn to the next there are twice as many.
+        Number of equal steps from zero to the amplitude. From one reversal to the next there are twice as many.
 
     Returns
     -------
@@ -227,8 +227,8 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     largest = np.asarray(number(amplitude, "amplitude"))
     if largest.shape not in ((), (2,)) or not np.isfinite(largest).all():
         raise ValueError(f"an amplitude is one finite number, or two (x, y), not {amplitude}")
-    turned = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper turn
-    part = np.abs(turned - 2 * steps) / steps - 1
+    since = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper reversal
+    part = np.abs(since - 2 * steps) / steps - 1
     return np.multiply.outer(part, largest)
 
 
@@ -236,7 +236,7 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
 def advance(
     problem: SlipProblem, load: Pull | Shift, initial: TangentialSolution | None = None
 ) -> TangentialSolution:
-    """Return the state under a load, from an initial one or from rest; its status says whether it is good."""
+    """Return the state under a load, from an initial one or from rest; its status says whether it converged."""
     interface = problem.interface
     if initial is None:
         start = slipped = moved = interface.zeros()

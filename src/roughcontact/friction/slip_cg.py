@@ -1,4 +1,4 @@
-"""Conjugate gradients on what is free: both components where cells stick, turning where they slip."""
+"""Preconditioned conjugate gradients on the free part: both components where cells stick, rotation where they slip."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class Freedom:
     ----------
     normal : array, shape (k, n)
         Unit vectors in which the traction of slipping cells is fixed, zero in cells that stick.
-    turning : array, shape (n,)
-        Slip over traction of slipping cells [m/Pa]: slip turns with the traction that it opposes.
+    rotation : array, shape (n,)
+        Slip over traction of slipping cells [m/Pa]: slip rotates with the traction that it opposes.
     held : bool
         Whether the force is given, so that no change may have a resultant.
     """
 
     normal: Array
-    turning: Array
+    rotation: Array
     held: bool
 
     def project(self, field: Array) -> Array:
@@ -41,7 +41,7 @@ class Freedom:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Correction:
-    """A change of traction [Pa], its image [m], and the products it took."""
+    """A change of traction [Pa], its displacement [m], and the number of products."""
 
     traction: Array
     displacement: Array
@@ -51,7 +51,7 @@ class Correction:
 def corrected(
     interface: ContactCells, freedom: Freedom, error: Array, *, reduction: float, max_steps: int
 ) -> Correction:
-    """Return the free change of traction that takes `error` [m] away, by preconditioned conjugate gradients.
+    """Return the free change of traction that removes `error` [m], by preconditioned conjugate gradients.
 
     Parameters
     ----------
@@ -67,37 +67,37 @@ def corrected(
     Notes
     -----
     Where cells stick, the preconditioner is the inverse of the half-space as if it were periodic, wave by wave. Where
-    they slip, the diagonal: next to turning, the half-space is compliant only for long waves.
+    they slip, the diagonal: next to rotation, the half-space is compliant only for long waves.
     """
     precondition = _preconditioner(interface, freedom)
-    change, image, steps = interface.zeros(), interface.zeros(), 0
+    change, displacement, steps = interface.zeros(), interface.zeros(), 0
     r = freedom.project(error)
     z = precondition(r)
-    t = z
+    s = z  # search direction
     rho = inner(r, z)
     enough = reduction**2 * rho
     while rho > enough and steps < max_steps:
-        v = interface.estimate(t)
+        A_s = interface.estimate(s)
         steps += 1
-        q = freedom.project(v) + freedom.turning * t
-        curvature = inner(t, q)
-        if not curvature > 0:  # rounding has eaten the direction
+        free_A_s = freedom.project(A_s) + freedom.rotation * s
+        curvature = inner(s, free_A_s)
+        if not curvature > 0:  # the search direction is rounding
             break
         alpha = rho / curvature
-        change += alpha * t
-        image += alpha * v
-        r = r - alpha * q
+        change += alpha * s
+        displacement += alpha * A_s
+        r = r - alpha * free_A_s
         z = precondition(r)
         rho, previous = inner(r, z), rho
-        t = z + rho / previous * t
-    return Correction(change, image, steps)
+        s = z + rho / previous * s
+    return Correction(change, displacement, steps)
 
 
 def _preconditioner(interface: ContactCells, freedom: Freedom) -> Callable[[Array], Array]:
     """Return a map from errors [m] to free changes of traction [Pa], without resultant if the force is held."""
     xp = namespace(freedom.normal)
     sticks = ~xp.any(freedom.normal != 0, axis=0)
-    diagonal = 1 / (interface.self_influence + freedom.turning)
+    diagonal = 1 / (interface.self_influence + freedom.rotation)
 
     def answer(r: Array) -> Array:
         z = xp.where(sticks, interface.approximate_inverse(xp.where(sticks, r, 0.0)), r * diagonal)
@@ -105,7 +105,7 @@ def _preconditioner(interface: ContactCells, freedom: Freedom) -> Callable[[Arra
 
     if not freedom.held:
         return answer
-    # Answers to common displacements, of which a combination takes a resultant away.
+    # Answers to common displacements, of which a combination removes a resultant.
     common = [answer(freedom.project(unit)) for unit in interface.units()]
     shares = np.linalg.pinv(np.array([numbers(xp.sum(z, axis=1)) for z in common]).T)
 

@@ -36,7 +36,7 @@ class SlipCurve:
     stick_area, slip_area : array, shape (n,)
         Area that holds and area that slips [m^2].
     dissipated : array, shape (n,)
-        Energy that friction took in the step that ends at the point [J].
+        Energy dissipated by friction in the step that ends at the point [J].
     elastic_energy : array, shape (n,)
         Elastic energy of the tangential displacement [J].
     residual : array, shape (n,)
@@ -60,7 +60,7 @@ class SlipCurve:
 
     @property
     def dissipated_energy(self) -> Array:
-        """Energy that friction has taken since the start [J], shape (n,)."""
+        """Energy dissipated by friction since the start [J], shape (n,)."""
         return np.cumsum(self.dissipated)
 
     def __repr__(self) -> str:

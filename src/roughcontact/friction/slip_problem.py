@@ -65,7 +65,7 @@ class SlipProblem:
     friction : float
         Coefficient of friction mu.
     along : tuple of float, optional
-        The one direction (x, y), a unit vector, in which traction may act; without one it may turn.
+        The one direction (x, y), a unit vector, in which traction may act; without one it may rotate.
     operator : ShearOperator
         Displacement [m] from traction [Pa] on the whole grid.
     interface : ContactCells

@@ -51,15 +51,15 @@ class TangentialSolution:
         How far surface 1 has slipped over surface 2 since the start [m]; zero, to the residual, where they have stuck
         throughout, and outside the contact, where it means nothing.
     dissipated : float
-        Energy that friction took in this step [J].
+        Energy dissipated by friction in this step [J].
     status : Status
-        How the solve ended; it claims nothing that was not earned.
+        How the solve ended.
     residual : float
         Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, on a product of
         the exact operator with this traction. Where the bodies slide under a given force the law is that of the slip
         rate of the steady slide, and of the slip of the step only what lies along the force counts: none is backward.
     steps : int
-        Products with the operator that the solve took.
+        Number of products with the operator.
     step_residual : float
         The same by all of the slip of this step. Only where the bodies slide under a given force is it another number:
         what slipped across the force before the slide was steady, which no finite displacement opposes to the traction.

@@ -162,7 +162,7 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
     Notes
     -----
     The mean with the weights of the preconditioner: a cell that slips far under little traction follows any
-    displacement, and says nothing about it.
+    displacement, and does not determine it.
     """
     xp = namespace(level)
 
@@ -171,13 +171,13 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
 
     across = level - xp.sum(level * normal, axis=0) * normal
     weight = xp.ones_like(limit)
-    for _ in range(2):  # the weights take a first answer to know who slips how far
+    for _ in range(2):  # the weights need a first answer: which cells slip, and how far
         free = float(xp.sum(weight)) * np.eye(level.shape[0]) - numbers((weight * normal) @ normal.T)
         shift = np.asarray(np.linalg.lstsq(free, numbers(across @ weight), rcond=None)[0], np.float64)
         forward = forward_of(shift)
         weight = 1 / (1 + xp.clip(-forward, 0.0, None) / (limit * self_influence))
     if bool(xp.all(xp.any(normal != 0, axis=0) & (forward > 0))):
-        # All slip, and all the wrong way: what is free says too little. None slips forward from here on:
+        # All slip, and all the wrong way: the free part does not determine the shift. None slips forward from here on:
         pull = numbers(normal @ limit)
         pull /= np.sqrt(pull @ pull)
         leaning = beside(pull, normal) @ normal

@@ -1,4 +1,4 @@
-"""Regions of a field for machine code: work follows the cells inside."""
+"""Kernels on the cells of a region: work follows these, not the field."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from roughcontact.kernels.buffers import empty, zeros
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
 from roughcontact.kernels.loader import code_for
+from roughcontact.kernels.planes import run_on_plane
 from roughcontact.threads import spread
 
 __all__ = [
@@ -45,12 +46,12 @@ class ActiveCells:
     ----------
     inside : array
     pressed : pair of arrays, optional
-        A pressure and its change: cells that carry something are gone through as well.
+        A pressure and its change: cells where their sum is not zero are listed as well.
     """
 
     def __init__(self, inside: Field, pressed: tuple[Field, Field] | None = None) -> None:
         self.inside = inside
-        self._code, self._blocks = (code_for(f, inside) for f in ("vector_kernels", "block_kernels"))
+        self._code = code_for("vector_kernels", inside)
         lanes = WIDTH // inside.itemsize
         self._whole = inside.size // lanes * lanes
         groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
@@ -89,28 +90,18 @@ class ActiveCells:
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
         """Run a kernel on the blocks that these cells are of."""
         plan = 0, self._count, self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
-        self._blocks[name](self._groups, *plan, field, blocks)
+        code_for("block_kernels", field)[name](self._groups, *plan, field, blocks)
 
 
 def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
-    run, size = code_for("vector_kernels", r)["subtract_shifted"], PART * WIDTH // r.itemsize
-    if r.size <= size:
-        run(r.size, r, v, alpha, mean)
-        return
-    r, v = r.reshape(-1), v.reshape(-1)
-
-    def part(start: int) -> None:
-        run(min(size, r.size - start), r[start:], v[start:], alpha, mean)
-
-    spread(part, range(0, r.size, size), SEVERAL)
+    run_on_plane(code_for("vector_kernels", r)["subtract_shifted"], 0, 0, r, v, alpha, mean)
 
 
 def mask_above(mask: Field, r: Field, least: float) -> float:
     """Set a mask to one where r is above `least`, and above zero; return the largest r where it was not, or 0."""
-    most, given = np.zeros(1), np.ascontiguousarray(r, dtype=mask.dtype)
-    code_for("vector_kernels", mask)["mask_above"](mask.size, mask, given, least, most)
-    return float(most[0])
+    run = code_for("vector_kernels", mask)["mask_above"]
+    return run_on_plane(run, 1, 1, mask, np.ascontiguousarray(r, dtype=mask.dtype), least)[0]
 
 
 def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:

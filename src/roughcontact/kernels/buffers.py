@@ -1,8 +1,9 @@
 """Memory to work in, that is kept for the next time.
 
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
-cores (`benchmarks/pairs.py` shows what that costs a solve). So what an array leaves is kept for the next one like it.
-Very large planes are not: their pages are better touched where they are needed.
+cores. That costs 9 % of a press of half of 512 x 512 periodic cells on two threads (benchmarks/pairs.py, "flat-half").
+So what an array leaves is kept for the next one like it. Very large planes are not: their pages are better touched
+where they are needed.
 """
 
 from __future__ import annotations

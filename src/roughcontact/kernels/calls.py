@@ -16,7 +16,7 @@ __all__ = ["Function", "Operand", "address"]
 
 
 class Operand:
-    """An array that is looked at once: a function takes it as it takes the array, in less time.
+    """An array whose address is found once: a function takes it as it takes the array, in less time.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Function:
         self._run = ctypes.CFUNCTYPE(None, *(p.ctype for p in parameters))(place)
 
     def __call__(self, *arguments: Any) -> None:
-        """Run it; arrays are as large as the kernel asks for, which is not looked at."""
+        """Run it; that arrays are as large as the kernel asks for is not checked."""
         if len(arguments) != len(self._dtypes):
             raise TypeError(f"{self.name} takes {len(self._dtypes)} arguments, not {len(arguments)}")
         given = []

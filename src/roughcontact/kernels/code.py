@@ -59,12 +59,12 @@ class Code:
         Lanes: numbers of that precision in a register.
     """
 
-    def __init__(self, module: Any, kernel: KernelDefinition, precision: str) -> None:
+    def __init__(self, module: Any, kernel: KernelDefinition, precision: str, **known: Any) -> None:
         parameters = kernel.parameters(precision)
         kind = ir.FunctionType(ir.VoidType(), [p.llvm for p in parameters])
         self.precision, (self._real, size) = precision, ELEMENTS[precision]
         self.count = WIDTH // size
-        self.function = ir.Function(module, kind, f"{kernel.name}_{precision}")
+        self.function = ir.Function(module, kind, _name(kernel, precision, known))
         self._variables = ir.IRBuilder(self.function.append_basic_block("variables"))
         start = self.function.append_basic_block("start")
         self.builder = builder = ir.IRBuilder(start)
@@ -74,7 +74,7 @@ class Code:
                 values.append(Memory(value, builder, parameter.dtype, self.count))
             else:
                 values.append((Index if parameter.dtype == "int64" else Number)(value, builder))
-        kernel.body(self, *kernel.arguments(iter(values)))
+        kernel.body(self, *kernel.arguments(iter(values)), **known)
         self._variables.branch(start)
         builder.ret_void()
 
@@ -161,10 +161,10 @@ class Code:
         with self.builder.if_then(condition.value):
             yield
 
-    def call(self, other: KernelDefinition, *arguments: Any) -> None:
+    def call(self, other: KernelDefinition, *arguments: Any, **known: Any) -> None:
         """Call another kernel of this module and precision, which is written if it is not yet."""
-        module, name = self.function.module, f"{other.name}_{self.precision}"
-        function = module.globals.get(name) or Code(module, other, self.precision).function
+        module, name = self.function.module, _name(other, self.precision, known)
+        function = module.globals.get(name) or Code(module, other, self.precision, **known).function
         self.builder.call(function, [*_operands(arguments)])
 
     def across(self, number: Number, combine: Callable[[Number, Number], Number]) -> Number:
@@ -202,6 +202,10 @@ class Code:
 
     def _index(self, value: Index | int) -> Index:
         return value if isinstance(value, Index) else self.index(value)
+
+
+def _name(kernel: KernelDefinition, precision: str, known: dict[str, Any]) -> str:
+    return "_".join(map(str, (kernel.name, *known.values(), precision)))
 
 
 def _operands(arguments: tuple[Any, ...]) -> Iterator[Any]:

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import HALF
-from roughcontact.kernels.signature import Indices, KernelDefinition, Vector, kernel
+from roughcontact.kernels.signature import Indices, Vector, kernel
 from roughcontact.kernels.values import Index, Number, where
 
 RADICES = (4, 2, 3, 5, HALF)
@@ -79,6 +79,13 @@ class RealField(NamedTuple):
     nx: Index
 
 
+class Range(NamedTuple):
+    """The first, and the one after the last."""
+
+    begin: Index
+    end: Index
+
+
 class BlockedSpectrum(NamedTuple):
     """The numbers, and the rows that there is memory for: the leading dimension."""
 
@@ -119,43 +126,32 @@ def convolve(
     """
     blocks = along.length // code.count + 1
 
-    def some_rows(phase: int, transform: KernelDefinition, plane: Vector) -> None:
+    def some_rows(phase: int, field: Vector, *, inverse: bool) -> None:
+        plane = RealField(field, ny, nx)
         for part in code.shared(counters, phase, (ny + many - 1) // many):
-            end = (part * many + many).min(ny)
-            code.call(transform, plane, ny, nx, part * many, end, spectrum, along, pairs, scratch)
+            some = Range(part * many, (part * many + many).min(ny))
+            code.call(_rows, plane, some, spectrum, along, pairs, scratch, inverse=inverse)
 
-    some_rows(0, _rows, field)
+    some_rows(0, field, inverse=False)
     for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
-        end = (part * wide + wide).min(blocks)
-        code.call(_columns, spectrum, ny, part * wide, end, across, multiplier, scratch.reversed)
-    some_rows(2, _rows_back, answer)
+        some = Range(part * wide, (part * wide + wide).min(blocks))
+        code.call(_columns, spectrum, ny, some, across, multiplier, scratch.reversed)
+    some_rows(2, answer, inverse=True)
 
 
 @kernel
-def _forward(code: Code, x: Vector, plan: Plan) -> None:
-    """Plan columns of lanes, in place: there in order, in digit-reversed order when done."""
-    length = code.variable(plan.length)
+def _transform(code: Code, x: Vector, plan: Plan, *, inverse: bool) -> None:
+    """Transform columns of lanes, in place: from their order to the digit-reversed one; or back."""
+    length = code.variable(code.index(1) if inverse else plan.length)
     for k in code.range(0, plan.sweeps):
-        radix = plan.radices[k]
-        part = length.get() // where(radix.equals(HALF), code.index(4), radix)
+        digit = plan.radices[plan.sweeps - 1 - k if inverse else k]
+        radix = where(digit.equals(HALF), code.index(4), digit)
+        m = length.get() if inverse else length.get() // radix
+        whole = m * radix
         for r in RADICES:
-            with code.when(radix.equals(r)):
-                _sweep(code, x, plan, part, r, inverse=False)
-        length.set(part)
-
-
-@kernel
-def _inverse(code: Code, x: Vector, plan: Plan) -> None:
-    """Plan them back."""
-    length = code.variable(code.index(1))
-    for k in code.range(0, plan.sweeps):
-        radix = plan.radices[plan.sweeps - 1 - k]
-        part = length.get()
-        whole = part * where(radix.equals(HALF), code.index(4), radix)
-        for r in RADICES:
-            with code.when(radix.equals(r)):
-                _sweep(code, x, plan, part, r, inverse=True)
-        length.set(whole)
+            with code.when(digit.equals(r)):
+                _sweep(code, x, plan, m, r, inverse=inverse)
+        length.set(whole if inverse else m)
 
 
 def _sweep(code: Code, x: Vector, plan: Plan, m: Index, digit: int, *, inverse: bool) -> None:
@@ -214,42 +210,28 @@ def _half_butterfly(a: Sequence[Complex]) -> list[Complex]:
 def _rows(
     code: Code,
     plane: RealField,
-    begin: Index,
-    end: Index,
+    some: Range,
     spectrum: BlockedSpectrum,
     plan: Plan,
     pairs: Vector,
     scratch: Scratch,
+    *,
+    inverse: bool,
 ) -> None:
-    """Plan some rows of a plane into the spectrum."""
+    """Transform some rows of a plane into the spectrum; or back."""
     raw = scratch.reversed
     ordered = raw + scratch.offset
-    for y in code.range(begin, end, code.count):
-        _gather(code, plane, y, raw, plan.length)
-        code.call(_forward, raw, plan)
-        _split_pairs(code, raw, ordered, plan, pairs, inverse=False)
-        _transpose_blocks(code, spectrum, y, ordered, plan.length, back=False)
-
-
-@kernel
-def _rows_back(
-    code: Code,
-    plane: RealField,
-    begin: Index,
-    end: Index,
-    spectrum: BlockedSpectrum,
-    plan: Plan,
-    pairs: Vector,
-    scratch: Scratch,
-) -> None:
-    """Plan some rows of the spectrum back into a plane."""
-    raw = scratch.reversed
-    ordered = raw + scratch.offset
-    for y in code.range(begin, end, code.count):
-        _transpose_blocks(code, spectrum, y, ordered, plan.length, back=True)
-        _split_pairs(code, ordered, raw, plan, pairs, inverse=True)
-        code.call(_inverse, raw, plan)
-        _scatter(code, raw, plane, y)
+    for y in code.range(some.begin, some.end, code.count):
+        if inverse:
+            _transpose_blocks(code, spectrum, y, ordered, plan.length, back=True)
+            _split_pairs(code, ordered, raw, plan, pairs, inverse=True)
+            code.call(_transform, raw, plan, inverse=True)
+            _scatter(code, raw, plane, y)
+        else:
+            _gather(code, plane, y, raw, plan.length)
+            code.call(_transform, raw, plan, inverse=False)
+            _split_pairs(code, raw, ordered, plan, pairs, inverse=False)
+            _transpose_blocks(code, spectrum, y, ordered, plan.length, back=False)
 
 
 def _split_pairs(
@@ -291,8 +273,7 @@ def _columns(
     code: Code,
     spectrum: BlockedSpectrum,
     ny: Index,
-    begin: Index,
-    end: Index,
+    some: Range,
     plan: Plan,
     multiplier: Vector,
     work: Vector,
@@ -302,7 +283,7 @@ def _columns(
     The multiplier lies block by block, and `work` has memory for one block.
     """
     my, lanes = plan.length, code.count
-    for b in code.range(begin, end):
+    for b in code.range(some.begin, some.end):
         part = spectrum.numbers + b * spectrum.rows * (2 * lanes)
         own = multiplier + b * (my // 2 + 1) * lanes
         # What is not padded is worked on where it lies.
@@ -312,12 +293,12 @@ def _columns(
             block[(i * lanes).lanes] = part[(i * lanes).lanes]
         for i in code.range(ny * 2, my * 2):
             block[(i * lanes).lanes] = 0.0
-        code.call(_forward, block, plan)
+        code.call(_transform, block, plan, inverse=False)
         for i in code.range(0, my):
             factor = own[(plan.order[i] * lanes).lanes]
             for k in (i * (2 * lanes), i * (2 * lanes) + lanes):
                 block[k.lanes] = block[k.lanes] * factor
-        code.call(_inverse, block, plan)
+        code.call(_transform, block, plan, inverse=True)
         for i in code.range(0, copied * 2):
             part[(i * lanes).lanes] = block[(i * lanes).lanes]
 

@@ -105,7 +105,8 @@ def _kernels(family: str) -> Mapping[str, KernelDefinition]:
     """Return the kernels of a module, by name."""
     from roughcontact.kernels.signature import KernelDefinition
 
-    return {k.name: k for k in vars(_families()[family]).values() if isinstance(k, KernelDefinition)}
+    found = [k for k in vars(_families()[family]).values() if isinstance(k, KernelDefinition)]
+    return {kernel.name: kernel for kernel in found if not kernel.name.startswith("_")}
 
 
 @cache
@@ -137,9 +138,8 @@ def _translated(kernels: Mapping[str, KernelDefinition], precision: str) -> byte
     from roughcontact.kernels.code import Code
 
     written = ir.Module()
-    for name, kernel in kernels.items():
-        if f"{name}_{precision}" not in written.globals:  # it was called by another
-            Code(written, kernel, precision)
+    for kernel in kernels.values():
+        Code(written, kernel, precision)
     module = binding.parse_assembly(str(written))
     module.triple, module.data_layout = _target().triple, str(_target().target_data)
     options = binding.create_pipeline_tuning_options(speed_level=0)

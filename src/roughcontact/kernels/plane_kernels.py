@@ -6,6 +6,7 @@ Fields are a pressure p, the displacement u that it causes, and the separation s
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import NEVER
@@ -14,43 +15,42 @@ from roughcontact.kernels.totals import Totals
 from roughcontact.kernels.values import Index, maximum, where
 
 
+class Fields(NamedTuple):
+    """A pressure, the displacement that it causes, and the separation."""
+
+    p: Doubles
+    u: Doubles
+    s: Doubles
+
+
 @kernel
-def extremes(code: Code, n: Index, p: Doubles, u: Doubles, s: Doubles, totals: Doubles) -> None:
+def extremes(code: Code, n: Index, fields: Fields, totals: Doubles) -> None:
     """Leave the largest level where p > 0, -level, abs(u), p, -p, -p where p > 0, and -level elsewhere.
 
     Then the sum of the levels where p > 0, how many these are, and zero: or NaN where some p or u is no finite number.
     """
     found = Totals(code, 3, 7, compensated=True)
     for i in code.each(n):
-        pressure, displacement = p[i], u[i]
-        level, positive = displacement + s[i], pressure > 0.0
+        p, u = fields.p[i], fields.u[i]
+        level, positive = u + fields.s[i], p > 0.0
         found.add(
             where(positive, level, -math.inf),
             -level,
-            abs(displacement),
-            pressure,
-            -pressure,
-            where(positive, -pressure, -math.inf),
+            abs(u),
+            p,
+            -p,
+            where(positive, -p, -math.inf),
             where(~positive, -level, -math.inf),
             where(positive, level, 0.0),
-            where(positive, pressure.filled(1.0), 0.0),
-            (pressure - pressure) + (displacement - displacement),
+            where(positive, p.filled(1.0), 0.0),
+            (p - p) + (u - u),
         )
     found.store(totals)
 
 
 @kernel
 def predict_active(
-    code: Code,
-    n: Index,
-    p: Doubles,
-    u: Doubles,
-    s: Doubles,
-    depth: Double,
-    least: Double,
-    own: Double,
-    active: Flags,
-    totals: Doubles,
+    code: Code, n: Index, f: Fields, depth: Double, least: Double, own: Double, active: Flags, totals: Doubles
 ) -> None:
     """Mark where p > 0 or the gap ``u + s - depth < least``, but not where ``own max(p, 0) < gap``.
 
@@ -58,14 +58,12 @@ def predict_active(
     """
     found = Totals(code, 2, compensated=True)
     for i in code.each(n):
-        pressure = p[i]
-        gap = u[i] + s[i] - depth
-        # Nothing times infinity is NaN, and not below.
-        pulls = maximum(pressure, pressure.filled(0.0)) * own < gap
-        candidate = (pressure > 0.0) | (gap < least)
+        p = f.p[i]
+        gap, one = f.u[i] + f.s[i] - depth, p.filled(1.0)
+        pulls = maximum(p, p.filled(0.0)) * own < gap  # nothing times infinity is NaN, and not below
+        candidate = (p > 0.0) | (gap < least)
         stays = candidate & ~pulls
         active[i] = stays
-        one = pressure.filled(1.0)
         found.add(where(stays, one, 0.0), where(candidate & pulls, one, 0.0))
     found.store(totals)
 
@@ -89,21 +87,19 @@ def level_range(code: Code, n: Index, s: Doubles, u: Doubles, m: Flags, totals: 
 def scale_down(
     code: Code,
     n: Index,
-    s: Doubles,
-    u: Doubles,
-    p: Doubles,
-    active: Flags,
+    f: Fields,
     depth: Double,
-    scale: Double,
+    a: Double,
+    active: Flags,
     m: Vector,
     r: Vector,
     base: Vector,
 ) -> None:
-    """``m := 1`` where active, else 0; ``r := scale (depth - s - u)``, at least NEVER; ``base := scale p``."""
+    """``m := 1`` where active, else 0; ``r := a (depth - s - u)``, at least NEVER; ``base := a p``."""
     for i in code.each(n):
-        residual = (depth - (s[i] + u[i])) * scale
+        residual = (depth - (f.s[i] + f.u[i])) * a
         r[i] = maximum(residual, residual.filled(NEVER))
-        base[i] = p[i] * scale
+        base[i] = f.p[i] * a
         m[i] = where(active[i], residual.filled(1.0), 0.0)
 
 

@@ -74,7 +74,8 @@ class KernelDefinition:
     ----------
     body : function
         Takes the `Code` to write to, then its parameters. Each is annotated by `Index` or one of the types above, or by
-        a NamedTuple of such, which stands for its fields one after the other.
+        a NamedTuple of such, which stands for its fields one after the other. What it takes by keyword alone is known
+        when it is written, by another kernel that calls it. One whose name begins with an underscore is for others.
     """
 
     body: Callable[..., None]
@@ -99,8 +100,9 @@ class KernelDefinition:
         return [_built(annotation, values) for annotation in self._annotations()]
 
     def _annotations(self) -> list[Any]:
-        _, *annotations = _hints(self.body)
-        return annotations
+        code = self.body.__code__
+        hints = get_type_hints(self.body, include_extras=True)
+        return [hints[name] for name in code.co_varnames[1 : code.co_argcount]]
 
 
 def kernel(body: Callable[..., None]) -> KernelDefinition:
@@ -108,22 +110,21 @@ def kernel(body: Callable[..., None]) -> KernelDefinition:
     return KernelDefinition(body)
 
 
-def _hints(annotated: Any) -> list[Any]:
-    hints = get_type_hints(annotated, include_extras=True)
-    return [hint for name, hint in hints.items() if name != "return"]
-
-
 def _flattened(annotation: Any) -> Iterator[Parameter]:
     if annotation in _PARAMETERS:
         yield _PARAMETERS[annotation]
     elif isinstance(annotation, type) and issubclass(annotation, tuple):
-        for field in _hints(annotation):
+        for field in _fields(annotation):
             yield from _flattened(field)
     else:
         raise TypeError(f"{annotation} is no type of a kernel's parameter")
 
 
+def _fields(annotation: Any) -> list[Any]:
+    return list(get_type_hints(annotation, include_extras=True).values())
+
+
 def _built(annotation: Any, values: Iterator[Any]) -> Any:
     if annotation in _PARAMETERS:
         return next(values)
-    return annotation(*(_built(field, values) for field in _hints(annotation)))
+    return annotation(*(_built(field, values) for field in _fields(annotation)))

@@ -11,7 +11,14 @@ from types import MappingProxyType
 
 from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["VARIABLES", "Variable", "unit_of"]
+__all__ = ["CURVE_POINTS", "CURVE_SCALES", "VARIABLES", "Variable", "unit_of"]
+
+# What a curve takes over from each state, and what it is measured by.
+CURVE_POINTS = (
+    *("force", "depth", "stiffness", "interfacial_stiffness"),
+    *("contact_area", "mean_gap", "elastic_energy"),
+)
+CURVE_SCALES = ("modulus", "rms", "full_contact_stiffness", "cell_stiffness", "nominal_area")
 
 
 @dataclass(frozen=True, slots=True)

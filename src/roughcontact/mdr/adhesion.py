@@ -1,12 +1,12 @@
 r"""Adhesive contact of a body of revolution in the limit of Johnson, Kendall and Roberts (1971), by Hess' rule.
 
-The outermost springs of the foundation let go at the elongation l(a) = sqrt(2 pi a w/E*) (Hess, Über die exakte
+The outermost springs of the foundation separate at the elongation l(a) = sqrt(2 pi a w/E*) (Hess, Über die exakte
 Abbildung ausgewählter dreidimensionaler Kontakte, 2011; Popov & Hess, Method of Dimensionality Reduction, 2015),
 so that every radius a has one equilibrium:
 
     d(a) = g(a) - l(a)          F(a) = 2 E* (a d(a) - \int_0^a g dx)
 
-For the paraboloid this is the theory of Johnson, Kendall and Roberts to the letter. The contact is taken for one
+For the paraboloid this is exactly the theory of Johnson, Kendall and Roberts. The contact is taken for one
 disc, under tension inside if need be: on a body whose transform falls somewhere that means that it was pressed
 together before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
 """
@@ -29,7 +29,7 @@ from roughcontact.validation import Array, numeric, scalar
 
 __all__ = ["Adhesion", "Control", "PullOff", "jkr"]
 
-SPAN = (1e-15, 1e6)  # contact radii of a body without end that are looked at [m]
+SPAN = (1e-15, 1e6)  # contact radii searched on a body without end [m]
 PER_DECADE = 200
 
 
@@ -208,7 +208,7 @@ class Adhesion:
             If the contact would spread without limit, or snaps off from where the body is not known.
         """
         control = Control(self, machine_stiffness)
-        a, level = control.turns()
+        a, level = control.extrema()
         lowest = int(level.argmin())
         if lowest == len(a) - 1 and not self.profile.edge:
             raise ValueError(
@@ -283,8 +283,8 @@ class Control:
             return force(radius)
         return depth(radius) + (self.compliance * force(radius) if self.compliance else 0.0)
 
-    def turns(self) -> tuple[Array, Array]:
-        """Return the radii at which c turns [m], from 0 to the end of the body, and c there.
+    def extrema(self) -> tuple[Array, Array]:
+        """Return the radii at which c has an extremum [m], from 0 to the end of the body, and c there.
 
         Returns
         -------

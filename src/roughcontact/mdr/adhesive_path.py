@@ -42,7 +42,7 @@ class AdhesivePath:
 
     @property
     def released(self) -> npt.NDArray[np.bool_]:
-        """Whether the body is off after it had been on, shape (n,): where it has let go."""
+        """Whether the body is off after it had been on, shape (n,): where it has separated."""
         on = self.contact_radius > 0
         return np.logical_or.accumulate(on) & ~on
 
@@ -103,7 +103,7 @@ def adhesive_path(
         raise ValueError(f"a history is a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():
         raise ValueError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
-    track = _Track(control, *control.turns())
+    track = _Track(control, *control.extrema())
     radius, lost = 0.0, 0.0
     states = []
     for c in history.tolist():
@@ -131,10 +131,10 @@ def _state(control: Control, a: float, c: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Track:
-    """The pieces between the `turns` of c(a), on each of which it only rises or only falls."""
+    """The pieces between the `extrema` of c(a), on each of which it only rises or only falls."""
 
     control: Control
-    turns: Array
+    extrema: Array
     levels: Array
 
     def move(self, a: float, c: float) -> tuple[float, float]:
@@ -148,11 +148,11 @@ class _Track:
 
     def _out(self, a: float, level: float, c: float) -> tuple[float, float]:
         loss = 0.0
-        for index in range(int(np.searchsorted(self.turns, a, side="right")), len(self.turns)):
-            end, there = float(self.turns[index]), float(self.levels[index])
+        for index in range(int(np.searchsorted(self.extrema, a, side="right")), len(self.extrema)):
+            end, there = float(self.extrema[index]), float(self.levels[index])
             if there < level:
                 continue
-            start = float(self.turns[index - 1])
+            start = float(self.extrema[index - 1])
             if start > a:  # the equilibria between lie lower: a snap to where they are as high again
                 landing = self._cross(start, end, level)
                 loss += self._energy(a, level) - self._energy(landing, level)
@@ -160,7 +160,7 @@ class _Track:
             if there >= c:
                 return self._cross(a, end, c), loss
             a, level = end, there
-        last = float(self.turns[-1])
+        last = float(self.extrema[-1])
         if not self.control.adhesion.profile.edge:
             raise ValueError(f"the contact spreads beyond {last:g} m, where the body is not known")
         if a < last:
@@ -169,11 +169,11 @@ class _Track:
 
     def _in(self, a: float, level: float, c: float) -> tuple[float, float]:
         loss = 0.0
-        for index in range(int(np.searchsorted(self.turns, a)) - 1, -1, -1):
-            start, there = float(self.turns[index]), float(self.levels[index])
+        for index in range(int(np.searchsorted(self.extrema, a)) - 1, -1, -1):
+            start, there = float(self.extrema[index]), float(self.levels[index])
             if there > level:
                 continue
-            end = float(self.turns[index + 1])
+            end = float(self.extrema[index + 1])
             if end < a:
                 landing = self._cross(start, end, level)
                 loss += self._energy(a, level) - self._energy(landing, level)

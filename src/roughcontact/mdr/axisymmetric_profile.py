@@ -22,7 +22,7 @@ class Term(Protocol):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Radii beside which the term is not smooth, or within which it turns [m]."""
+        """Radii beside which the term is not smooth, or between which it is monotone [m]."""
 
     @property
     def rises(self) -> bool:
@@ -103,7 +103,7 @@ class Profile:
         return sum((c * term.primitive(x) for c, term in self.terms), np.zeros_like(x))
 
     def cut(self, radius: float) -> Profile:
-        """Return the body turned down to a `radius` [m]: what lies beyond is gone, and a sharp edge left.
+        """Return the body cut off at a `radius` [m], where it ends in a sharp edge.
 
         Raises
         ------
@@ -148,7 +148,7 @@ class Profile:
 
 
 def checked_profile(profile: Profile) -> Profile:
-    """Return a body of revolution, or say that this is none."""
+    """Return a body of revolution, or refuse anything else."""
     if not isinstance(profile, Profile):
         raise ValueError(
             f"a body of revolution is wanted, such as indenter.paraboloid(radius), not {shown(profile)}"
@@ -157,7 +157,7 @@ def checked_profile(profile: Profile) -> Profile:
 
 
 def checked_radii(radii: float | Array) -> Array:
-    """Return radii [m] as an array, or say which of them is negative or missing."""
+    """Return radii [m] as an array, or refuse negative and missing ones."""
     r = np.asarray(number(radii, "radii [m]"))
     require(r >= 0, "radii must not be negative or missing [m]", r)
     return r

@@ -45,7 +45,7 @@ def calibrated_lambda(
     Notes
     -----
     Prefactors enter with the power 2/alpha: 5 % in one of them are 20 % in lambda at H = 1. A fit that is free to
-    choose alpha, or that looks at another window, has another prefactor: take `matched_lambda` of measured curves.
+    choose alpha, or that uses another window, has another prefactor: take `matched_lambda` of measured curves.
     For a single wave (H to infinity) the prefactors are ``(3/(sqrt(2) pi^2))^(1/3)`` and ``(6/(4 pi^2))^(1/3)``, and
     lambda is 4: the line's crest has half the radius of the surface's, as in the contact of a sphere.
 

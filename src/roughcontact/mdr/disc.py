@@ -1,4 +1,4 @@
-"""The contact of a body whose transform falls somewhere: one disc, or none that the method knows.
+"""The contact of a body whose transform falls somewhere: one disc, or not a contact that the method can find.
 
 A transform that never falls means a disc at every load. One that falls means that at some load the contact is no
 disc; under a larger one it may be. The solution at a load is unique, so a disc with no tension inside and no
@@ -19,13 +19,13 @@ from roughcontact.validation import Array
 
 __all__ = ["disc_radius", "sample_radii"]
 
-SAMPLES = 2000  # radii at which a body that may turn is looked at
+SAMPLES = 2000  # radii at which a transform that may fall is sampled
 PROBES = 128  # radii at which a disc is checked, inside and outside
 TOLERANCE = 1e-9  # of tension against the largest pressure, and of overlap against the depth
 
 
 def sample_radii(profile: Profile, end: float) -> Array:
-    """Return radii that see every turn of a transform up to `end` [m]."""
+    """Return radii that resolve every extremum of a transform up to `end` [m]."""
     breaks = np.array([b for b in profile.breaks if b < end])
     around = np.concatenate([breaks * (1 - 1e-9), breaks, breaks * (1 + 1e-9)])
     return np.unique(

@@ -58,12 +58,12 @@ class LineSpectrum:
 
     @property
     def q_min(self) -> float:
-        """Smallest wavenumber [rad/m]; 0 if the surface names none."""
+        """Smallest wavenumber [rad/m]; 0 if the surface has no long cut-off."""
         return float(getattr(self.surface, "q_min", 0.0))
 
     @property
     def q_max(self) -> float:
-        """Largest wavenumber [rad/m]; infinite if the surface names none."""
+        """Largest wavenumber [rad/m]; infinite if the surface has no short cut-off."""
         return float(getattr(self.surface, "q_max", math.inf))
 
     def __call__(self, wavenumber: Array) -> Array:
@@ -84,7 +84,7 @@ class LineSpectrum:
         Raises
         ------
         AttributeError
-            If the spectrum of the surface knows no moments.
+            If the spectrum of the surface has no moments.
         """
         surface: Any = self.surface
         moments, part = surface.moments(), self.factor / math.pi

@@ -1,4 +1,4 @@
-"""The Winkler foundation on which the method of dimensionality reduction presses its lines."""
+"""The Winkler foundation, independent springs, on which the method of dimensionality reduction presses its lines."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Cells = npt.NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True)
 class Foundation:
-    """A Winkler foundation: independent springs of stiffness E* times their width (thesis, eq. A.60).
+    """Springs of stiffness E* times their width, which are independent of each other (thesis, eq. A.60).
 
     Its pressure is a force per length [N/m]: E* times the depth to which a spring is pressed.
 

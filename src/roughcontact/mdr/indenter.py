@@ -16,7 +16,7 @@ from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.mdr.transform_tables import from_function, from_samples, from_two_functions
 from roughcontact.theory import rough_sphere
-from roughcontact.validation import Array, numeric, positive_scalar, scalar
+from roughcontact.validation import Array, finite, numeric, positive, positive_scalar, scalar
 
 __all__ = [
     "cone",
@@ -61,13 +61,12 @@ def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Prof
     --------
     >>> from roughcontact.mdr import indenter
     >>> body = indenter.power_law(2.0, 50.0)  # r^2/(2R), R = 1 cm
-    >>> round(float(body.transform(1e-3) / body.height(1e-3)), 6)  # kappa(2) = 2
+    >>> round(float(body.transform(1e-3) / body.height(1e-3)), 6)
     2.0
     """
-    _positive(exponent=exponent, coefficient=coefficient)
-    scalar(flat, "radius of a flat face")
-    if not (math.isfinite(flat) and flat >= 0):
-        raise ValueError(f"the radius of a flat face must be 0 or above [m], not {flat}")
+    positive_scalar(exponent, "exponent")
+    positive_scalar(coefficient, "coefficient")
+    positive(scalar(flat, "radius of a flat face"), "radius of a flat face", zero=True)
     return Profile(((1.0, PowerTerm(float(exponent), float(coefficient), float(flat))),))
 
 
@@ -95,7 +94,7 @@ def cone(slope: float, *, flat: float = 0.0) -> Profile:
     >>> round(float(body.transform(1e-3) / body.height(1e-3)) / (math.pi / 2), 6)
     1.0
     """
-    _positive(slope=slope)
+    positive_scalar(slope, "slope")
     return power_law(1.0, slope, flat=flat)
 
 
@@ -119,7 +118,7 @@ def paraboloid(radius: float, *, flat: float = 0.0) -> Profile:
     >>> round(float(indenter.paraboloid(1e-2).height(1e-4)) * 1e6, 6)  # r^2/(2R) [um]
     0.5
     """
-    _positive(radius=radius)
+    positive_scalar(radius, "radius")
     return power_law(2.0, 1 / (2 * radius), flat=flat)
 
 
@@ -141,7 +140,7 @@ def sphere(radius: float) -> Profile:
     >>> round(float(indenter.sphere(1e-2).height(1e-2)), 6)  # at the equator R
     0.01
     """
-    _positive(radius=radius)
+    positive_scalar(radius, "radius")
     return Profile(((1.0, SphereTerm(float(radius))),), float(radius))
 
 
@@ -164,7 +163,7 @@ def flat_punch(radius: float) -> Profile:
     >>> round(punch.force / (2 * 1e11 * 1e-3 * 1e-6), 6)  # F = 2 E* a d
     1.0
     """
-    _positive(radius=radius)
+    positive_scalar(radius, "radius")
     return Profile((), float(radius), edge=True)
 
 
@@ -189,7 +188,8 @@ def rounded_cone(slope: float, radius: float) -> Profile:
     >>> round(float(body.height(1e-4)) * 1e6, 6), round(float(body.height(2e-4)) * 1e6, 6)  # [um]
     (5.0, 15.0)
     """
-    _positive(slope=slope, radius=radius)
+    positive_scalar(slope, "slope")
+    positive_scalar(radius, "radius")
     joint = slope * radius
     body = paraboloid(radius) - paraboloid(radius, flat=joint) + cone(slope, flat=joint)
     # A slope that does not fall makes a transform that does not fall.
@@ -211,15 +211,12 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     Returns
     -------
     Profile
+        To 1e-14 of its values near the axis, and to the rounding of k r far out.
 
     Raises
     ------
     ValueError
         If a number is out of range, or the waves are too many.
-
-    Notes
-    -----
-    Tables of height and transform, to 1e-14 of their values near the axis and to the rounding of k r far out.
 
     Examples
     --------
@@ -228,16 +225,16 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     >>> round(float(rings.height(0.5e-3)) * 1e6, 6)  # 2A between two crests [um]
     2.0
     """
-    _positive(wavelength=wavelength, radius=radius)
+    positive_scalar(wavelength, "wavelength")
+    positive_scalar(radius, "radius")
     if radius > MOST_WAVES * wavelength:
         raise ValueError(
             f"{radius / wavelength:.4g} waves within the radius of {radius:g} m are more than the {MOST_WAVES} of a "
             "table: take less of the body, or a longer wavelength"
         )
-    if not math.isfinite(scalar(amplitude, "amplitude")):
-        raise ValueError(f"the amplitude of ripples must be finite [m], not {amplitude}")
+    finite(scalar(amplitude, "amplitude"), "amplitude")
     k = 2 * math.pi / wavelength
-    # The transform turns between any two quarters of a wavelength.
+    # The transform has an extremum between any two quarters of a wavelength.
     quarters = tuple(wavelength / 4 * n for n in range(1, math.ceil(4 * radius / wavelength)))
     return from_two_functions(
         lambda r: 2 * amplitude * np.sin(k * r / 2) ** 2,
@@ -253,7 +250,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
 def equivalent_roughness(
     hurst: float, *, rms: float, length: float, prefactor: float | None = None
 ) -> Profile:
-    """Return the power law that is pressed in like self-affine roughness on the average (thesis, eqs 5.5-5.6).
+    """Return the power law that is pressed in like self-affine roughness on average (thesis, eqs 5.5-5.6).
 
     Added to any body of revolution it gives that body's rough contact, as 5.7-5.9 do for the sphere.
 
@@ -291,7 +288,7 @@ def of(height: Callable[[Array], Array], radius: float) -> Profile:
     Parameters
     ----------
     height : callable
-        f(r) [m] of an array of radii [m] (``np.cosh``, not ``math.cosh``). What it is at 0 is taken off. Kinks are
+        f(r) [m] of an array of radii [m] (``np.cosh``, not ``math.cosh``). Its value at 0 is subtracted. Kinks are
         found; derivatives are not needed.
     radius : float
         How far the body is known [m]. A load whose contact comes as far is refused; `Profile.cut` makes an edge.
@@ -349,7 +346,7 @@ def sampled(r: Array, height: Array, *, sharp: bool = False) -> Profile:
     r : array, shape (n,)
         Radii, increasing from 0 [m]; the body is known up to the last.
     height : array, shape (n,)
-        f(r) [m]. The first is taken off.
+        f(r) [m]. The first is subtracted.
     sharp : bool
         Whether the body may have a tip. Otherwise its slope is zero on the axis.
 
@@ -383,7 +380,7 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
     x : array, shape (n,)
         Places, increasing from 0 [m]; the body is known up to the last.
     transform : array, shape (n,)
-        g(x) [m]. The first is taken off.
+        g(x) [m]. The first is subtracted.
     sharp : bool
         Whether the body may have a tip. Otherwise its slope is zero on the axis.
 
@@ -401,8 +398,3 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
     1.0
     """
     return from_samples(x, transform, sharp=sharp, transformed=True)
-
-
-def _positive(**values: float) -> None:
-    for name, value in values.items():
-        positive_scalar(value, name)

@@ -129,7 +129,7 @@ def transfer(
     ordered(t, load)
     if (load < 0).any():
         raise ValueError(f"loads must not be negative, but the least is {load.min():g}")
-    table = _Table.of(curve)
+    table = _CurveTable.of(curve)
     if forces is None:
         _growing(t, load, "depth")
         phi = table.look_up(table.depth, table.force, load, "depth") / curve.modulus
@@ -202,7 +202,7 @@ def _growing(t: Array, value: Array, what: str) -> None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Table:
+class _CurveTable:
     """Points of an elastic curve, all positive and increasing."""
 
     force: Array
@@ -210,7 +210,7 @@ class _Table:
     area: Array
 
     @classmethod
-    def of(cls, curve: ElasticCurve) -> _Table:
+    def of(cls, curve: ElasticCurve) -> _CurveTable:
         columns = np.array([curve.force, curve.depth, curve.contact_area])
         columns = columns[:, (columns > 0).all(axis=0)]
         if columns.shape[1] < 2 or (np.diff(columns[:2], axis=1) <= 0).any():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -80,21 +80,15 @@ class LineCurves:
         first = batches[0]
         common = "force" if first.force.ndim == 1 else "depth"
         for other in batches[1:]:
-            same = (other.modulus, other.spacing, other.points) == (
-                first.modulus,
-                first.spacing,
-                first.points,
+            same = all(
+                getattr(other, name) == getattr(first, name) for name in ("modulus", "spacing", "points")
             )
             if not (same and np.array_equal(getattr(other, common), getattr(first, common))):
                 raise ValueError("curves are joined that have the same loads, modulus, spacing and points")
-        return replace(
-            first,
-            force=first.force if common == "force" else np.concatenate([b.force for b in batches]),
-            depth=first.depth if common == "depth" else np.concatenate([b.depth for b in batches]),
-            springs=np.concatenate([b.springs for b in batches]),
-            elastic_energy=np.concatenate([b.elastic_energy for b in batches]),
-            rms=np.concatenate([b.rms for b in batches]),
-        )
+        found = "depth" if common == "force" else "force"
+        names = (found, "springs", "elastic_energy", "rms")
+        joined: dict[str, Any] = {name: np.concatenate([getattr(b, name) for b in batches]) for name in names}
+        return replace(first, **joined)
 
     @property
     def contact_length(self) -> Array:

@@ -44,7 +44,7 @@ def scan_spectrum(
     Parameters
     ----------
     scan : Surface
-        On a grid of one axis, without missing points; level it first if its tilt is no roughness.
+        On a grid of one axis, without missing points; remove its tilt first (least squares) if it is not roughness.
     factor : float
         lambda, see `line_spectrum`.
     method : {"law", "abel"}
@@ -57,7 +57,7 @@ def scan_spectrum(
         The band that counts [rad/m]. By default every wave of the scan: those of the scan's length too, whose powers
         are little known, but which make most of the height of a rough line.
     per_decade : float
-        Bins to a factor of ten in wavenumber. A single scan knows each of its waves to 100 % only.
+        Bins to a factor of ten in wavenumber. The power of each wave of a single scan has a standard error of 100 %.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def scan_spectrum(
     Notes
     -----
     Assumed is that the surface is isotropic and statistically the same everywhere, so that one scan speaks for all
-    directions and places; that its phases are random, so that the spectrum says all; and that the instrument
+    directions and places; that its phases are random, so that the spectrum describes it; and that the instrument
     follows the surface up to `q_max`.
 
     Examples

@@ -56,7 +56,7 @@ def loading_curves(
 
     Notes
     -----
-    Springs know nothing of each other, so that each line is sorted once. With heights ``h_1 >= h_2 >= ...`` spring
+    Springs are independent of each other, so that each line is sorted once. With heights ``h_1 >= h_2 >= ...`` spring
     j + 1 is touched at the depth ``D_j = h_1 - h_(j+1)``, where the force is ``Phi_j = E* spacing sum_(i<=j) i
     (h_i - h_(i+1))``; between two such points the curve is straight. Every sum is one of positive terms: nothing
     cancels, and forces stay in order where heights are equal. A spring counts as in contact if it carries load.
@@ -171,7 +171,7 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
 
 
 def checked_lines(heights: Array) -> Array:
-    """Return heights as rows of lines, or say why they are none.
+    """Return heights as rows of lines, or refuse what is not heights.
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ def checked_lines(heights: Array) -> Array:
     if not np.isfinite(lines).all():
         raise ValueError(
             f"{int((~np.isfinite(lines)).sum())} heights are missing or infinite: springs are independent, so leave "
-            "out the points of a line that hold none"
+            "out the points of a line that have no height"
         )
     return lines
 

@@ -49,7 +49,7 @@ class SlidingCurves:
 
     @property
     def dissipated_power(self) -> Array:
-        """Power that the dampers turn into heat [W], friction force times speed, shape (lines, speeds)."""
+        """Power that the dampers dissipate [W], friction force times speed, shape (lines, speeds)."""
         return self.friction_force * self.speed
 
 
@@ -63,7 +63,7 @@ def sliding_friction(
     force: float,
     speeds: Sequence[float] | Array,
 ) -> SlidingCurves:
-    """Return the friction of rigid rough lines that slide over a foundation of Kelvin and Voigt's springs.
+    """Return the friction of rigid rough lines that slide over a Winkler foundation of Kelvin-Voigt springs.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def sliding_friction(
     Notes
     -----
     The model of Li, Popov, Dimaki, Filippov, Kürschner and Popov, Phys. Rev. Lett. 111, 034301 (2013). Springs do
-    not adhere: one lets go when its force has fallen to zero, and relaxes until the line meets it again. There
+    not adhere: one separates when its force has fallen to zero, and relaxes until the line meets it again. There
     is no friction but that of the dampers. It grows with the speed at first, reaches a plateau of the order of the
     rms slope where springs touch rising flanks only, and falls at last to the slope in front of the highest
     point, the only one that still touches: that end belongs to the grid.

@@ -1,4 +1,4 @@
-"""The steady state of Kelvin and Voigt's springs under a line that slides over them at a given depth."""
+"""The steady state of Kelvin-Voigt springs under a line that slides over them at a given depth."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def sliding_state(separation: Array, spacing: float, relaxation_length: float, d
 
 
 def _peaks(w: Array, slope: Array, spacing: float, length: float) -> Array:
-    """Return where in each stretch ``ln w + x/l`` is largest [m]: where a spring may let go."""
+    """Return where in each stretch ``ln w + x/l`` is largest [m]: where a spring may separate."""
     falling = slope < 0
     peak = np.full(w.shape, float(spacing))
     # Force w + l w' = 0 on a falling flank.

@@ -2,7 +2,7 @@
 
 Each spring of the foundation holds until its tangential force is mu times its normal one, and slips then (Popov & Hess,
 Method of Dimensionality Reduction, 2015, chapter 5). Under a constant normal force that is what the theory of Cattaneo
-and Mindlin says of every history; under a changing one it follows the increments of Mindlin & Deresiewicz (1953).
+and Mindlin predicts for every history; under a changing one it follows the increments of Mindlin & Deresiewicz (1953).
 """
 
 from __future__ import annotations

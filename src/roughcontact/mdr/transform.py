@@ -38,7 +38,7 @@ def _matched(function: Function, source: Panels) -> Panels:
     """Return the function as panels of its own; on coarse panels, those of samples, on theirs."""
     nodes = source.coefficients.shape[1]
     if nodes < NEAR // 2:
-        # The cubics know no more about the body than their knots; finer panels would only repeat their jumps.
+        # The cubics hold no more than their knots; finer panels would only repeat their jumps.
         return interpolate(function, source.edges, nodes + 3)
     return fit(function, float(source.edges[-1]), tolerance=TRANSFORMED)
 

@@ -294,7 +294,7 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
 
 
 def checked_material(material: Viscoelastic) -> Viscoelastic:
-    """Return a viscoelastic material, or say that this is none.
+    """Return a viscoelastic material, or refuse anything else.
 
     Parameters
     ----------
@@ -328,6 +328,17 @@ def ordered(times: Array, loads: Array) -> None:
         Times [s].
     loads : array, shape (n,)
         Loads at these times.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, or a time is before the one before it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import viscoelastic
+    >>> viscoelastic.ordered(np.array([0.0, 1.0]), np.array([2.0, 3.0]))
     """
     for name, values in (("times", times), ("loads", loads)):
         wrong = values[~np.isfinite(values)]

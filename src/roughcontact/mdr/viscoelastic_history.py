@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -194,23 +195,18 @@ def _step(
     """Return the springs as functions of the depth at which the force is met: there, and at the end of the step."""
     dashpot = foundation.material.dashpot > 0
     if duration == 0:
-        if dashpot:
-            return None  # a sudden force moves a dashpot only with time
-
-        def jump(depth: float) -> Springs:
-            return foundation.jump(state, depth)
-
-        return jump, jump
-    if dashpot:
-        return (
-            lambda depth: foundation.move(state, (at, depth), duration / 2),
-            lambda depth: foundation.move(state, (at, at + 2 * (depth - at)), duration),
-        )
+        # A sudden force moves a dashpot only with time.
+        return None if dashpot else (partial(foundation.jump, state),) * 2
 
     def move(depth: float) -> Springs:
         return foundation.move(state, (at, depth), duration)
 
-    return move, move
+    if not dashpot:
+        return move, move
+    return (
+        lambda depth: foundation.move(state, (at, depth), duration / 2),
+        lambda depth: move(at + 2 * (depth - at)),
+    )
 
 
 def _depth(force: Callable[[float], float], goal: float, start: float, scale: float) -> float:

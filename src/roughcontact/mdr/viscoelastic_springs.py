@@ -87,7 +87,7 @@ class ViscoelasticFoundation:
             on = springs.on & (body >= place - rounding)
         else:
             pressed = springs.on | (body > place)
-            # A spring that would pull goes back to where its stress is zero, and lets go.
+            # A spring under tension goes back to where its stress is zero, and separates.
             free = -self._static(place, elements) / m.instantaneous
             on = pressed & (body - place > free)
             stretch = np.where(on, body - place, np.where(springs.on, free, 0.0))
@@ -98,7 +98,7 @@ class ViscoelasticFoundation:
         """Return the springs after the depth went evenly from the first to the second value [m] in a time [s]."""
         start, speed = depth[0] - self.transform, (depth[1] - depth[0]) / duration
         place, elements = springs.place, springs.elements
-        # A dashpot lets go at once when the body turns back faster than the spring can follow.
+        # A dashpot separates at once when the body recedes faster than the spring can follow.
         held = springs.on & (self._static(place, elements) + self.material.dashpot * speed >= 0)
         pushed = self._push(place, elements, speed, np.full(len(start), duration))
         tension = self._static(*pushed) + self.material.dashpot * speed < 0

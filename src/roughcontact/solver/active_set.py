@@ -22,7 +22,7 @@ from roughcontact.solver.direct import press_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
     InnerOperator,
-    direct_limit,
+    factorisation_pays,
     first_product,
     inner_operator_on,
 )
@@ -31,12 +31,12 @@ from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, pr
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
+from roughcontact.solver.subdomain import prolong
 from roughcontact.validation import require_numbers
 
 __all__ = ["ActiveSet"]
 
 Array = npt.NDArray[np.float64]
-Cells = npt.NDArray[np.intp]
 Mask = npt.NDArray[np.bool_]
 
 
@@ -130,17 +130,16 @@ class ActiveSet:
         tolerance, hardness, xp = terms.tolerance, terms.hardness, namespace(separation)
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         # Factorisations are made on the host, and know no hardness.
-        direct = is_numpy(separation) and hardness == math.inf
-        dense_limit = direct_limit(operator, self.dense_limit, tolerance) if direct else 0
+        dense_limit = self.dense_limit if is_numpy(separation) and hardness == math.inf else 0
         (u, exact), steps = first_product(operator, p), 1  # A2
         tangent: Tangent | None = None
         inner: InnerOperator | None = None
         best, idle, first = np.inf, 0, True
         while True:
             iterate = Iterate(p, u, separation)
-            d, residual, scale = conditions.evaluate(iterate)  # A3, A4
+            d, residual, scale, seen = conditions.evaluate(iterate)  # A3, A4
             if residual <= tolerance and exact:
-                return State(p, d, residual, steps, Status.CONVERGED, tangent, u)
+                return State(p, d, residual, steps, Status.CONVERGED, tangent, u, seen)
             if residual <= tolerance:  # A5: the certificate needs an exact product
                 u, exact, steps = operator.apply(p), True, steps + 1
                 continue
@@ -154,7 +153,8 @@ class ActiveSet:
                 terms, iterate, depth=d, allowed=allowed, self_influence=a_ii if first else math.inf
             )
             free, count = set_.free, set_.count
-            if first and _worth_screening(set_, conditions.measure, dense_limit):
+            bad = first and _worth_screening(set_, conditions.measure)
+            if bad and factorisation_pays(operator, count, dense_limit, tolerance):
                 free = _screened(
                     operator, iterate, conditions, free, tuning.SCREENING_RESIDUAL * residual * scale
                 )
@@ -171,14 +171,15 @@ class ActiveSet:
                 # mean pressure would be undetermined.
                 cells = xp.reshape(xp.arange(size, device=free.device), free.shape)
                 free, count = cells != xp.argmin(p), size - 1
-            if count <= dense_limit and count < size + (not singular):  # A8
+            whole = singular and count == size  # of which the matrix is singular
+            if not whole and factorisation_pays(operator, count, dense_limit, tolerance):  # A8
                 try:
                     solved = press_cells(operator, separation, terms.control, np.flatnonzero(free))
                 except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
                     dense_limit = 0
                     continue
-                p = _scattered(solved.cells, solved.pressure, free.shape)
-                tangent = Tangent(_scattered(solved.cells, solved.tangent, free.shape), solved.error)
+                p = prolong(solved.pressure, solved.cells, free.shape)
+                tangent = Tangent(prolong(solved.tangent, solved.cells, free.shape), solved.error)
                 steps += 1
             else:  # A9
                 stuck = idle >= tuning.ROUNDS_IN_SINGLE
@@ -199,10 +200,10 @@ class ActiveSet:
             u, exact = operator.apply(p), True  # A10
 
 
-def _worth_screening(predicted: PredictedSet, measure: Measure, limit: int) -> bool:
-    """Whether a prediction is bad and its matrix large, but not too large: from one load to the next it is good."""
+def _worth_screening(predicted: PredictedSet, measure: Measure) -> bool:
+    """Whether a prediction is bad and its factorisation costs much: from one load to the next it is good."""
     bad = predicted.dropped > predicted.count / 100
-    return bad and tuning.SCREENING_CELLS < predicted.count <= limit and not measure.varies
+    return bad and predicted.count > tuning.SCREENING_CELLS and not measure.varies
 
 
 def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free: Mask, limit: float) -> Mask:
@@ -223,10 +224,4 @@ def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free
         limit=limit,
         max_steps=50,
     )
-    return _scattered(cells, found.pressure, free.shape) > 0
-
-
-def _scattered(cells: Cells, values: Array, shape: tuple[int, ...]) -> Array:
-    field = np.zeros(shape)
-    field.ravel()[cells] = values
-    return field
+    return prolong(found.pressure, cells, free.shape) > 0

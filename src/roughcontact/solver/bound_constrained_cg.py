@@ -49,14 +49,21 @@ class StepEstimate:
 
 
 class Minimised(NamedTuple):
-    """The end of one run of bound-constrained conjugate gradients."""
+    """The end of one run of bound-constrained conjugate gradients.
+
+    Attributes
+    ----------
+    residual : float
+        Largest size of r on F.
+    steps : int
+        Products.
+    estimate : StepEstimate
+        For the next run.
+    """
 
     residual: float
-    """Largest size of r on F."""
     steps: int
-    """Products."""
     estimate: StepEstimate
-    """For the next run."""
 
 
 class InnerSolution(NamedTuple):

@@ -37,10 +37,12 @@ class CompiledVectors:
     def __init__(
         self, inner: InnerOperator, weight: float, free: Field, residual: Field, base: Field
     ) -> None:
-        self._free = Operand(free)  # with margins
+        self.free, self._free = free, Operand(free)  # with margins
         self._r, self._base = (self._located(field) for field in (residual, base))
         self._correction, self._s, self._q = self._zeros(), self._zeros(), self._r
         self._r_free, self._z = Operand(zeros_with_margins(free.shape, free.dtype)), self._r
+        self.correction, self.r = self._correction.field, self._r.field
+        self.s, self.q = self._s.field, self._q.field
         self._inner, self._weight, self._theta = inner, weight, inner.diagonal_correction
         self._uses_w, self._lost = False, 0.0
         # Sums over F as the solve began: of the pressure, of its cells (this one is kept up to date), of r.
@@ -67,34 +69,9 @@ class CompiledVectors:
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(free.shape, precision)
         residual, base = (room.empty(free.shape, precision) for _ in range(2))
-        given = separation, displacement, start, free
-        planes.scale_down(*given, depth=depth, unit=unit, inside=inside, lacking=residual, base=base)
+        into = inside, residual, base
+        planes.scale_down(start, displacement, separation, free, into, depth=depth, unit=unit)
         return cls(inner, weight, inside, residual, base), unit
-
-    @property
-    def free(self) -> Field:
-        """One on F, zero elsewhere."""
-        return self._free.field
-
-    @property
-    def correction(self) -> Field:
-        """Of the pressure, so far."""
-        return self._correction.field
-
-    @property
-    def r(self) -> Field:
-        """Residual."""
-        return self._r.field
-
-    @property
-    def s(self) -> Field:
-        """Search direction."""
-        return self._s.field
-
-    @property
-    def q(self) -> Field:
-        """Its image A s."""
-        return self._q.field
 
     def restart(self) -> float:
         """Forget the constraint direction; return the area of F."""
@@ -166,6 +143,7 @@ class CompiledVectors:
     def inner_products(self, q: Field) -> Products:
         """Take q = A s; return the inner products of s, q and r."""
         self._q = self._located(q)
+        self.q = self._q.field
         return Products(*self._sums("dot_products", 6, self._s, self._q, self._free, self._r))
 
     def advance(self, alpha: float, mean: float) -> float:

@@ -111,7 +111,7 @@ def resolve_contact(
         known = UNITS
     if weak is not None:
         state = _floored(operator, separation, terms, state, known)
-    return replace(state, displacement=None)
+    return replace(state, displacement=None, extremes=None)
 
 
 def _weak(operator: Operator, separation: Array, state: State, known: float) -> Mask | None:
@@ -121,13 +121,15 @@ def _weak(operator: Operator, separation: Array, state: State, known: float) -> 
     """
     p, u, own = state.pressure, _displacement(operator, state), _own(operator, state.pressure)
     iterate = Iterate(p, u, separation)
-    if isinstance(own, float) and iterate.fits_machine_code(
-        math.inf
-    ):  # one pass; nearly always none is found
+    seen = state.extremes
+    if seen is None and iterate.fits_machine_code(math.inf):
         seen = planes.extremes(*iterate)
-        assert seen is not None  # it was certified
-        if min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement:
-            return None
+    if (  # nearly always there is no such cell
+        isinstance(own, float)
+        and seen is not None
+        and min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement
+    ):
+        return None
     allowed = known * largest(u)
     weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, own, allowed)
     return weak if bool(namespace(p).any(weak)) else None
@@ -154,7 +156,7 @@ def _floored(operator: Operator, separation: Array, terms: Terms, state: State, 
     if isinstance(terms.control, Force) and terms.hardness == math.inf:
         p *= terms.control.value / measure.total(p)
     iterate = Iterate(p, operator.apply(p), separation)
-    depth, residual, _ = Optimality.of(operator, terms).evaluate(iterate)
+    depth, residual, *_ = Optimality.of(operator, terms).evaluate(iterate)
     if residual > terms.tolerance:  # which then is below the rounding floor
         return state
     return replace(state, pressure=p, depth=depth, residual=residual, steps=state.steps + 1, tangent=None)

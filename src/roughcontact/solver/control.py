@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.kernels.planes import Extremes
 from roughcontact.validation import scalar
 
 __all__ = ["Control", "Depth", "Force", "Solver", "State", "Status", "Tangent", "Terms", "checked_tolerance"]
@@ -109,7 +110,7 @@ def checked_tolerance(tolerance: Any) -> float:
     Raises
     ------
     ValueError
-        If it is none.
+        If it is outside these limits.
     """
     value = scalar(tolerance, "tolerance")
     if not 1e-14 < value < 1e-2:
@@ -159,7 +160,7 @@ class Tangent:
 class State:
     """The end of a solver's run over the cells of its operator.
 
-    `tangent` and `displacement`, that of the pressure, are there where the solver found them on the way.
+    `tangent`, `displacement` and `extremes` of the pressure are there where the solver found them on the way.
     """
 
     pressure: Array
@@ -169,6 +170,7 @@ class State:
     status: Status
     tangent: Tangent | None = None
     displacement: Array | None = None
+    extremes: Extremes | None = None
 
 
 class Solver(Protocol):

@@ -24,7 +24,7 @@ __all__ = [
     "FullGrid",
     "InnerOperator",
     "SingleFullGrid",
-    "direct_limit",
+    "factorisation_pays",
     "first_product",
     "inner_operator_on",
 ]
@@ -155,24 +155,24 @@ def first_product(
 
     An inner operator that covers all cells under pressure gives it on its own cells alone.
     """
-    size = largest(pressure)
     if inner is None:
-        inner = _full_grid(operator) if _fits_single(operator) else FullGrid(operator)
+        inner = _full_grid(operator)
         # Where tiles will be used, no transfer function of single precision is made for the grid.
         if inner.contraction and _tiles_of(operator, pressure > 0) is not None:
             inner = FullGrid(operator)
-    if not (inner.contraction and size > 0):
+    size = largest(pressure) if inner.contraction else 0.0
+    if not size > 0:
         return operator.apply(pressure), True
     part = inner.scaled(inner.gather(pressure), size)
     return times(inner.scatter(inner.apply(part)), size), False
 
 
-def direct_limit(operator: Operator, limit: int, tolerance: float = 0.0) -> int:
-    """Return up to how many cells a factorisation pays: fewer than `limit` where tiles compete with it."""
-    if capabilities(operator).particle_mesh() is None:
-        return limit
-    rough = tolerance >= tuning.ROUGH_TOLERANCE
-    return min(limit, tuning.DIRECT_ROUGHLY if rough else tuning.DIRECT_BESIDE_TILES)
+def factorisation_pays(operator: Operator, count: int, limit: int, tolerance: float = 0.0) -> bool:
+    """Whether so many cells are better factorised: up to `limit`, and fewer where tiles compete (A8)."""
+    if count <= tuning.DIRECT_ROUGHLY or count > limit:
+        return count <= limit
+    few = count <= tuning.DIRECT_BESIDE_TILES and tolerance < tuning.ROUGH_TOLERANCE
+    return few or capabilities(operator).particle_mesh() is None
 
 
 def _tiles_of(operator: Operator, region: Mask) -> Tiles | None:
@@ -187,5 +187,6 @@ def _fits_single(operator: Operator) -> bool:
 
 
 def _full_grid(operator: Operator) -> FullGrid:
-    single = capabilities(operator).single_precision and math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
+    large = math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
+    single = large and capabilities(operator).single_precision and _fits_single(operator)
     return SingleFullGrid(operator) if single else FullGrid(operator)

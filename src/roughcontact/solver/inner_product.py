@@ -66,44 +66,69 @@ class Measure:
 
 
 class Preconditioned(NamedTuple):
-    """Inner products of the preconditioned residual z = M^-1 r, over the free set."""
+    """Inner products of the preconditioned residual z = M^-1 r, over the free set.
+
+    Attributes
+    ----------
+    rz : float
+        r.z.
+    zq : float
+        z.q, with q = A s of the last direction.
+    z_sum : float
+        1.z.
+    wq : float
+        w.q, if a constraint direction w is used.
+    """
 
     rz: float
-    """r.z"""
     zq: float
-    """z.q, with q = A s of the last direction"""
     z_sum: float
-    """1.z"""
     wq: float
-    """w.q, if a constraint direction w is used"""
 
 
 class Products(NamedTuple):
-    """Inner products of a search direction s, its image q = A s, and the residual r."""
+    """Inner products of a search direction s, its image q = A s, and the residual r.
+
+    Attributes
+    ----------
+    sq : float
+        s.q, the curvature, over all cells.
+    q_sum : float
+        1.q over the free set.
+    rs : float
+        r.s over all cells.
+    rs_free : float
+        r.s over the free set.
+    s_sum : float
+        1.s over the free set.
+    r_sum : float
+        1.r over the free set.
+    """
 
     sq: float
-    """s.q, the curvature, over all cells"""
     q_sum: float
-    """1.q over the free set"""
     rs: float
-    """r.s over all cells"""
     rs_free: float
-    """r.s over the free set"""
     s_sum: float
-    """1.s over the free set"""
     r_sum: float
-    """1.r over the free set"""
 
 
 class Projected(NamedTuple):
-    """What the projection onto the bounds has made of a trial step."""
+    """What the projection onto the bounds has made of a trial step.
+
+    Attributes
+    ----------
+    lifted : float
+        Sum of the sizes by which pressures are taken to their bounds [Pa].
+    area : float
+        Of the free set that is left.
+    force : float
+        What the projection has added to 1.s.
+    """
 
     lifted: float
-    """Sum of the sizes by which pressures are taken to their bounds [Pa]."""
     area: float
-    """Of the free set that is left."""
     force: float
-    """What the projection has added to 1.s."""
 
 
 def _number(field: Any) -> Any:

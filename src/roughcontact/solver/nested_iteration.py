@@ -135,9 +135,9 @@ def block_minimum(separation: Array, factors: tuple[int, ...]) -> Array:
     """Return the lowest value of each block; infinite for a block of missing cells."""
     xp, padded = namespace(separation), separation
     for axis, factor in enumerate(factors):
-        lacking = [n if a != axis else -n % factor for a, n in enumerate(padded.shape)]
-        if lacking[axis]:
-            edge = xp.full(tuple(lacking), np.inf, dtype=padded.dtype, device=padded.device)
+        missing = [n if a != axis else -n % factor for a, n in enumerate(padded.shape)]
+        if missing[axis]:
+            edge = xp.full(tuple(missing), np.inf, dtype=padded.dtype, device=padded.device)
             padded = xp.concat([padded, edge], axis=axis)
     for axis, factor in enumerate(factors):
         # Slices, not an axis of blocks: a reduction along two numbers takes several times as long.

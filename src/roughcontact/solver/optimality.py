@@ -32,47 +32,73 @@ UNITS = 16 * float(np.finfo(np.float64).eps)
 
 
 class Iterate(NamedTuple):
-    """A pressure, nowhere negative, with its displacement and the separation of the bodies."""
+    """A pressure, nowhere negative, with its displacement and the separation of the bodies.
+
+    Attributes
+    ----------
+    pressure : array
+        p [Pa].
+    displacement : array
+        u = A p [m].
+    separation : array
+        f, the undeformed gap [m]; infinite where a cell never touches.
+    """
 
     pressure: Array
-    """p [Pa]"""
     displacement: Array
-    """u = A p [m]"""
     separation: Array
-    """f, the undeformed gap [m]; infinite where a cell never touches"""
 
     def fits_machine_code(self, hardness: float) -> bool:
         """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
-        shape = self.pressure.shape
-        return hardness == math.inf and all(
-            loader.takes(f) and f.dtype == np.float64 and f.flags.c_contiguous and f.shape == shape
-            for f in self
+        if hardness < math.inf or not loader.takes(self.pressure):
+            return False
+        wanted = np.dtype(np.float64), self.pressure.shape, True
+        return all(
+            isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in self
         )
 
 
 class Evaluation(NamedTuple):
-    """The residual of an iterate, and the depth at which it was found."""
+    """The residual of an iterate, and the depth at which it was found.
+
+    Attributes
+    ----------
+    depth : float
+        The given depth, or the multiplier of the force: the mean of u + f over the cells between the bounds [m].
+    residual : float
+        See `Optimality.residual`.
+    scale : float
+        What that is relative to: the largest displacement [m].
+    extremes : Extremes, optional
+        What a pass in machine code found.
+    """
 
     depth: float
-    """The given depth, or the multiplier of the force: the mean of u + f over the cells between the bounds [m]."""
     residual: float
-    """See `Optimality.residual`."""
     scale: float
-    """What that is relative to: the largest displacement [m]."""
+    extremes: planes.Extremes | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PredictedSet:
-    """A prediction of the free set F from an iterate."""
+    """A prediction of the free set F from an iterate.
+
+    Attributes
+    ----------
+    free : bool array
+        The cells of F.
+    count : int
+        How many they are.
+    dropped : int
+        How many with pressure or penetration were left out, since a projected step of one cell leaves them none.
+    support : bool array
+        F and all cells with pressure.
+    """
 
     free: Mask
-    """The cells of F."""
     count: int
-    """How many they are."""
     dropped: int
-    """How many with pressure or penetration were left out, since a projected step of one cell leaves them none."""
     support: Mask
-    """F and all cells with pressure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +176,7 @@ class Optimality:
         if seen.weakest >= 0:
             violation = max(depth - seen.lowest, seen.highest - depth)
             residual = self.relative(violation, seen.displacement, seen.strongest)
-        return Evaluation(depth, residual, seen.displacement)
+        return Evaluation(depth, residual, seen.displacement, seen)
 
 
 def predict_free_set(

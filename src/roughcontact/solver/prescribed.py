@@ -19,7 +19,7 @@ from roughcontact.solver.direct import solve_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
     InnerOperator,
-    direct_limit,
+    factorisation_pays,
     first_product,
     inner_operator_on,
 )
@@ -254,7 +254,9 @@ def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Arra
 
     More cells start from zero: a start from coarser cells saves hardly a product, and takes longer.
     """
-    if not is_numpy(region) or np.count_nonzero(region) > direct_limit(operator, tuning.DIRECT_CELLS):
+    if not is_numpy(region):
+        return None
+    if not factorisation_pays(operator, int(np.count_nonzero(region)), tuning.DIRECT_CELLS):
         return None
     pressure, u, cells = np.zeros(wanted.shape), np.zeros(wanted.shape), np.flatnonzero(region)
     with suppress(np.linalg.LinAlgError):  # not definite to working precision: iterate instead

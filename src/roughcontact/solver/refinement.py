@@ -12,9 +12,7 @@ from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, exact_of
 from roughcontact.solver.complementarity import resolve_contact
 from roughcontact.solver.control import Solver, State, Status, Terms
-from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Optimality
-from roughcontact.solver.projection import force_multiplier
+from roughcontact.solver.optimality import Iterate, Optimality
 
 __all__ = ["solve_refined"]
 
@@ -38,7 +36,7 @@ def solve_refined(
 def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
     """Add the defect of the inexact sum to the separation and solve again, until the exact residual is small."""
     exact = exact_of(operator)
-    measure, optimality = Measure(exact.weights), Optimality.of(exact, terms)
+    conditions = Optimality.of(exact, terms)
     inner = replace(terms, tolerance=terms.tolerance / 2)
     defect, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
     while True:
@@ -46,17 +44,10 @@ def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Ter
         state = solver.run(operator, separation + defect, inner, pressure)
         pressure, steps = state.pressure, steps + state.steps + 1
         displacement = exact.apply(pressure)
-        level = displacement + separation
-        free = (pressure > 0) & (pressure < terms.hardness)
-        depth = force_multiplier(measure, level, pressure, free) if terms.depth is None else terms.depth
-        residual = optimality.residual(pressure, displacement, level - depth)
-        found = replace(
-            state, depth=depth, residual=residual, steps=steps, tangent=None, displacement=displacement
-        )
-        if residual <= terms.tolerance:
-            return replace(found, status=Status.CONVERGED)
-        if not state.status.converged:
-            return found
-        if not residual < best / 2:
-            return replace(found, status=Status.STAGNATED)
+        depth, residual, _, seen = conditions.evaluate(Iterate(pressure, displacement, separation))
+        met, reduced = residual <= terms.tolerance, residual < best / 2
+        if met or not reduced or not state.status.converged:
+            status = Status.STAGNATED if state.status.converged else state.status
+            status = Status.CONVERGED if met else status
+            return State(pressure, depth, residual, steps, status, displacement=displacement, extremes=seen)
         best, defect = residual, displacement - operator.apply(pressure)  # D2: (A - A~) p

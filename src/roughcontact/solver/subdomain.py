@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
-from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.halfspace.operators.operator import Capabilities, Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Solver, State, Terms
@@ -71,6 +71,10 @@ class SubdomainSolver:
     operator: Operator
     _box: tuple[Box, Operator] | None = field(default=None)
     _list: tuple[npt.NDArray[np.intp], Operator] | None = field(default=None)
+    _can: Capabilities = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._can = capabilities(self.operator)
 
     def solve(
         self,
@@ -81,7 +85,7 @@ class SubdomainSolver:
     ) -> tuple[State, Subdomain]:
         """Solve from a pressure [Pa] on the whole grid and a depth [m]; return the state and its subdomain."""
         pressure, depth = start
-        if not (capabilities(self.operator).positive and is_numpy(separation)):
+        if not (self._can.positive and is_numpy(separation)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
             return solve_refined(solver, self.operator, separation, terms, pressure), whole
@@ -119,7 +123,7 @@ class SubdomainSolver:
 
     def _between(self, cells: npt.NDArray[np.intp]) -> Operator:
         """Return the operator between the cells of a list, as part of the box that holds them, which is kept."""
-        submatrix = capabilities(self.operator).submatrix
+        submatrix = self._can.submatrix
         assert submatrix is not None  # no list is made of others
         if self.operator.grid.ndim == 1:
             return submatrix(cells)
@@ -137,7 +141,7 @@ class SubdomainSolver:
         """Return the box of the candidates for contact, or their list where a direct sum costs less."""
         box = bounding_box(candidates)
         assert box is not None  # the lowest separation at least is one
-        if capabilities(self.operator).submatrix and self._is_list_cheaper(candidates[box]):
+        if self._can.submatrix and self._is_list_cheaper(candidates[box]):
             return np.flatnonzero(candidates)
         return self._with_margin(box)
 
@@ -155,7 +159,7 @@ class SubdomainSolver:
         if count * count / 4 < tuning.LOOKUPS * padded:
             return True
         few = count <= tuning.LIST_FILLING * candidates.size
-        if not few or capabilities(self.operator).particle_mesh() is None:
+        if not few or self._can.particle_mesh() is None:
             return False
         # Inner products are taken on tiles, exact ones on the box if need be, and all else follows the list.
         if candidates.size > tuning.LARGE_BOX:

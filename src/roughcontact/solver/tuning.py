@@ -1,14 +1,13 @@
-"""Numbers that decide how many products a solve takes, and which way is the cheapest; no answer depends on them.
+"""Numbers that decide how many products a solve takes, and which way is the cheapest.
 
-What answers do depend on (rounding floors, accuracies of derived numbers) stands where it is derived. "Counted" numbers
-come from `benchmarks/steps.py`, which counts products with each of them changed; "tried by hand" has no command.
+A certified answer depends on none of them beyond its tolerance. Accuracies and rounding floors stand where they are
+derived. "Counted" numbers come from `benchmarks/steps.py`, which counts products with each of them changed; what was
+"tried by hand" has no command; of the others no measurement is kept.
 """
 
 # --- active_set: outer iteration ---
-SCREENING_RESIDUAL = (
-    0.2  # of the residual of a predicted set: how far it is solved to be screened (tried by hand)
-)
-SCREENING_CELLS = 300  # cells: a factorisation of fewer costs no more than some products (tried by hand)
+SCREENING_RESIDUAL = 0.2  # of the residual of a predicted set: how far it is solved to be screened
+SCREENING_CELLS = 300  # cells: a factorisation of fewer costs no more than some products
 PLASTIC_FORCE = 0.5  # of the force: beyond the hardness, from which on hardly a cell is between the bounds
 PROGRESS = 0.9  # of the smallest residual so far: a larger one is no progress
 ROUNDS_IN_SINGLE = 3  # rounds without progress after which only exact products are trusted
@@ -16,10 +15,8 @@ ROUNDS_AT_ALL = 12  # rounds without progress after which another method is trie
 INNER_TOLERANCE = 0.3  # of the tolerance: residual of an inner solve
 
 # --- bound_constrained_cg: counted, on 512 x 512 cells ---
-INNER_FORCING = (
-    0.2  # forcing term: of the present residual, for an inner solve on a set that may still change
-)
-FREEING_ROUNDS = 20  # rounds of freeing cells between two exact products (tried by hand)
+INNER_FORCING = 0.2  # forcing term, of the residual: for an inner solve on a set that may still change
+FREEING_ROUNDS = 20  # rounds of freeing cells between two exact products
 MEAN_RESIDUAL = 0.01  # of the tolerance: mean residual on F that is not subtracted
 BOUND_VIOLATION = 0.1  # of the tolerance: displacement of the largest pressure out of its bounds
 LIFTED_RESIDUAL = 0.1  # of the residual: displacement of newly active cells that may be neglected, in total
@@ -32,14 +29,11 @@ STALE_CONSTRAINT_DIRECTION = 0.03  # of the cells of F: lost ones after which M^
 # --- direct, inner_operator: which way to solve ---
 DIRECT_CELLS = 2000  # cells: a matrix of 32 MB; time grows with the third power beyond
 DIRECT_BESIDE_TILES = 1200  # cells, where some thirty products on few tiles compete (tried by hand)
-DIRECT_ROUGHLY = (
-    300  # cells, where the answer is but the start of another, against a few products (tried by hand)
-)
+DIRECT_ROUGHLY = 300  # cells, where the answer is but the start of another, against a few products
 ROUGH_TOLERANCE = 1e-5  # tolerance of such an answer
-DOWNDATED = (
-    1 / 8
-)  # of the unknowns: two triangular solves each, against a new factorisation, a sixth of all as many
-SINGLE_CELLS = 4_000  # cells from which on single precision is worth its conversions (tried by hand)
+# Of the unknowns: to deactivate one costs two triangular solves, a new factorisation a sixth of the cells as many.
+DOWNDATED = 1 / 8
+SINGLE_CELLS = 4_000  # cells from which on single precision halves the work: fewer bytes
 
 # --- subdomain, prescribed: on which cells ---
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
@@ -59,7 +53,7 @@ COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further 
 SUMMITS = 2.0  # times as far as its cells stand out of its plane a block is raised above it
 SLAB = 128  # rows of cells that are worked on at once, even
 
-# --- polonsky_keer, plastic: tried by hand ---
+# --- polonsky_keer, plastic ---
 LEAP = 4.0  # times the smallest residual so far: a step that was too long
 CYCLING = 10  # iterations without a smaller residual, after which cells of the wrong sign may cycle
 PATIENCE = 500  # iterations without a smaller residual, after which the method has stagnated

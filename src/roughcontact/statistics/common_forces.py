@@ -39,6 +39,11 @@ def on_common(
     along : str
         Dimension of the points of a record. Variables without it stay as they are.
 
+    Returns
+    -------
+    Dataset
+        With the coordinate `at` in place of the dimension `along`.
+
     Raises
     ------
     ValueError

@@ -131,10 +131,22 @@ def fit_power_laws(
 
 
 def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset:
-    """Return k/(E* L) of fitted laws at dimensionless forces, and its standard error.
+    """Return the stiffness of fitted laws at given forces, and its standard error.
 
     Exponent and prefactor are strongly correlated, since zeta is read off far outside the window: laws are compared
     by their stiffness at a force inside it.
+
+    Parameters
+    ----------
+    fits : Dataset
+        As `fit_power_laws` makes it.
+    force : float or array
+        Dimensionless forces F/(E* h L).
+
+    Returns
+    -------
+    Dataset
+        ``stiffness``, k/(E* L), and ``stiffness_error``, along the ensembles and the forces.
     """
     import xarray
 

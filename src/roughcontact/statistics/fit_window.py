@@ -27,7 +27,7 @@ __all__ = [
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
 FULL_CONTACT_SHARE = (
-    0.9  # above this part of the full-contact stiffness they are those of the finite size (eq. 4.14)
+    0.9  # of the full-contact stiffness; above it they are those of the finite size (eq. 4.14)
 )
 
 
@@ -65,7 +65,23 @@ class Window:
 
 
 def force_window(lowest: float, highest: float) -> Window:
-    """Return the window between two dimensionless forces, whatever the stiffness."""
+    """Return the window between two dimensionless forces, whatever the stiffness.
+
+    Parameters
+    ----------
+    lowest, highest : float
+        Dimensionless forces F/(E* h L).
+
+    Returns
+    -------
+    Window
+        Both forces belong to it.
+
+    Raises
+    ------
+    ValueError
+        If the forces do not go from one to a larger one.
+    """
     return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
 
 
@@ -79,6 +95,11 @@ def resolved_window(cell: Any, full_contact_stiffness: Any, highest: float = FOR
         and 1.
     highest : float
         Dimensionless force.
+
+    Returns
+    -------
+    Window
+        Stiffness and force without dimension.
     """
     rule = (
         f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "

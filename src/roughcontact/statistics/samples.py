@@ -32,27 +32,117 @@ Array = npt.NDArray[Any]
 
 
 def mean(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the arithmetic mean."""
+    """Return the arithmetic mean over the samples.
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        In the unit of the values, without the dimensions of the samples.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
     return _along(values, samples, mean_over_samples, "mean of {}")
 
 
 def geometric_mean(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the geometric mean: zero with a zero among the samples, NaN with less than zero."""
+    """Return the geometric mean over the samples.
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        In the unit of the values: zero with a zero among the samples, NaN with less than zero.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
     return _along(values, samples, lambda v: mean_over_samples(v, "geometric"), "geometric mean of {}")
 
 
 def standard_deviation(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the standard deviation of the population that the samples are drawn from; of one sample NaN."""
+    """Return the standard deviation of the population that the samples are drawn from.
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        In the unit of the values, with n - 1; NaN of one sample.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
     return _along(values, samples, _deviation, "standard deviation of {}")
 
 
 def standard_error(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the standard error of the arithmetic mean; of one sample NaN."""
+    """Return the standard error of the arithmetic mean.
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        In the unit of the values; NaN of one sample.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
     return _along(values, samples, lambda v: _deviation(v) / np.sqrt(_there(v)), "standard error of {}")
 
 
 def scatter(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the standard deviation over the mean (thesis, fig. 18), a pure number; 0 where all samples are."""
+    """Return the standard deviation over the mean (thesis, fig. 18).
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        A pure number; 0 where all samples are equal.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
 
     def ratio(v: Array) -> Array:
         deviation, over = _deviation(v), mean_over_samples(v)
@@ -63,18 +153,32 @@ def scatter(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -
 
 
 def count(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> xarray.DataArray:
-    """Return the number of samples that are there."""
+    """Return the number of samples that are not missing.
+
+    Parameters
+    ----------
+    values : DataArray
+        Numbers; NaN is a sample that is missing.
+    samples : str or sequence of str
+        Dimensions of the samples.
+
+    Returns
+    -------
+    DataArray
+        A whole number.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
     return _along(values, samples, _there, "number of samples of {}", "1")
 
 
 STATISTICS: Mapping[str, Callable[..., xarray.DataArray]] = MappingProxyType(
     {
-        "mean": mean,
-        "geometric_mean": geometric_mean,
-        "standard_deviation": standard_deviation,
-        "standard_error": standard_error,
-        "scatter": scatter,
-        "count": count,
+        each.__name__: each
+        for each in (mean, geometric_mean, standard_deviation, standard_error, scatter, count)
     }
 )
 
@@ -93,6 +197,11 @@ def summary(
         samples, and stays as it is.
     samples : str or sequence of str
         Dimensions of the samples.
+
+    Returns
+    -------
+    Dataset
+        Without the dimensions of the samples.
 
     Raises
     ------

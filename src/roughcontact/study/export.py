@@ -5,20 +5,15 @@ from __future__ import annotations
 import itertools
 import json
 import math
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from roughcontact import __version__
-from roughcontact.files.aside import WriteError
-from roughcontact.files.write import write_netcdf
 from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
 from roughcontact.study.gathering import Gathering
-from roughcontact.study.long_table import write_long_csv
 from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:
@@ -29,7 +24,7 @@ if TYPE_CHECKING:
     from roughcontact.study.store import Store
     from roughcontact.study.study import Study
 
-__all__ = ["assemble", "export", "write_export"]
+__all__ = ["assemble", "export"]
 
 _CONVENTIONS = {"Conventions": "CF-1.11"}
 _UNITS = ((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J"))
@@ -40,6 +35,18 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     """Return all records of a store side by side, without their fields; see `assemble`.
 
     A study that is not finished gives what is there.
+
+    Parameters
+    ----------
+    store : Store
+        An open store.
+    seconds : bool
+        Whether the time that each case took is a variable, too.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along the parameters of the table and the samples.
 
     Raises
     ------
@@ -109,25 +116,6 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
         {**layout.coordinates, **coordinates, **constants},
         {**_CONVENTIONS, **gathering.attributes, **source},
     )
-
-
-def write_export(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write an export, or what statistics and fits make of one, as NetCDF (``.nc``) or as a long table (``.csv``).
-
-    The file appears whole or not at all.
-
-    Raises
-    ------
-    WriteError
-        If the ending is another, or the file cannot be written.
-    """
-    ending = Path(path).suffix.casefold()
-    if ending == ".nc":
-        write_netcdf(dataset, path)
-    elif ending == ".csv":
-        write_long_csv(dataset, path)
-    else:
-        raise WriteError(f"cannot write {path}: a study is exported as .nc or .csv")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

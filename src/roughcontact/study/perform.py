@@ -23,7 +23,20 @@ _LONGEST = 1000  # characters of a message that are worth keeping
 
 
 def perform(task: Task) -> Outcome:
-    """Return what comes of a task, computed on one thread; an exception makes it a failed one, and goes no further."""
+    """Return what comes of a task, computed on one thread.
+
+    An exception makes it a failed one, and goes no further.
+
+    Parameters
+    ----------
+    task : Task
+        What is computed.
+
+    Returns
+    -------
+    Outcome
+        The record, or the reason why there is none.
+    """
     start = time.perf_counter()
     try:
         with limit_threads(1), _one_thread():

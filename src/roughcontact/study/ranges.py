@@ -50,12 +50,22 @@ class Range(BaseModel):
         return self
 
     def values(self, read: Callable[[Any], Any]) -> tuple[float, ...]:
-        """Return the values, from what `read` makes of the ends and the step.
+        """Return the values of the range.
+
+        Parameters
+        ----------
+        read : function
+            Takes an end or the step as it was written and returns the number.
+
+        Returns
+        -------
+        tuple of float
+            From the start to the stop.
 
         Raises
         ------
         ValueError
-            If there are none, or if values in equal ratios are not of one sign.
+            If the range is empty, or values in equal ratios are not of one sign.
         """
         start, stop = _number(read(self.start)), _number(read(self.stop))
         if self.count is None:

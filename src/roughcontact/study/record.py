@@ -145,7 +145,18 @@ class Row:
 
     @classmethod
     def of(cls, values: tuple[Any, ...]) -> Row | None:
-        """Return the row of the values of `COLUMNS`, or None if they do not fit their checksum."""
+        """Return the row of the values that a database holds.
+
+        Parameters
+        ----------
+        values : tuple
+            The values of `COLUMNS`.
+
+        Returns
+        -------
+        Row or None
+            None if they do not fit their checksum.
+        """
         *content, found = values
         if found != checksum(tuple(content)):
             return None

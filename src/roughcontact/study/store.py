@@ -43,11 +43,16 @@ _AT_ONCE = 200  # rows that are read in one go, so that a slow reader never keep
 class Store:
     """Where the cases of a study are kept. It is opened by `Store.open`, in a ``with`` statement.
 
-    Attributes
+    Parameters
     ----------
     folder : Path
+        Where the cases are.
     study : Study
         What the folder holds cases of.
+    connection : sqlite3.Connection
+        To the database of the folder.
+    held : ExitStack
+        What is released when the store is closed.
     """
 
     __slots__ = ("_connection", "_held", "folder", "study")
@@ -71,6 +76,11 @@ class Store:
         study : Study, optional
             The study that the folder is for, or that it holds already: then perhaps with more samples, and with more
             combinations.
+
+        Returns
+        -------
+        Store
+            To be closed, as a ``with`` statement does.
 
         Raises
         ------
@@ -118,6 +128,13 @@ class Store:
 
         A case that failed before is replaced; one that is done stays as it is.
 
+        Parameters
+        ----------
+        task : Task
+            One of the study's.
+        outcome : Outcome
+            What came of it.
+
         Raises
         ------
         StoreError
@@ -145,15 +162,32 @@ class Store:
             self._commit((*values, checksum(values)))
 
     def done_keys(self) -> frozenset[str]:
-        """Return the keys of all cases that are done, of earlier versions of the case too."""
+        """Return the keys of all cases that are done, of earlier versions of the case too.
+
+        Returns
+        -------
+        frozenset of str
+            Keys as `Task.key`.
+        """
         return self._keys("done")
 
     def failed_keys(self) -> frozenset[str]:
-        """Return the keys of all cases that failed."""
+        """Return the keys of all cases that failed.
+
+        Returns
+        -------
+        frozenset of str
+            Keys as `Task.key`.
+        """
         return self._keys("failed")
 
     def rows(self) -> Iterator[Row]:
         """Yield the cases of the study that are done or failed, in the order of its tasks.
+
+        Yields
+        ------
+        Row
+            One for each case.
 
         Raises
         ------
@@ -164,6 +198,11 @@ class Store:
 
     def failed(self) -> tuple[Row, ...]:
         """Return the cases of the study that failed, in the order of its tasks.
+
+        Returns
+        -------
+        tuple of Row
+            One for each case.
 
         Raises
         ------
@@ -176,21 +215,43 @@ class Store:
     def fields(self, key: str) -> xarray.Dataset:
         """Return the fields of a case.
 
+        Parameters
+        ----------
+        key : str
+            Key of a case.
+
+        Returns
+        -------
+        xarray.Dataset
+            Its fields.
+
         Raises
         ------
         StoreError
-            If there are none.
+            If the case has no fields.
         """
         return read_fields(self.folder, key)
 
     def summary(self) -> Summary:
-        """Return how far the study is."""
+        """Return how far the study is.
+
+        Returns
+        -------
+        Summary
+            Numbers of cases that are done, failed and left.
+        """
         keys = {task.key for task in self.study.tasks()}
         done, failed = len(keys & self.done_keys()), len(keys & self.failed_keys())
         return Summary(done, failed, len(keys) - done - failed)
 
     def outdated(self) -> int:
-        """Return how many cases are kept that an earlier version of the case has computed."""
+        """Return how many cases an earlier version of the case has computed.
+
+        Returns
+        -------
+        int
+            They are kept, and not part of the study.
+        """
         keys = {task.key for task in self.study.tasks()}
         return len((self.done_keys() | self.failed_keys()) - keys)
 

@@ -156,6 +156,16 @@ class Study(BaseModel):
     def read(cls, path: str | os.PathLike[str]) -> Study:
         """Return the study of a TOML file.
 
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Returns
+        -------
+        Study
+            Checked as one that is made in Python.
+
         Raises
         ------
         StudyError
@@ -177,6 +187,11 @@ class Study(BaseModel):
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file, which appears whole or not at all.
 
+        Parameters
+        ----------
+        path : str or path
+            File to write; one that is there is replaced.
+
         Raises
         ------
         WriteError
@@ -187,7 +202,13 @@ class Study(BaseModel):
             aside.write_text(text, encoding="utf-8")
 
     def to_toml(self) -> str:
-        """Return the study as text in TOML."""
+        """Return the study as text in TOML.
+
+        Returns
+        -------
+        str
+            What `read` takes.
+        """
         head = {"name": self.name, "case": self.case, "seed": self.seed, "samples": self.samples}
         table = {
             name: each.model_dump(exclude_defaults=True) if isinstance(each, Range) else each
@@ -196,11 +217,32 @@ class Study(BaseModel):
         return toml_of(head, {"parameters": self.parameters, "table": table}, {"rows": self.rows})
 
     def with_samples(self, count: int) -> Study:
-        """Return the same study with so many samples."""
+        """Return the same study with another number of samples.
+
+        Parameters
+        ----------
+        count : int
+            Number of samples of each combination.
+
+        Returns
+        -------
+        Study
+            The samples that both have are the same.
+
+        Raises
+        ------
+        StudyError
+            If there are too many cases.
+        """
         return Study(**(dict(self) | {"samples": count}))
 
     def combinations(self) -> tuple[Parameters, ...]:
         """Return the parameters of all cases of one sample, row by row, the last name of the table varying fastest.
+
+        Returns
+        -------
+        tuple of Parameters
+            One for each case of a sample.
 
         Raises
         ------
@@ -235,7 +277,13 @@ class Study(BaseModel):
         return tuple(found.values())
 
     def tasks(self) -> Iterator[Task]:
-        """Yield every case of the study: the first sample of all combinations, then the second of all, and so on."""
+        """Yield every case of the study: the first sample of all combinations, then the second of all, and so on.
+
+        Yields
+        ------
+        Task
+            One for each case.
+        """
         case = find_case(self.case)
         combinations = [(each, canonical(each)) for each in self.combinations()]
         for sample in range(self.samples):

@@ -78,6 +78,18 @@ class Executor(Protocol):
         `perform` never raises. A task that takes its worker down is yielded as failed, and takes no other task with
         it. Closing the iterator (or Ctrl-C while it waits) stops the workers; nothing goes on in the background.
 
+        Parameters
+        ----------
+        perform : function
+            Takes a task and returns its outcome; it never raises.
+        tasks : iterable of Task
+            The tasks, which are taken one by one as workers become free.
+
+        Yields
+        ------
+        Outcome
+            One for each task.
+
         Raises
         ------
         WorkersError
@@ -108,11 +120,30 @@ class Summary:
         return self.done + self.failed + self.left
 
     def after(self, *, failed: bool, seconds: float) -> Summary:
-        """Return how far it is with one case more."""
+        """Return how far it is with one case more.
+
+        Parameters
+        ----------
+        failed : bool
+            Whether this case failed.
+        seconds : float
+            Time that the run has taken.
+
+        Returns
+        -------
+        Summary
+            With a case less that is left.
+        """
         return Summary(self.done + (not failed), self.failed + failed, self.left - 1, seconds)
 
     def with_failed_left(self) -> Summary:
-        """Return the same with the failed cases among those that are left, to be tried again."""
+        """Return the same with the failed cases among those that are left, to be tried again.
+
+        Returns
+        -------
+        Summary
+            Without failed cases.
+        """
         return Summary(self.done, 0, self.left + self.failed, self.seconds)
 
 

@@ -5,7 +5,7 @@ high and how round is taken from the surface itself; around its contact it sinks
 Without interaction it is Greenwood and Williamson's theory of this one surface.
 
 The model is one of separate spots; two equal spheres carry the force of the exact solution to 0.1 % until they touch.
-What it says of merged spots is a guess, and `AsperityContact.merged` counts them.
+For merged spots it is an estimate, and `AsperityContact.merged` counts them.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ __all__ = ["Summits", "asymptotic_fraction", "asymptotic_pressure", "law"]
 ELLIPTIC = "Bush, Gibson and Thomas, Wear 35, 87 (1975)"
 CIRCULAR = "Greenwood, Wear 261, 191 (2006)"
 FEW = 32  # pressures that are inverted one by one
-INFINITY = 100.0  # in sqrt(m0): a load of exp(-5000) is none
+INFINITY = 100.0  # in sqrt(m0): the load, exp(-5000), is 0 in double precision
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class Summits:
 
     @property
     def lowest(self) -> float:
-        """The smallest separation [m]: 0, where the flat would be in the middle of the surface."""
+        """The smallest separation [m]: 0, where the flat would reach the mean plane of the surface."""
         return 0.0
 
     @property

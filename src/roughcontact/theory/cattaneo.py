@@ -1,7 +1,7 @@
 """Partial slip of a sphere under constant normal and rising or oscillating tangential force.
 
 Cattaneo (1938) and Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2. Slip is taken to go along the
-force: exact if Poisson's ratio is 0; else slip turns aside by a part of order nu/(2 - nu), which is neglected.
+force: exact if Poisson's ratio is 0; else slip across the force, a part of order nu/(2 - nu), is neglected.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class SlippingSphere:
         tangential : float or array
             Tangential force Q [N], from -`turned` to `turned`.
         turned : float
-            Force at which Q turned around [N], at most mu P.
+            Force at which Q was reversed [N], at most mu P.
 
         Returns
         -------

@@ -229,7 +229,7 @@ def law(
     Raises
     ------
     ValueError
-        If neither pair is given, or the law knows no such stiffness.
+        If neither pair is given, or the law does not predict such a stiffness.
 
     Examples
     --------
@@ -243,16 +243,13 @@ def law(
         raise ValueError(f"{mechanical.name} has no {quantity!r}; it has {sorted(mechanical.quantities)}")
     stiffness = mechanical.quantities[quantity]
     quantities: dict[str, Callable[[Array], Array]] = {}
-    if resistivities is not None:
-        electrical(0.0, modulus, resistivities)
-        quantities["electrical_conductance"] = partial(
-            _of_stiffness, electrical, stiffness, modulus, resistivities
-        )
-    if conductivities is not None:
-        thermal(0.0, modulus, conductivities)
-        quantities["thermal_conductance"] = partial(
-            _of_stiffness, thermal, stiffness, modulus, conductivities
-        )
+    for name, conductance, both in (
+        ("electrical_conductance", electrical, resistivities),
+        ("thermal_conductance", thermal, conductivities),
+    ):
+        if both is not None:
+            conductance(0.0, modulus, both)  # bad numbers show themselves here
+            quantities[name] = partial(_of_stiffness, conductance, stiffness, modulus, both)
     if not quantities:
         raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
     return LoadingLaw(mechanical.name, mechanical.source, quantities, mechanical.domain)

@@ -145,6 +145,16 @@ def law(
     ------
     ValueError
         If a number is out of range, or the cell larger than the surface.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import finite_size, persson_separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> law = finite_size.law(finite_size.Cell(0.8, rms=1e-6, length=1e-3), spectrum, 1e11, area=1e-6)
+    >>> persson = 1e-6 * persson_separation.stiffness(1e-3 / 1e-6, 1e11, spectrum)
+    >>> bool(law.predict("interfacial_stiffness", 1e-3) > persson)  # at low force a single cell is stiffer
+    True
     """
     waves, nominal = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     fits = cell.length**2 <= nominal * (1 + 1e-9)

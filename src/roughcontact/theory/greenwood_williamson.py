@@ -1,7 +1,7 @@
 """Greenwood and Williamson's theory: independent asperities of one shape and random height under a flat.
 
 The load is what the asperities above the flat carry, each according to its own excess (Proc. R. Soc. A 295, 300
-(1966); thesis, section 3.1). Nothing here knows of the deformation between asperities: its stiffness is that
+(1966); thesis, section 3.1). The deformation of the body between asperities is left out: its stiffness is that
 against the distance of the mean planes, an *interfacial* stiffness. See `interaction` for the body underneath.
 """
 
@@ -98,7 +98,7 @@ class Population:
     Raises
     ------
     ValueError
-        If the asperity is none, or a number is out of range.
+        If it is not an Asperity, or a number is out of range.
     """
 
     asperity: Asperity
@@ -154,7 +154,7 @@ class Population:
         ------
         ValueError
             If the separation is below `lowest`: the flat would pass the mean plane of the surface, or touch every
-            asperity of exponential heights, and there the theory says nothing.
+            asperity of exponential heights, and there the theory does not hold.
         """
         return self._above(separation, self.asperity.coefficient, self.asperity.exponent)
 

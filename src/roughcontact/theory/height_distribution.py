@@ -306,6 +306,12 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
     -------
     float or array
         beta [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> float(height_distribution.legacy_density_exponent(2))
+    0.0
     """
     n = positive(modes, "modes")
     require(n >= 1, "modes must be at least 1", n)
@@ -328,6 +334,12 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
     -------
     float or array
         alpha [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> round(float(height_distribution.legacy_stiffness_exponent(1)), 6)  # one wave: 1/3, as Hertz
+    0.333333
     """
     return stiffness_exponent(legacy_density_exponent(modes))
 

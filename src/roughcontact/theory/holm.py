@@ -1,7 +1,7 @@
 """Holm's contacts: the constriction resistance of one spot, of several, and the radius that stands for them.
 
 Holm, Electric Contacts (1967); several spots after Greenwood, Brit. J. Appl. Phys. 17, 1621 (1966). Everything
-is stated as a stiffness over E*, the contact length [m] that `conductance` turns into ohms or K/W: a disc of radius a
+is stated as a stiffness over E*, the contact length [m] that `conductance` converts to ohms or K/W: a disc of radius a
 has ``k/E* = 2a``, and the resistance ``(rho1 + rho2)/(4a)``.
 """
 

@@ -1,4 +1,4 @@
-"""What a theory of independent asperities says of a nominally flat interface, per area and as a loading law."""
+"""Predictions of theories of independent asperities for a nominally flat interface, per area and as a loading law."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Interface(Protocol):
 
 
 def loading_law(interface: Interface, area: float, *, name: str, source: str) -> LoadingLaw:
-    """Return what the theory says of a nominal area, as functions of the force.
+    """Return the predictions of the theory for a nominal area, as functions of the force.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ def displacement(
     Raises
     ------
     ValueError
-        If the law knows no depth, or not at F and F - Q/mu, a number is out of range, or Q above mu F.
+        If the law does not predict the depth, or not at F and F - Q/mu, a number is out of range, or Q above mu F.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def _held(force: float, tangential: float | Array, friction: float) -> Array:
 
 
 def _known(law: LoadingLaw, quantity: str, force: Array) -> Array:
-    """Return a quantity at forces [N], and refuse those at which the law does not know it."""
+    """Return a quantity at forces [N], and refuse those at which the law does not predict it."""
     values = law.predict(quantity, force)
     require(
         ~np.isnan(values),

@@ -1,4 +1,4 @@
-"""What a theory says about a loading curve, as a value that can be laid over any curve."""
+"""The predictions of a theory for a loading curve, to be compared with any curve."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class LoadingLaw:
         Raises
         ------
         ValueError
-            If the theory says nothing about the quantity, or a force is no number.
+            If the theory does not predict the quantity, or a force is not a number.
         """
         if quantity not in self.quantities:
             raise ValueError(

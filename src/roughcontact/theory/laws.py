@@ -1,4 +1,4 @@
-"""Loading laws by name: what each wants to know of a surface, and one function that makes it."""
+"""Loading laws by name: the data that each needs of a surface, and one function that makes it."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def summits(moments: ProfileMoments) -> SummitStatistics:
     Notes
     -----
     ``m4/(6 sqrt(3) pi m2)``, ``(3/8) sqrt(pi/m4)``, ``(1 - 0.8968/alpha) m0`` (squared) and ``4 sqrt(m0/(pi alpha))``
-    (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. All but the last two hang on the shortest
+    (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. All but the last two depend on the shortest
     waves: without a shortest wave a fractal has no summits to count.
 
     Examples

@@ -2,7 +2,7 @@
 
 The energy of the waves that are squeezed flat is that of full contact times W(P), P the contact fraction at the
 magnification of the wave: ``W = P (gamma + (1 - gamma) P^2)``. Waves of the contact regions are flatter than the
-others, whence gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson,
+others, so that gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson,
 J. Phys.: Condens. Matter 20, 215214 (2008); the factor is fitted to computed contacts, no consequence of the theory.
 All else follows: the mean gap from du = -dU/(A0 p), the stiffness from K = -A0 dp/du (thesis, eqs 3.11 to 3.16;
 below 3.16 the minus sign is missing there).
@@ -66,6 +66,15 @@ def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gam
     Notes
     -----
     ``u = sqrt(pi) int q^2 C2D w dq int_{wp/E*}^inf [gamma + 3 (1 - gamma) erf(t)^2] exp(-t^2) dt/t``.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> gap = separation.mean_gap([1.0, 1e9], 1e11, spectrum)
+    >>> bool(gap[0] > 1e-6 > gap[1])  # above the rms height at low pressure, below it at high
+    True
     """
     share = _checked(gamma)
     return _over_waves(pressure, modulus, spectrum, lambda x: _tail(x, share))
@@ -93,6 +102,15 @@ def stiffness(pressure: float | Array, modulus: float, spectrum: Spectrum, *, ga
     -------
     float or array
         K/A0 [Pa/m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> low = separation.stiffness([1.0, 2.0], 1e11, spectrum)
+    >>> round(float(low[1] / low[0]), 4)  # in proportion to the pressure while it is low
+    2.0
     """
     share = _checked(gamma)
     length = _over_waves(pressure, modulus, spectrum, lambda x: _fall(x, share))
@@ -123,6 +141,15 @@ def elastic_energy(
     -------
     float or array
         U/A0 [J/m^2].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import persson_separation as separation
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> energy = float(separation.elastic_energy(1.0, 1e11, spectrum))
+    >>> round(energy / separation.decay_length(spectrum), 4)  # U = A0 p u0 at low load
+    1.0
     """
     waves, share = Waves.of(spectrum), _checked(gamma)
     # Of the common factor sqrt2 q/(2 sqrt(pi) g) only q belongs here.

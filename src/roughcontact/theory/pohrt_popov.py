@@ -53,7 +53,7 @@ def exponent(hurst: npt.ArrayLike) -> Array:
     ------
     ValueError
         If H is not above 0: the shortest waves then decide, and the exponent depends on the forces between which
-        it is fitted; `height_distribution` and `gaussian_heights` say how. If H exceeds 3: nothing was compared.
+        it is fitted; see `height_distribution` and `gaussian_heights`. If H exceeds 3: nothing was compared.
 
     Examples
     --------
@@ -313,7 +313,7 @@ def scale_free_stiffness(
     alpha, zeta = exponent(hurst), prefactor(hurst)
     require(
         np.asarray(hurst) <= SMOOTH,
-        "hurst must not exceed 2: one smooth crest carries the load, and it knows the size",
+        "hurst must not exceed 2: one smooth crest carries the load, whose stiffness depends on the size",
         hurst,
     )
     value: Array = e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha

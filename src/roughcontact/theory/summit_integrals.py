@@ -46,7 +46,7 @@ def log_integrals(
     -----
     D is `nayak.summit_density`. At given curvatures heights are normal, so that their integral is a partial moment;
     with ``u = (r/t)^2`` what is left is ``t^(4 - power) exp(-3 t^2/4)`` times a Laplace transform over u from 0 to 1.
-    At given height t is normal too, which says where to look for it, however narrow the density.
+    At given height t is normal too, which locates the peak, however narrow the density.
     """
     s0 = np.asarray(plane, dtype=np.float64)
     above, root = np.maximum(s0, 0.0), math.sqrt(alpha)

@@ -204,7 +204,7 @@ class Waves:
             )
         if not math.isfinite(high):
             raise ValueError(
-                "the spectrum has no shortest wave, and the contact area hangs on it: give short_cutoff, or "
+                "the spectrum has no shortest wave, and the contact area depends on it: give short_cutoff, or "
                 "q_max [rad/m]"
             )
         corner = getattr(spectrum, "q_rolloff", 0.0)
@@ -221,7 +221,7 @@ class Waves:
         spectrum : MeasuredSpectrum
             Such as `roughcontact.power_spectrum` returns.
         q_min, q_max : float, optional
-            The band [rad/m]; by default the one to be relied upon. The area hangs on `q_max`: state it.
+            The band [rad/m]; by default the one to be relied upon. The area depends on `q_max`: state it.
 
         Returns
         -------
@@ -348,7 +348,7 @@ def _of_density(density: Callable[[Array], Array], low: float, high: float, brea
     powers = 2 * math.pi * q * values * (2 * low * s * width)
     squares = q**2 * powers
     before = np.concatenate([[0.0], np.cumsum(squares @ weights)[:-1]])[:, None]
-    # Where hardly any power is left, rounding must not turn the order around.
+    # Where hardly any power is left, rounding must not reverse the order.
     slope = np.maximum.accumulate(np.sqrt(np.maximum(before + squares @ running(x).T, 0)).ravel()).reshape(
         q.shape
     )

@@ -6,30 +6,40 @@ surfaces of our own: slopes can be compared, numbers cannot.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
+import xarray
+from matplotlib.figure import Figure
 
+import roughcontact as rc
 from roughcontact import statistics
-from roughcontact.grid import Grid
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
-from roughcontact.surface.moments import grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
 from roughcontact.theory import greenwood_williamson
+from roughcontact.thesis import drawing
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict
 
-if TYPE_CHECKING:
-    import xarray
+__all__ = [
+    "CHOSEN",
+    "asperity_averages",
+    "asperity_study",
+    "draw_realisations",
+    "exponent_words",
+    "greenwood_williamson_stiffness",
+    "law_exponent",
+    "linear_model",
+    "studies",
+]
 
-    from roughcontact.thesis.figures import Scale
-
-__all__ = ["CHOSEN", "asperity_averages", "asperity_study", "greenwood_williamson_stiffness", "law_exponent"]
+Array = npt.NDArray[np.float64]
 
 HURST = (0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95)
 POINTS = {"small": 256, "thesis": 512}
 SPOTS = 10.0  # on the average: below, it is the shape of single summits that speaks
 HIGHEST = 0.07  # force F/(E* h L)
+_CLASSICAL, _SLOPE = "#0072b2", "#2e8b2e"
 CHOSEN = (
     "in place of the data of others: summits of surfaces of our own by the inverse Fourier transform, points higher "
     "than their eight neighbours, as spheres of their own curvature that push each other down like point forces",
@@ -38,18 +48,19 @@ CHOSEN = (
 )
 
 
+def studies(scale: Scale) -> Studies:
+    """Return the one study, which figures 31 to 33 share."""
+    return (asperity_study(scale),)
+
+
 def asperity_study(scale: Scale) -> Study:
     """Return the study: 25 surfaces of each of seven fractal dimensions."""
+    forces = {"lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
     return Study(
         name={"small": "asperities-small", "thesis": "asperities"}[scale],
         case="asperities",
         samples={"small": 8, "thesis": 25}[scale],
-        parameters={
-            "points": POINTS[scale],
-            "lowest_force": 1e-4,
-            "highest_force": 0.1,
-            "loads": 25,
-        },
+        parameters={"points": POINTS[scale]} | forces,
         table={"hurst": HURST},
     )
 
@@ -70,8 +81,6 @@ def asperity_averages(exported: xarray.Dataset) -> xarray.Dataset:
         is ``merged``; ``exponent``, ``independent_exponent`` and ``classical_exponent`` between ``window_low``
         and ``window_high``.
     """
-    import xarray
-
     force = exported["dimensionless_force"]
     found = xarray.Dataset(
         {
@@ -86,43 +95,76 @@ def asperity_averages(exported: xarray.Dataset) -> xarray.Dataset:
     return found.merge(xarray.concat(laws, "hurst"))
 
 
-def greenwood_williamson_stiffness(
-    force: np.typing.NDArray[np.float64], hurst: float, points: int
-) -> np.typing.NDArray[np.float64]:
+def greenwood_williamson_stiffness(force: Array, hurst: float, points: int) -> Array:
     """Return k/(E* L) of independent spheres with the moments of the surfaces (McCool) at forces F/(E* h L)."""
-    grid = Grid((points, points), 1 / points, periodic=True)
-    moments = grid_moments(grid, SelfAffineSpectrum(hurst).scaled(1.0, grid))
+    grid = rc.Grid((points, points), 1 / points, periodic=True)
+    moments = rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst).scaled(1.0, grid))
     law = greenwood_williamson.law(moments, 1.0, 1.0)
     return np.asarray(law.quantities["interfacial_stiffness"](force))
 
 
 def _laws(one: xarray.Dataset, points: int) -> xarray.Dataset:
     """Return the classical curve of one Hurst exponent, and the exponents of all three."""
-    import xarray
-
     force = one["force"].to_numpy()
     classical = greenwood_williamson_stiffness(force, float(one["hurst"]), points)
     low = float(force[np.flatnonzero(one["spots"] >= SPOTS)[0]])
-    window = force_window(low, HIGHEST)
-    # The same fit of a curve that has no samples.
-    curve = xarray.Dataset(
-        {
-            "dimensionless_force": one["force"],
-            "dimensionless_stiffness": (("sample", "load"), classical[None]),
-        }
+    laws = xarray.Dataset({"classical": ("load", classical), "window_low": low, "window_high": HIGHEST})
+    for stiffness, prefix in (
+        (one["stiffness"], ""),
+        (one["independent"], "independent_"),
+        # The same fit of a curve that has no samples.
+        (laws["classical"].expand_dims("sample"), "classical_"),
+    ):
+        curves = {"dimensionless_force": one["force"], "dimensionless_stiffness": stiffness}
+        rng = np.random.default_rng(0)
+        fit = fit_power_laws(xarray.Dataset(curves), force_window(low, HIGHEST), rng=rng)
+        laws[f"{prefix}exponent"], laws[f"{prefix}exponent_error"] = fit["exponent"], fit["exponent_error"]
+    return laws.drop_vars("classical_exponent_error").assign_coords(hurst=one["hurst"])
+
+
+def draw_realisations(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw every realisation of one fractal dimension with interaction, the classical model, and the slope."""
+    axes = figure.subplots()
+    force = averages["force"].to_numpy()
+    # The spots of all surfaces lie in their load's column: a little aside each, so that they can be counted.
+    aside = np.exp(np.linspace(-0.35, 0.35, averages.sizes["sample"]) * np.log(force[1] / force[0]))
+    every = averages["stiffness"].transpose("sample", "load").to_numpy()
+    for curve, shift in zip(every, aside, strict=True):
+        axes.plot(force * shift, curve, ".", color=drawing.LINES, markersize=2.2, zorder=2)
+    words = f"with interaction, {len(every)} surfaces"
+    drawing.key(axes, ".", words, color=drawing.LINES, markersize=5)
+    mean = averages["independent"].mean("sample")
+    axes.plot(force, mean, "--", color=_CLASSICAL, label="the same summits, independent")
+    axes.plot(force, averages["classical"], color=_CLASSICAL, linewidth=1.6, label="Greenwood and Williamson")
+    low, high = float(averages["window_low"]), float(averages["window_high"])
+    alpha = law_exponent(float(averages["hurst"]))
+    middle = np.sqrt(low * high)
+    means = averages["stiffness"].mean("sample").to_numpy()
+    here = 0.4 * np.exp(np.interp(np.log(middle), np.log(force), np.log(means)))
+    x = np.array([low, high])
+    axes.plot(x, here * (x / middle) ** alpha, "--", color=_SLOPE, linewidth=2.0, label=f"slope {alpha:.4f}")
+    axes.axvspan(force[0] * aside[0], low, color="0.95", zorder=0)
+    words = f"fewer than {SPOTS:g} summits\nin contact"
+    axes.text(force[0], means[-1], words, fontsize=drawing.TICK, color="0.4", va="top")
+    drawing.stiffness_axes(axes, xlim=(force[0] * aside[0], force[-1] * aside[-1]))
+    axes.legend(loc="lower right")
+
+
+def exponent_words(averages: xarray.Dataset, prefix: str = "") -> str:
+    """Return an exponent with its error, and where it was found."""
+    error = "" if prefix == "classical_" else f" +- {float(averages[f'{prefix}exponent_error']):.3f}"
+    return (
+        f"{float(averages[f'{prefix}exponent']):.3f}{error} at forces from {float(averages['window_low']):.1g} to "
+        f"{float(averages['window_high']):.2g}"
     )
-    rng = np.random.default_rng(0)
-    laws = xarray.Dataset(
-        {
-            "classical": ("load", classical),
-            "classical_exponent": fit_power_laws(curve, window, rng=rng)["exponent"],
-            "window_low": low,
-            "window_high": HIGHEST,
-        }
+
+
+def linear_model(averages: xarray.Dataset, classical: str = "", independent: str = "") -> Verdict:
+    """Return whether the model of Greenwood and Williamson is linear; words may follow what both models find."""
+    return Verdict(
+        "the original model is linear",
+        "slope 1",
+        f"{exponent_words(averages, 'classical_')} from the moments of the surfaces{classical}; the summits "
+        f"themselves, without interaction, {exponent_words(averages, 'independent_')}{independent}",
+        float(averages["classical_exponent"]) > 0.85,
     )
-    for name, prefix in (("stiffness", ""), ("independent", "independent_")):
-        curves = xarray.Dataset({"dimensionless_force": one["force"], "dimensionless_stiffness": one[name]})
-        fit = fit_power_laws(curves, window, rng=np.random.default_rng(0))
-        for each in ("exponent", "exponent_error"):
-            laws[prefix + each] = fit[each]
-    return laws.assign_coords(hurst=one["hurst"])

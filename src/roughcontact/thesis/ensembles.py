@@ -6,38 +6,31 @@ E* h L and E* L.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray
 
-from roughcontact.solver.control import Status
-from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.ensemble_mean import Mean
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE, Window, window_of
-from roughcontact.statistics.samples import count, mean, scatter, standard_error
+from roughcontact.statistics.samples import count
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.thesis.line_ensembles import line_averages, line_fits
-
-if TYPE_CHECKING:
-    import xarray
-
-    from roughcontact.statistics.ensemble_mean import Mean
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.averaging import converged, curve_statistics, surface_study, without_parameters
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.line_ensembles import WINDOWED, line_averages, line_fits
 
 __all__ = [
     "HURST",
     "coarse_square_study",
     "curve_averages",
     "curve_fits",
+    "full_contact_study",
     "laws",
     "resolution_studies",
-    "saturation_study",
     "sphere_study",
     "square_study",
-    "stiffness_at",
-    "without_parameters",
 ]
 
 HURST = Range(start=-0.5, stop=2.95, count=24)
@@ -46,11 +39,9 @@ LOW_HURST = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.2)
 RADIUS, SPHERE_HURST, SPHERE_RMS = 0.5, 0.7, 9e-3  # of figure 37, over the side
 FORCES = (1e-6, 1e-2)  # of figure 37, over E* L^2
 SEED = 1
-_RMS = 0.01  # over the side
 _LAWS = (
-    *("exponent", "exponent_error", "exponent_low", "exponent_high"),
-    *("prefactor", "prefactor_error", "prefactor_low", "prefactor_high"),
-    *("correlation", "misfit", "window_low", "window_high", "count", "samples"),
+    *WINDOWED,
+    *("prefactor", "prefactor_error", "prefactor_low", "prefactor_high", "correlation", "misfit", "samples"),
 )
 
 
@@ -68,7 +59,7 @@ def coarse_square_study(scale: Scale) -> Study:
     return _study("squares-small-129", 10, {"points": 129, "loads": 50}, {"hurst": _FEW_HURST})
 
 
-def saturation_study(scale: Scale) -> Study:
+def full_contact_study(scale: Scale) -> Study:
     """Return the study of figure 21: from the first cells to full contact, fractal dimensions 2 to 3."""
     table = {"hurst": Range(start=0.0, stop=1.0, step=0.2)}
     forces = {"lowest_force": 1e-4, "highest_force": 300.0, "loads": 27, "tolerance": 1e-6}
@@ -77,7 +68,7 @@ def saturation_study(scale: Scale) -> Study:
     return _study("saturation-small", 6, forces | {"points": 129}, table)
 
 
-def resolution_studies(scale: Scale) -> tuple[Study, ...]:
+def resolution_studies(scale: Scale) -> Studies:
     """Return the studies of figure 26: low Hurst exponents on several numbers of cells."""
     forces = {"lowest_force": 1e-3, "loads": 40}
     if scale == "thesis":
@@ -114,28 +105,16 @@ def curve_averages(exported: xarray.Dataset) -> xarray.Dataset:
     and below 90 % of the full-contact stiffness. The attributes ``cells`` and ``surfaces`` count cells a side and
     samples.
     """
-    import xarray
-
-    met = exported["status"].isin([status.value for status in Status if status.converged])
-    stiffness = exported["dimensionless_stiffness"].where(met)
-    means = mean(stiffness)
+    stiffness = converged(exported)["dimensionless_stiffness"]
     low, high = window_of(exported, ("sample",), "load").stiffness
-    found = {
-        "force": exported["dimensionless_force"],
-        "stiffness": means,
-        "stiffness_error": standard_error(stiffness),
-        "scatter": scatter(stiffness),
-        "samples": count(stiffness),
-        "resolved": (means > low) & (means < high),
-    }
+    found = curve_statistics(exported["dimensionless_force"], stiffness).assign(samples=count(stiffness))
+    found["resolved"] = (found["stiffness"] > low) & (found["stiffness"] < high)
     for name, values, words in (
         ("cell_stiffness", low / CELLS, "k/(E* L) of one cell"),
         ("full_contact_stiffness", high / FULL_CONTACT_SHARE, "k/(E* L) of all cells"),
     ):
         found[name] = values.assign_attrs(long_name=words, units="1")
-    return xarray.Dataset(
-        found, attrs={"cells": int(exported["points"]), "surfaces": int(found["samples"].max())}
-    )
+    return found.assign_attrs(cells=int(exported["points"]), surfaces=int(found["samples"].max()))
 
 
 def curve_fits(
@@ -143,19 +122,6 @@ def curve_fits(
 ) -> xarray.Dataset:
     """Return the power laws of the mean stiffness of surfaces, with intervals; see `fit_power_laws`."""
     return fit_power_laws(exported, window, rng=np.random.default_rng(0), mean=mean)
-
-
-def stiffness_at(averages: xarray.Dataset, force: Sequence[float]) -> xarray.Dataset:
-    """Return averages at given forces F/(E* h L), the dimension ``force``, between their loads in logarithms.
-
-    Parameters
-    ----------
-    averages : Dataset
-        Of `curve_averages`, or of lines.
-    force : sequence of float
-        Where they were not computed the answer is NaN.
-    """
-    return on_common(averages, force, at="force")
 
 
 def laws(squares: xarray.Dataset, lines: xarray.Dataset) -> xarray.Dataset:
@@ -171,22 +137,11 @@ def laws(squares: xarray.Dataset, lines: xarray.Dataset) -> xarray.Dataset:
     Dataset
         Along ``hurst``, the lines also along ``points``; NaN where only the others were computed.
     """
-    import xarray
-
     surfaces = without_parameters(curve_fits(squares)[list(_LAWS)])
     reduced = without_parameters(line_fits(lines)[list(_LAWS)].rename({n: f"line_{n}" for n in _LAWS}))
     found = xarray.merge([surfaces, reduced], join="outer", combine_attrs="drop")
     return found.assign_attrs(curve_averages(squares).attrs | {"lines": line_averages(lines).attrs["lines"]})
 
 
-def without_parameters(averages: xarray.Dataset) -> xarray.Dataset:
-    """Return averages without the parameters that do not vary, in which surfaces and lines differ."""
-    return averages.drop_vars([name for name in averages.coords if name not in averages.dims])
-
-
 def _study(name: str, samples: int, parameters: dict[str, Any], table: dict[str, Any]) -> Study:
-    """Return a study of the case ``curve``."""
-    common = {"size": 1.0, "modulus": 1.0, "rms": _RMS}
-    return Study(
-        name=name, case="curve", seed=SEED, samples=samples, parameters=common | parameters, table=table
-    )
+    return surface_study(name, parameters, case="curve", seed=SEED, samples=samples, table=table)

@@ -1,8 +1,8 @@
 """Which figures of the thesis there are, and the module of each.
 
-A module named ``fig`` and a number is a figure of the thesis, one named ``outlook_`` and a word answers a question of
-its outlook. A simple one computes what it draws from a seed, in seconds. That of an ensemble names studies, averages
-what they export, and draws the averages.
+A module named ``fig``, a number and what is seen is a figure of the thesis, one named ``outlook_`` and a word answers a
+question of its outlook. A simple one computes what it draws from a seed, in seconds. That of an ensemble names studies,
+averages what they export, and draws the averages.
 """
 
 from __future__ import annotations
@@ -10,16 +10,17 @@ from __future__ import annotations
 import pkgutil
 import re
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, cast
+from typing import Any, Literal, Protocol, TypeGuard, cast
+
+import matplotlib
+import xarray
+from matplotlib.figure import Figure
 
 import roughcontact.thesis
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.study.study import Study
-    from roughcontact.thesis.verdict import Verdict
+from roughcontact.plot.raster import TICK
+from roughcontact.study.study import Study
+from roughcontact.thesis.drawing import STYLE
+from roughcontact.thesis.verdict import Verdict
 
 __all__ = [
     "FIGURES",
@@ -27,6 +28,7 @@ __all__ = [
     "FigureModule",
     "Scale",
     "SimpleFigure",
+    "Studies",
     "drawn",
     "figure",
     "is_ensemble",
@@ -37,16 +39,22 @@ __all__ = [
 Scale = Literal["small", "thesis"]
 """How large the ensembles are: two minutes on two cores at most, or the counts of the thesis."""
 
-_FIGURE = re.compile(r"fig(\d+)|outlook_[a-z]+")
+Studies = tuple[Study, ...]
+"""What the figure of an ensemble stands on."""
+
+_FIGURE = re.compile(r"(fig(\d+)|outlook_[a-z]+)(_[a-z_]+)?")
 
 
 def _figures() -> dict[str, str]:
-    """Return the modules of all figures by the names that users give them, those with numbers first."""
+    """Return the modules of all figures by the names that users give them, those with numbers first.
+
+    The module ``fig27_exponent`` is the figure ``fig27``.
+    """
     found = filter(
         None, (_FIGURE.fullmatch(m.name) for m in pkgutil.iter_modules(roughcontact.thesis.__path__))
     )
-    ordered = sorted(found, key=lambda match: (int(match[1] or 1000), match[0]))
-    return {match[0].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
+    ordered = sorted(found, key=lambda match: (int(match[2] or 1000), match[0]))
+    return {match[1].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
 
 
 FIGURES = _figures()
@@ -75,7 +83,7 @@ class SimpleFigure(FigureModule, Protocol):
 class EnsembleFigure(FigureModule, Protocol):
     """What the module of a figure holds that stands on studies."""
 
-    def studies(self, scale: Scale) -> tuple[Study, ...]:
+    def studies(self, scale: Scale) -> Studies:
         """Return the studies; those that figures share have one name and are run once."""
 
     def averages(self, *datasets: xarray.Dataset) -> xarray.Dataset:
@@ -102,10 +110,11 @@ def is_ensemble(found: SimpleFigure | EnsembleFigure) -> TypeGuard[EnsembleFigur
 
 def drawn(found: FigureModule, data: Any) -> Figure:
     """Return the picture of what a figure shows."""
-    from matplotlib.figure import Figure
-
     picture = Figure(figsize=found.SIZE, layout="constrained")
-    found.draw(picture, data)
+    with matplotlib.rc_context(STYLE):
+        found.draw(picture, data)
+    for axes in picture.axes:  # ticks are made when they are drawn
+        axes.tick_params(labelsize=TICK, which="both")
     return picture
 
 

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray
 
-from roughcontact import statistics
 from roughcontact.statistics.ensemble_mean import Mean
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import Window, resolved_window
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
 from roughcontact.theory import gaussian_heights
-
-if TYPE_CHECKING:
-    import xarray
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.averaging import curve_statistics
+from roughcontact.thesis.figures import Scale, Studies
 
 __all__ = [
     "HURST",
     "POINTS",
+    "WINDOWED",
     "each_line",
     "line_averages",
     "line_fits",
@@ -36,9 +34,14 @@ __all__ = [
 HURST = Range(start=-0.95, stop=2.95, step=0.15)  # from -0.5 on the 24 values of the boundary elements
 POINTS = (2**9, 2**11, 2**13)
 LINES = 50  # a sample
+WINDOWED = (
+    *("exponent", "exponent_error", "exponent_low", "exponent_high"),
+    *("window_low", "window_high", "count"),
+)
+"""Of a fit: its exponent, and the window that it was found in."""
 
 
-def line_studies(scale: Scale) -> tuple[Study, ...]:
+def line_studies(scale: Scale) -> Studies:
     """Return the one study of rough lines: 27 Hurst exponents, three numbers of points, 1000 lines of each."""
     return (line_study("lines", scale, table={"points": POINTS, "hurst": HURST}),)
 
@@ -65,8 +68,6 @@ def line_study(
 
 def each_line(exported: xarray.Dataset) -> xarray.Dataset:
     """Return what a study of lines exports with every line as a sample, as the statistics of a study want it."""
-    import xarray
-
     stacked = exported["dimensionless_stiffness"].stack(one=("sample", "line"))
     lines = stacked.drop_vars(["one", "sample", "line"]).rename(one="sample")
     return xarray.Dataset(
@@ -88,19 +89,9 @@ def line_averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``force`` F/(E* h L) along ``load``; ``stiffness`` k/(E* L), ``stiffness_error`` and ``scatter`` along ``load``
         and what varies in the study. How many lines there are is an attribute.
     """
-    import xarray
-
     lines = each_line(exported)
-    stiffness = lines["dimensionless_stiffness"]
-    averaged = xarray.Dataset(
-        {
-            "force": lines["dimensionless_force"],
-            "stiffness": statistics.mean(stiffness),
-            "stiffness_error": statistics.standard_error(stiffness),
-            "scatter": statistics.scatter(stiffness),
-        }
-    )
-    return averaged.assign_attrs(lines=stiffness.sizes["sample"])
+    averaged = curve_statistics(lines["dimensionless_force"], lines["dimensionless_stiffness"])
+    return averaged.assign_attrs(lines=lines.sizes["sample"])
 
 
 def line_fits(
@@ -132,8 +123,6 @@ def white_exponent(force: xarray.DataArray, fits: xarray.Dataset) -> xarray.Data
     fits : Dataset
         As `fit_power_laws` returns them: their windows count.
     """
-    import xarray
-
     every = np.unique(force.to_numpy())
 
     def fitted(low: float, high: float) -> float:

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+import xarray
 
 from roughcontact.mdr.calibration import force_ratio
-from roughcontact.solver.control import Status
 from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.statistics.fit_window import CELLS
-
-if TYPE_CHECKING:
-    import xarray
+from roughcontact.thesis.averaging import converged
 
 __all__ = ["Ensemble", "Match", "match", "pairs"]
 
@@ -67,9 +64,7 @@ def pairs(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Iterator[tuple[flo
     surfaces : Dataset
         What a study of the case ``curve`` exports. Loads that missed their tolerance have no part.
     """
-    met = surfaces["status"].isin([status.value for status in Status if status.converged])
-    stiffness = surfaces["dimensionless_stiffness"].where(met)
-    curves = surfaces[["dimensionless_force"]].assign(dimensionless_stiffness=stiffness)
+    curves = converged(surfaces)[["dimensionless_force", "dimensionless_stiffness"]]
     cell = float((surfaces["cell_stiffness"] / (surfaces["modulus"] * surfaces["size"])).mean())
     for hurst in surfaces["hurst"].to_numpy():
         line = lines.sel(hurst=hurst, method="nearest", tolerance=1e-9)

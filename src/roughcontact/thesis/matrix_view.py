@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from roughcontact.thesis import drawing
 
 __all__ = ["matrix_view"]
 
 Array = npt.NDArray[np.float64]
 
-_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7")
 
-
-def matrix_view(figure: Figure, matrix: Array, columns: Sequence[int], words: tuple[str, str]) -> None:
+def matrix_view(figure: Figure, matrix: Array, columns: Sequence[int], part: str) -> None:
     """Draw B with a colour an entry (a), and chosen columns against the row (b).
 
     Parameters
@@ -30,36 +26,19 @@ def matrix_view(figure: Figure, matrix: Array, columns: Sequence[int], words: tu
         Row of what is displaced, column of what is loaded; both are counted from 1 in the picture.
     columns : sequence of int
         Columns to draw, from 0.
-    words : tuple of str
-        What is displaced and what is loaded, such as "displaced ring".
+    part : str
+        What is displaced and loaded: "ring" or "strip".
     """
-    left, right = figure.subplots(1, 2, width_ratios=(1, 1.15))
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1, 1.15))
     n = len(matrix)
-    image = left.imshow(
-        matrix, cmap="viridis", interpolation="nearest", extent=(0.5, n + 0.5, n + 0.5, 0.5), aspect="equal"
-    )
-    bar = figure.colorbar(image, ax=left, shrink=0.85, pad=0.02)
-    bar.set_label("$B_{ij}$", fontsize=LABEL)
-    bar.ax.tick_params(labelsize=TICK)
-    left.set_ylabel(f"{words[0]} $i$", fontsize=LABEL)
-    left.set_xlabel(f"{words[1]} $j$", fontsize=LABEL)
+    extent = (0.5, n + 0.5, n + 0.5, 0.5)
+    image = left.imshow(matrix, cmap="viridis", interpolation="nearest", extent=extent, aspect="equal")
+    figure.colorbar(image, ax=left, shrink=0.85, pad=0.02).set_label("$B_{ij}$")
+    left.set(xlabel=f"loaded {part} $j$", ylabel=f"displaced {part} $i$")
     row = np.arange(1, n + 1)
-    for column, colour in zip(columns, _COLOURS, strict=False):
-        right.plot(
-            row,
-            matrix[:, column],
-            ".-",
-            color=colour,
-            linewidth=1.0,
-            markersize=3.5,
-            label=f"$j$ = {column + 1}",
-        )
-    right.set_xlabel(f"{words[0]} $i$", fontsize=LABEL)
-    right.set_ylabel("$B_{ij}$", fontsize=LABEL)
-    right.set_ylim(top=1.25 * float(matrix.max()))  # room for the legend
-    right.legend(fontsize=TICK, frameon=False, loc="upper center", ncols=3)
-    right.grid(True, color="0.92", linewidth=0.8)
-    right.set_axisbelow(True)
-    for letter, axes in (("a", left), ("b", right)):
-        axes.tick_params(labelsize=TICK)
-        axes.set_title(f"({letter})", fontsize=LABEL, loc="left")
+    for column, colour in zip(columns, drawing.COLOURS, strict=False):
+        given: Any = {"color": colour, "linewidth": 1.0, "markersize": 3.5, "label": f"$j$ = {column + 1}"}
+        right.plot(row, matrix[:, column], ".-", **given)
+    # With room for the legend.
+    drawing.label(right, f"displaced {part} $i$", "$B_{ij}$", ylim=(None, 1.25 * float(matrix.max())))
+    right.legend(loc="upper center", ncols=3)

@@ -6,23 +6,14 @@ along the mean gap u if eqs 3.12 and 3.13 hold. Both integrals are taken by cubi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
-from roughcontact.study.study import Study
-from roughcontact.thesis.sample_means import apart, converged, means
-from roughcontact.thesis.stiffness_view import quiet
-from roughcontact.thesis.verdict import Verdict, spanned
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts", "work"]
 
@@ -41,33 +32,23 @@ SEED = 13
 ROUNDING = 1e-3  # of the work: what cubics through a staircase of the stiffness may miss
 _POINTS = {"small": 128, "thesis": 256}
 _SAMPLES = {"small": 6, "thesis": 24}
-_FREE, _PERIODIC = "#d55e00", "#0072b2"
+_STYLES = ((ROLLOFF[0], "-", ""), (ROLLOFF[1], "--", f", roll-off at L/{1 / ROLLOFF[1]:g}"))
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the one study: free and periodic, with and without a roll-off."""
     points = _POINTS[scale]
-    return (
-        Study(
-            name={"small": "outlook-energy-small", "thesis": "outlook-energy"}[scale],
-            case="curve",
-            seed=SEED,
-            samples=_SAMPLES[scale],
-            parameters={
-                "points": points,
-                "size": 1.0,
-                "modulus": 1.0,
-                "hurst": HURST,
-                "rms": 0.01,
-                "short_cutoff": 4 / points,
-                "lowest_force": LOADS[0],
-                "highest_force": LOADS[1],
-                "loads": 41,
-                "tolerance": 1e-8,
-            },
-            table={"periodic": (False, True), "rolloff": ROLLOFF},
-        ),
+    forces = {"lowest_force": LOADS[0], "highest_force": LOADS[1], "loads": 41, "tolerance": 1e-8}
+    study = averaging.outlook_study(
+        "energy",
+        scale,
+        {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
+        case="curve",
+        seed=SEED,
+        samples=_SAMPLES[scale],
+        table={"periodic": (False, True), "rolloff": ROLLOFF},
     )
+    return (study,)
 
 
 def work(force: xarray.DataArray, way: xarray.DataArray, stiffness: xarray.DataArray) -> xarray.DataArray:
@@ -101,7 +82,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``by_gap_interfacial``, the latter with the interfacial energy; ``between`` is the force in the middle.
         ``whole_by_approach`` and ``whole_by_gap`` are the former two from the first load to the last.
     """
-    given = apart(converged(exported).drop_vars("case_seconds", errors="ignore"))
+    given = averaging.without_parameters(averaging.converged(exported))
     # Without contact the gap is the mean separation. A periodic body does not sink in, and has the same heights.
     separation = (given["mean_gap"] + given["depth"]).sel(periodic=True).isel(load=0)
     sunk = given["mean_gap"] + given["depth"] - separation.drop_vars("periodic")
@@ -111,7 +92,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     closing = work(force, -given["mean_gap"], given["interfacial_stiffness"])
     whole = _grown(energy).sum("interval")
     height = float(exported["rms"].mean())
-    found = means(
+    found = averaging.means(
         {
             "length": energy / force / height,
             "interfacial_length": interfacial / force / height,
@@ -127,47 +108,33 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     loads = given["dimensionless_force"]
     found["force"] = loads
     found["between"] = np.sqrt(_first(loads) * (_first(loads) + _grown(loads)))
-    told = {"surfaces": exported.sizes["sample"], "cells": int(exported["points"])}
-    return found.assign_attrs(told)
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw the force from the energy of free (a) and periodic (b) bodies, energy over force (c) and over area (d)."""
-    (first, second), (third, fourth) = figure.subplots(2, 2)
-    for axes, periodic in ((first, False), (second, True)):
+    first, second, third, fourth = drawing.panels(figure, 2, 2)
+    for axes, name, periodic in ((first, "free", False), (second, "periodic", True)):
         _forces(axes, averages.sel(periodic=periodic))
-        axes.set_title("periodic" if periodic else "free", fontsize=TICK + 1)
-    for axes, name, label in (
+        axes.set_title(name, loc="center")
+    second.set(ylim=(0.99, 1.01))
+    first.set(yscale="log", ylim=(0.4, 30))
+    drawing.readable(first)
+    free = averages.sel(periodic=False)
+    for axes, name, words in (
         (third, "length", r"energy over force $U\,/\,(F h)$"),
         (fourth, "area_length", r"energy over area $U\,/\,(A E^* h)$"),
     ):
-        for periodic, colour in ((False, _FREE), (True, _PERIODIC)):
-            for rolloff, style in zip(ROLLOFF, ("-", "--"), strict=True):
-                one = averages.sel(periodic=periodic, rolloff=rolloff)
-                words = f"{'periodic' if periodic else 'free'}{_words(rolloff)}"
-                axes.errorbar(
-                    one["force"],
-                    one[name],
-                    one[f"{name}_error"],
-                    color=colour,
-                    linestyle=style,
-                    linewidth=1.3,
-                    elinewidth=0.7,
-                    label=words,
-                )
-                if name == "length" and not periodic:
-                    axes.plot(
-                        one["force"], one["interfacial_length"], color="0.5", linestyle=style, linewidth=1.0
-                    )
-        axes.set(xscale="log", yscale="log")
-        axes.set_ylabel(label, fontsize=LABEL)
-        axes.legend(fontsize=TICK, frameon=False)
-    third.plot([], [], color="0.5", linewidth=1.0, label="free, interfacial energy")
-    third.legend(fontsize=TICK, frameon=False)
-    for letter, axes in zip("abcd", (first, second, third, fourth), strict=True):
-        axes.set_xlabel(r"force $F\,/\,(E^* h L)$", fontsize=LABEL)
-        axes.set_title(f"({letter})", fontsize=TICK + 1, loc="left")
-        quiet(axes)
+        for body, colour in (("free", drawing.COLOURS[1]), ("periodic", drawing.COLOURS[0])):
+            for rolloff, style, also in _STYLES:
+                one = averages.sel(periodic=body == "periodic", rolloff=rolloff)
+                drawing.with_errors(axes, one, name, fmt=style, color=colour, label=body + also)
+        drawing.label(axes, drawing.FORCE, words, **drawing.LOG)
+    for rolloff, style, _ in _STYLES:
+        third.plot(free["force"], free["interfacial_length"].sel(rolloff=rolloff), style, color="0.5")
+    drawing.key(third, "-", "free, interfacial energy", color="0.5")
+    for axes in (third, fourth):
+        axes.legend()
 
 
 def _forces(axes: Axes, averages: xarray.Dataset) -> None:
@@ -176,31 +143,20 @@ def _forces(axes: Axes, averages: xarray.Dataset) -> None:
         ("by_gap_interfacial", "#009e73", r"$-dU/du$, interfacial energy"),
         ("by_approach", "black", r"$dU/dd$, eq. 3.17"),
     ):
-        for rolloff, style in zip(ROLLOFF, ("-", "--"), strict=True):
-            one = averages.sel(rolloff=rolloff)
+        for rolloff, style, also in _STYLES:
             axes.plot(
-                one["between"],
-                one[name],
+                averages["between"],
+                averages[name].sel(rolloff=rolloff),
                 style,
                 color=colour,
-                linewidth=1.4,
-                label=words if rolloff == ROLLOFF[0] else None,
+                label=None if also else words,
             )
-    axes.plot([], [], "--", color="0.4", label=f"with roll-off at L/{1 / ROLLOFF[1]:g}")
-    if averages["periodic"]:
-        axes.set(xscale="log", ylim=(0.99, 1.01))
-    else:
-        axes.set(xscale="log", yscale="log", ylim=(0.4, 30))
-        readable_ticks(axes.yaxis, 30 / 0.4)
-    axes.set_ylabel("force from the energy over the force", fontsize=LABEL)
-    axes.legend(fontsize=TICK, frameon=False, loc="upper left")
+    drawing.key(axes, "--", f"with roll-off at L/{1 / ROLLOFF[1]:g}")
+    drawing.label(axes, drawing.FORCE, "force from the energy over the force", xscale="log")
+    axes.legend(loc="upper left")
 
 
-def _words(rolloff: float) -> str:
-    return "" if rolloff >= 1 else f", roll-off at L/{1 / rolloff:g}"
-
-
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say of which energy and which body eqs 3.13 to 3.17 hold."""
     free, periodic = averages.sel(periodic=False), averages.sel(periodic=True)
     approach, gap = averages["whole_by_approach"] - 1, periodic["whole_by_gap"] - 1
@@ -216,42 +172,40 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
     many = flat.isel(load=inside)
     length, area = (many[name] for name in ("length", "area_length"))
     span = f"forces {spanned(many['force'], '.2g')} E* h L"
-    told = f"{averages.attrs['surfaces']} samples of {averages.attrs['cells']}² cells, H = {HURST:g}"
-    return (
-        Verdict(
-            "the force is the derivative of the energy against the approach (eq. 3.17)",
-            "exact",
-            f"the energy grows by {spanned(approach, '+.3%')} more than the work of the force from {LOADS[0]:g} to "
-            f"{LOADS[1]:g} E* h L, from one load to the next by {spanned(steps, '+.2%')}; free and periodic; {told}",
-            bool((np.abs(approach) < ROUNDING).all()),
-        ),
-        Verdict(
-            "eqs 3.12 and 3.13, with the mean gap, are not correct (section 3.2)",
-            "not correct",
-            f"for a periodic body, which they are about, they hold: {spanned(gap, '+.3%')} more than the work along "
-            f"the mean gap; for the whole energy of a free one the objection is right: by {grown} E* h L",
-            not bool((np.abs(gap) < ROUNDING).all()),
-        ),
-        Verdict(
-            "for small forces eqs 3.13 and 3.17 coincide (section 3.2)",
-            "coincide",
-            f"of a free body the force by eq. 3.13 is off by {grown} E* h L; without the energy of its sinking in, "
-            f"which is no part of the interface, by {spanned(low, '+.1%')} up to a force of 1 and "
-            f"{spanned(inner, '+.1%')} up to {LOADS[1]:g}",
-            bool(abs(float(total[0]) - 1) < 0.05),
-        ),
-        Verdict(
-            "the energy is proportional to the force, U = u0 F (eq. 3.15)",
-            "u0 of the order of h",
-            f"nominally flat, periodic: U/F from {float(length[0]):.2f} to {float(length[-1]):.2f} h, {span}; without "
-            f"roll-off {spanned(averages['length'].sel(periodic=True, rolloff=ROLLOFF[0]), '.2f')} h over all forces",
-            bool(float(length.max() / length.min()) < 1.25),
-        ),
-        Verdict(
-            "the energy is proportional to the contact area (eq. 3.14)",
-            "proportional",
-            f"nominally flat, periodic: U/A grows from {float(area[0]):.3f} to {float(area[-1]):.3f} E* h while A "
-            f"grows from {float(many['area'][0]):.3f} to {float(many['area'][-1]):.3f} L^2; {span}",
-            bool(float(area.max() / area.min()) < 1.25),
-        ),
+    told = f"{counted(averages)}, H = {HURST:g}"
+    yield Verdict(
+        "the force is the derivative of the energy against the approach (eq. 3.17)",
+        "exact",
+        f"the energy grows by {spanned(approach, '+.3%')} more than the work of the force from {LOADS[0]:g} to "
+        f"{LOADS[1]:g} E* h L, from one load to the next by {spanned(steps, '+.2%')}; free and periodic; {told}",
+        bool((np.abs(approach) < ROUNDING).all()),
+    )
+    yield Verdict(
+        "eqs 3.12 and 3.13, with the mean gap, are not correct (section 3.2)",
+        "not correct",
+        f"for a periodic body, which they are about, they hold: {spanned(gap, '+.3%')} more than the work along the "
+        f"mean gap; for the whole energy of a free one the objection is right: by {grown} E* h L",
+        not bool((np.abs(gap) < ROUNDING).all()),
+    )
+    yield Verdict(
+        "for small forces eqs 3.13 and 3.17 coincide (section 3.2)",
+        "coincide",
+        f"of a free body the force by eq. 3.13 is off by {grown} E* h L; without the energy of its sinking in, which "
+        f"is no part of the interface, by {spanned(low, '+.1%')} up to a force of 1 and {spanned(inner, '+.1%')} up to "
+        f"{LOADS[1]:g}",
+        bool(abs(float(total[0]) - 1) < 0.05),
+    )
+    yield Verdict(
+        "the energy is proportional to the force, U = u0 F (eq. 3.15)",
+        "u0 of the order of h",
+        f"nominally flat, periodic: U/F from {float(length[0]):.2f} to {float(length[-1]):.2f} h, {span}; without "
+        f"roll-off {spanned(averages['length'].sel(periodic=True, rolloff=ROLLOFF[0]), '.2f')} h over all forces",
+        bool(float(length.max() / length.min()) < 1.25),
+    )
+    yield Verdict(
+        "the energy is proportional to the contact area (eq. 3.14)",
+        "proportional",
+        f"nominally flat, periodic: U/A grows from {float(area[0]):.3f} to {float(area[-1]):.3f} E* h while A grows "
+        f"from {float(many['area'][0]):.3f} to {float(many['area'][-1]):.3f} L^2; {span}",
+        bool(float(area.max() / area.min()) < 1.25),
     )

@@ -6,36 +6,22 @@ its own under eq. 4.74; if their maxima are distributed exponentially, the stiff
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from roughcontact.contact.theories import loading_laws
-from roughcontact.grid import Grid
-from roughcontact.study.study import Study
-from roughcontact.surface.fourier import self_affine
+import roughcontact as rc
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.interaction import SQUARE
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import RMS, logarithm
 from roughcontact.thesis.cell_law import cells_stiffness, exponential_rate, single_cell_stiffness
-from roughcontact.thesis.flat_view import draw_flat
-from roughcontact.thesis.sample_means import (
-    apart,
-    converged,
-    exponential,
-    logarithm,
-    means,
-    plus_minus,
-    same_for_all,
-    slope,
-)
-from roughcontact.thesis.verdict import Verdict, judged, spanned
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, judged, listed, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -61,37 +47,28 @@ SIZE = (8.8, 7.2)
 SEED = 15
 _POINTS = {"small": 128, "thesis": 512}
 _SAMPLES = {"small": 16, "thesis": 10}
-_RMS = 0.01
 _THEORIES = ("persson", "gw")
+_SHOWN = 8  # L over the longest wave, of the surface beside all laws
+_COLOURS = {1: "black", 2: "#0072b2", 4: "#009e73", 8: "#e69f00", 16: "#d55e00"}  # by L over the longest wave
+_PERSSON, _GREENWOOD, _CELLS = "#0072b2", "#009e73", "#d55e00"
+_BODIES = ((True, "o", "black"), (False, "s", "0.55"))  # periodic, free
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
     points = _POINTS[scale]
-    rows: list[dict[str, Any]] = [{"long_cutoff": 1 / each} for each in CUTOFF]
-    rows += [{"rolloff": 1 / each} for each in ROLLOFF]
-    return (
-        Study(
-            name={"small": "outlook-flat-small", "thesis": "outlook-flat"}[scale],
-            case="cells",
-            seed=SEED,
-            samples=_SAMPLES[scale],
-            parameters={
-                "points": points,
-                "size": 1.0,
-                "modulus": 1.0,
-                "hurst": HURST,
-                "rms": _RMS,
-                "short_cutoff": 4 / points,
-                "lowest_force": 1e-3,
-                "highest_force": 3.0,
-                "loads": 17,
-                "tolerance": 1e-6,
-            },
-            table={"periodic": (False, True)},
-            rows=rows,
-        ),
+    forces = {"lowest_force": 1e-3, "highest_force": 3.0, "loads": 17, "tolerance": 1e-6}
+    study = averaging.outlook_study(
+        "flat",
+        scale,
+        {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
+        case="cells",
+        seed=SEED,
+        samples=_SAMPLES[scale],
+        table={"periodic": (False, True)},
+        rows=[*({"long_cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
     )
+    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -107,32 +84,30 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``long`` (row), L over the longest wave, and ``kind``, "cut-off" or "roll-off"; ``force`` F/(E* h L);
         ``window``.
     """
-    import xarray
-
-    given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
+    given = averaging.without_parameters(averaging.converged(exported))
     force = given["dimensionless_force"]
     interfacial, area = given["interfacial_stiffness"], given["contact_area"]
     cutoff, rolloff = given["long_cutoff"], given["rolloff"]
     length = cutoff.fillna(rolloff)
-    model = _of_cells(given["below"].isel(periodic=1, drop=True) / _RMS, length, force)
+    model = _of_cells(given["below"].isel(periodic=1, drop=True) / RMS, length, force)
     cells, decay = model["cells"], model["decay"]
-    floor = 20 * same_for_all(given["cell_stiffness"])
+    floor = 20 * averaging.same_for_all(given["cell_stiffness"])
     window = (force >= MANY * length) & (area.mean("sample") <= FULL) & (interfacial.mean("sample") > floor)
     held = interfacial.where(window)
     alone = xarray.apply_ufunc(single_cell_stiffness, length, force, HURST)
     nearest = abs(logarithm(force / length / pohrt_popov.FORCE_LIMIT)).argmin("load")
 
     def typical(ratio: xarray.DataArray) -> xarray.DataArray:
-        return exponential(logarithm(ratio).mean("load"))
+        return averaging.exponential(logarithm(ratio).mean("load"))
 
-    found = means(
+    found = averaging.means(
         {
             "stiffness": given["stiffness"],
             "interfacial": interfacial,
             "area": area,
             "cells": cells,
             "decay": decay,
-            "exponent": slope(logarithm(held), logarithm(force), "load"),
+            "exponent": averaging.slope(logarithm(held), logarithm(force), "load"),
             "level": typical(held / force),
             "over_decay": typical(held / force / decay),
             "alone": (given["stiffness"] / alone).isel(load=nearest),
@@ -149,40 +124,29 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
 
 def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray) -> xarray.Dataset:
     """Return the stiffness of the sum over cells at every load, and lambda h of their tops, of every row and sample."""
-    import xarray
 
-    def tops(values: Array) -> Array:
-        return values[np.isfinite(values)]
+    def model(values: Array, side: float, forces: Array) -> tuple[Array, float]:
+        tops = values[np.isfinite(values)]
+        if not tops.size:
+            return np.full(forces.shape, np.nan), np.nan
+        return cells_stiffness(tops, side, forces, HURST), exponential_rate(tops)
 
-    def stiffness(values: Array, side: float, forces: Array) -> Array:
-        found = tops(values)
-        return cells_stiffness(found, side, forces, HURST) if found.size else np.full(forces.shape, np.nan)
-
-    return xarray.Dataset(
-        {
-            "cells": xarray.apply_ufunc(
-                stiffness,
-                below,
-                length,
-                force,
-                input_core_dims=[["cell"], [], ["load"]],
-                output_core_dims=[["load"]],
-                vectorize=True,
-            ),
-            "decay": xarray.apply_ufunc(
-                lambda values: exponential_rate(tops(values)),
-                below,
-                input_core_dims=[["cell"]],
-                vectorize=True,
-            ),
-        }
+    cells, decay = xarray.apply_ufunc(
+        model,
+        below,
+        length,
+        force,
+        input_core_dims=[["cell"], [], ["load"]],
+        output_core_dims=[["load"], []],
+        vectorize=True,
     )
+    return xarray.Dataset({"cells": cells, "decay": decay})
 
 
 def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
     """Return K/(E* L) and A/L^2 of the theories for every row; all samples of a row have one spectrum."""
     points = int(exported["points"])
-    grid = Grid((points, points), 1 / points, periodic=True)
+    grid = rc.Grid((points, points), 1 / points, periodic=True)
     shape = (exported.sizes["row"], len(force))
     found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
     for row in range(shape[0]):
@@ -191,73 +155,124 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
             for name in ("long_cutoff", "rolloff")
             if np.isfinite(value := exported[name].values[row])
         }
-        surface = self_affine(
+        surface = rc.self_affine(
             grid,
             HURST,
-            _RMS,
+            RMS,
             np.random.default_rng(0),
             short_cutoff=float(exported["short_cutoff"]),
             **longest,  # type: ignore[arg-type]
         )
-        for name, law in zip(_THEORIES, loading_laws(surface, 1.0, _THEORIES), strict=True):
-            found[name][row] = law.predict("interfacial_stiffness", force * _RMS)
-            found[f"{name}_area"][row] = law.predict("contact_area", force * _RMS)
+        for name, law in zip(_THEORIES, rc.loading_laws(surface, 1.0, _THEORIES), strict=True):
+            found[name][row] = law.predict("interfacial_stiffness", force * RMS)
+            found[f"{name}_area"][row] = law.predict("contact_area", force * RMS)
     return found
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw K/F with cut-off (a) and roll-off (b), and stiffness (c) and area (d) of one beside all laws."""
-    draw_flat(figure, averages)
+    first, second, third, fourth = drawing.panels(figure, 2, 2)
+    force = averages["force"]
+    for axes, kind in ((first, "cut-off"), (second, "roll-off")):
+        _levels(axes, _rows(averages, kind, least=1))
+        drawing.label(axes, drawing.FORCE, rf"$K h\,/\,F$, {kind}", xscale="log", ylim=(0, 9))
+    one = _rows(averages, "cut-off", least=1)
+    one = one.isel(row=int(np.flatnonzero(one["long"] == _SHOWN)[0]))
+    body = one["persson"] / (1 + SQUARE * one["persson"])
+    # Over the force: a linear law is level.
+    for (periodic, mark, colour), name, words in zip(
+        _BODIES, ("interfacial", "stiffness"), ("periodic", "free, k"), strict=True
+    ):
+        _over_force(third, one.sel(periodic=periodic), name, fmt=mark, color=colour, label=words)
+    for words, values, colour, style in (
+        ("Persson", one["persson"], _PERSSON, "-"),
+        ("Persson on a finite body", body, _PERSSON, "--"),
+        ("Greenwood, Williamson", one["gw"], _GREENWOOD, "-."),
+        ("sum over cells", one["cells"], _CELLS, "-"),
+        (r"$\lambda F$ of the maxima", one["decay"] * force, _CELLS, ":"),
+    ):
+        third.plot(force, values / force, style, color=colour, label=words)
+    words = rf"$K h\,/\,F$, cut-off at L/{_SHOWN}"
+    drawing.label(third, drawing.FORCE, words, xscale="log", ylim=(0, 9))
+    for periodic, mark, colour in _BODIES:
+        words = "periodic" if periodic else "free"
+        _over_force(fourth, one.sel(periodic=periodic), "area", fmt=mark, color=colour, label=words)
+    fourth.plot(force, one["persson_area"] / force, "-", color=_PERSSON, label="Persson")
+    fourth.plot(force, one["gw_area"] / force, "-.", color=_GREENWOOD, label="Greenwood, Williamson")
+    words = rf"area over force $A E^* h\,/\,(F L)$, cut-off at L/{_SHOWN}"
+    drawing.label(fourth, drawing.FORCE, words, xscale="log")
+    fourth.set_ylim(bottom=0)
+    for axes in (first, second, third, fourth):
+        axes.legend()
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def _levels(axes: Axes, averages: xarray.Dataset) -> None:
+    force = averages["force"]
+    for row in range(averages.sizes["row"]):
+        one = averages.isel(row=row)
+        long = int(one["long"])
+        for values, style, words in (
+            (one["interfacial"].sel(periodic=True), "-", f"L/{long}" if long > 1 else "none"),
+            (one["interfacial"].sel(periodic=False), "--", None),
+            (one["persson"], ":", None),
+        ):
+            axes.plot(force, values / force, style, color=_COLOURS[long], label=words)
+    drawing.key(axes, "--", "free")
+    drawing.key(axes, ":", "Persson")
+
+
+def _over_force(axes: Axes, one: xarray.Dataset, name: str, **style: Any) -> None:
+    """Draw a mean over the force, with its errors."""
+    force, error = one["force"], one[f"{name}_error"]
+    axes.errorbar(force, one[name] / force, error / force, markersize=3.5, **style)
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Judge the linear law of section 5.1, where it comes from, and the theories beside it."""
     cut, roll = _rows(averages, "cut-off"), _rows(averages, "roll-off")
     told = f"{averages.attrs['surfaces']} samples of {averages.attrs['points']}² cells, H = {HURST:g}"
     last = cut.isel(row=-1)
-    return (
-        Verdict(
-            "with a considerable cut-off the stiffness is proportional to the force (section 5.1)",
-            "exponent 1",
-            f"exponents of K over the window, periodic {_each(cut, 'exponent', True)}; free "
-            f"{_each(cut, 'exponent', False)}; {told}",
-            judged(last["exponent"] - 1, last["exponent_error"], 0.06),
-        ),
-        Verdict(
-            "with a roll-off the exponent is about 0.9 (section 5.1)",
-            "0.9",
-            f"periodic {_each(roll, 'exponent', True)}; free {_each(roll, 'exponent', False)}; {told}",
-            judged(roll["exponent"] - 0.9, roll["exponent_error"], 0.05),
-        ),
-        Verdict(
-            "the linear law follows from the heights of the cells' maxima (section 5.1)",
-            "K = lambda F",
-            f"K over lambda F, means over the window, cut-off, periodic {_each(cut, 'over_decay', True)}; lambda h "
-            f"{_each(cut, 'decay', None)}, K h/F {_each(cut, 'level', True)}; roll-off "
-            f"{_each(roll, 'over_decay', True)}; {told}",
-            judged(cut["over_decay"] - 1, cut["over_decay_error"], 0.2),
-        ),
-        Verdict(
-            "cells act as independent indenters under eq. 4.74 (section 5.1)",
-            "no coupling",
-            "K over the sum over cells, with their own maxima, from the lowest force of the window to the highest, "
-            f"cut-off, periodic {_ends(cut, 'cells')}; roll-off {_ends(roll, 'cells')}; {told}",
-            judged(
-                (cut["interfacial"] / cut["cells"] - 1).where(cut["window"]).sel(periodic=True),
-                (cut["interfacial_error"] / cut["cells"]).sel(periodic=True),
-                0.2,
-            ),
-        ),
-        Verdict(
-            "a single cell under eq. 4.74 at the lowest loads",
-            "1",
-            f"k over that of one cell that carries all, at about {pohrt_popov.FORCE_LIMIT:g} E* h l, cut-off, periodic "
-            f"{_each(_rows(averages, 'cut-off', least=1), 'alone', True)}; {told}",
-            None,
-        ),
-        *(_theory(averages, name, told) for name in _THEORIES),
-        _finite(averages, cut, told),
+    yield Verdict(
+        "with a considerable cut-off the stiffness is proportional to the force (section 5.1)",
+        "exponent 1",
+        f"exponents of K over the window, periodic {_each(cut, 'exponent', True)}; free "
+        f"{_each(cut, 'exponent', False)}; {told}",
+        judged(last["exponent"] - 1, last["exponent_error"], 0.06),
     )
+    yield Verdict(
+        "with a roll-off the exponent is about 0.9 (section 5.1)",
+        "0.9",
+        f"periodic {_each(roll, 'exponent', True)}; free {_each(roll, 'exponent', False)}; {told}",
+        judged(roll["exponent"] - 0.9, roll["exponent_error"], 0.05),
+    )
+    yield Verdict(
+        "the linear law follows from the heights of the cells' maxima (section 5.1)",
+        "K = lambda F",
+        f"K over lambda F, means over the window, cut-off, periodic {_each(cut, 'over_decay', True)}; lambda h "
+        f"{_each(cut, 'decay', None)}, K h/F {_each(cut, 'level', True)}; roll-off {_each(roll, 'over_decay', True)}; "
+        f"{told}",
+        judged(cut["over_decay"] - 1, cut["over_decay_error"], 0.2),
+    )
+    yield Verdict(
+        "cells act as independent indenters under eq. 4.74 (section 5.1)",
+        "no coupling",
+        "K over the sum over cells, with their own maxima, from the lowest force of the window to the highest, "
+        f"cut-off, periodic {_ends(cut, 'cells')}; roll-off {_ends(roll, 'cells')}; {told}",
+        judged(
+            (cut["interfacial"] / cut["cells"] - 1).where(cut["window"]).sel(periodic=True),
+            (cut["interfacial_error"] / cut["cells"]).sel(periodic=True),
+            0.2,
+        ),
+    )
+    yield Verdict(
+        "a single cell under eq. 4.74 at the lowest loads",
+        "1",
+        f"k over that of one cell that carries all, at about {pohrt_popov.FORCE_LIMIT:g} E* h l, cut-off, periodic "
+        f"{_each(_rows(averages, 'cut-off', least=1), 'alone', True)}; {told}",
+        None,
+    )
+    yield from (_theory(averages, name, told) for name in _THEORIES)
+    yield _finite(averages, cut, told)
 
 
 def _rows(averages: xarray.Dataset, kind: str, least: int = FEW) -> xarray.Dataset:
@@ -269,12 +284,8 @@ def _rows(averages: xarray.Dataset, kind: str, least: int = FEW) -> xarray.Datas
 def _each(averages: xarray.Dataset, name: str, periodic: bool | None) -> str:
     """Return a mean of every row in words."""
     chosen = averages if periodic is None else averages.sel(periodic=periodic)
-    words = []
-    for row in range(chosen.sizes["row"]):
-        one = chosen.isel(row=row)
-        long = int(one["long"])
-        words.append(f"{plus_minus(one, name)} at {f'L/{long}' if long > 1 else 'L'}")
-    return ", ".join(words)
+    rows = chosen.assign_coords(row=[f"L/{long}" if long > 1 else "L" for long in chosen["long"].values])
+    return listed(rows, name, "row", words="{}")
 
 
 def _ends(averages: xarray.Dataset, law: str) -> str:
@@ -301,9 +312,8 @@ def _theory(averages: xarray.Dataset, name: str, told: str) -> Verdict:
         f"theories of nominally flat surfaces: {words}",
         "a linear law",
         f"computed stiffness {spanned(stiffness, '+.0%')} from it, area {spanned(area, '+.0%')}, periodic, cut-off and "
-        "roll-off from L/4 on, in the window; K over it from its lowest force to its highest, "
-        f"cut-off {_ends(_rows(averages, 'cut-off'), name)}; roll-off {_ends(_rows(averages, 'roll-off'), name)}; "
-        f"{told}",
+        "roll-off from L/4 on, in the window; K over it from its lowest force to its highest, cut-off "
+        f"{_ends(_rows(averages, 'cut-off'), name)}; roll-off {_ends(_rows(averages, 'roll-off'), name)}; {told}",
         judged(stiffness, error, 0.2),
     )
 
@@ -319,8 +329,8 @@ def _finite(averages: xarray.Dataset, cut: xarray.Dataset, told: str) -> Verdict
     return Verdict(
         "coupling over more than a cell is negligible (section 5.1)",
         "negligible",
-        f"of a finite body k is {spanned(lost, '+.0%')} from that of a periodic one: the body sinks in as a whole; "
-        f"it is {spanned(off, '+.1%')} from 1/k = 1/K + {SQUARE:.3f}/(E* L), and K of the one {spanned(gap, '+.1%')} "
-        f"from K of the other; {told}",
+        f"of a finite body k is {spanned(lost, '+.0%')} from that of a periodic one: the body sinks in as a whole; it "
+        f"is {spanned(off, '+.1%')} from 1/k = 1/K + {SQUARE:.3f}/(E* L), and K of the one {spanned(gap, '+.1%')} from "
+        f"K of the other; {told}",
         judged(lost, 0.0, 0.1),
     )

@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
+import roughcontact as rc
 from roughcontact.statistics.common_forces import on_common
-from roughcontact.study.study import Study
-from roughcontact.surface.moments import Moments, grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
-from roughcontact.thesis.sample_means import apart, converged, means, plus_minus, same_for_all
-from roughcontact.thesis.stiffness_view import quiet
-from roughcontact.thesis.verdict import Verdict, judged, spanned
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, plus_minus, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -35,10 +25,8 @@ NONE = 0.01  # of the contact area: what counts as elastic
 FORCE = 0.05  # at which ceilings are compared
 CHOSEN = (
     f"free squares of 256 x 256 cells, H = {HURST:g}, shortest wave L/64 (small: 128 x 128, L/32)",
-    "ceilings of "
-    + ", ".join(f"{each:g}" for each in CEILINGS)
-    + " E* g and none, g the rms slope; on the same "
-    "surfaces with shortest waves from L/8 on none and the one of half E* g with all waves",
+    f"ceilings of {', '.join(f'{each:g}' for each in CEILINGS)} E* g and none, g the rms slope; on the same surfaces "
+    "with shortest waves from L/8 on none and the one of half E* g with all waves",
     "two stiffnesses: that of pressing on, in which cells at the ceiling have no part; and that of the contact region "
     "as it stands, for the first step back and for what it conducts",
     "10 samples, compared one by one; depths from 0.2 to 2.8 h",
@@ -46,13 +34,14 @@ CHOSEN = (
 SIZE = (8.8, 7.2)
 SEED = 12
 _POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = {"small": 10, "thesis": 10}
+_SAMPLES = 10
 _CELLS = 4  # a shortest wave
 _COLOURS = ("black", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00")
+_AREA = "#c8290b"
 _NAMES = ("stiffness", "region_stiffness", "area")
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the ceilings with all waves, then the waves without and with a ceiling."""
     points = _POINTS[scale]
     last = points // _CELLS
@@ -65,25 +54,12 @@ def studies(scale: Scale) -> tuple[Study, ...]:
     for each in waves:
         part = _moments(points, 1 / each)
         rows.append({"short_cutoff": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
-    return (
-        Study(
-            name={"small": "outlook-hardness-small", "thesis": "outlook-hardness"}[scale],
-            case="yielding",
-            seed=SEED,
-            samples=_SAMPLES[scale],
-            parameters={
-                "points": points,
-                "size": 1.0,
-                "modulus": 1.0,
-                "hurst": HURST,
-                "rms": 0.01,
-                "lowest_depth": 0.2,
-                "highest_depth": 2.8,
-                "loads": 16,
-            },
-            rows=rows,
-        ),
+    depths = {"lowest_depth": 0.2, "highest_depth": 2.8, "loads": 16}
+    parameters = {"points": points, "hurst": HURST} | depths
+    study = averaging.outlook_study(
+        "hardness", scale, parameters, case="yielding", seed=SEED, samples=_SAMPLES, rows=rows
     )
+    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -99,9 +75,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         those without a ceiling and with all waves. ``elastic_..._grown`` and ``ceiling_..._grown``: by which part
         stiffness of the region and area grow from the fewest waves to all. ``slope`` along ``waves``.
     """
-    import xarray
-
-    given = converged(exported)
+    given = averaging.converged(exported)
     points = int(given["points"])
     heights = {each: _moments(points, each).rms_height for each in np.unique(given["short_cutoff"].values)}
     whole = given["short_cutoff"].copy(data=[heights[each] for each in given["short_cutoff"].values])
@@ -125,7 +99,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         for name in ("region_stiffness", "area"):
             first, last = (common[name].isel(row=rows[i], drop=True) for i in (0, -1))
             values[f"{kind}_{name}_grown"] = last / first - 1
-    every = apart(means(values))
+    every = averaging.without_parameters(averaging.means(values))
     ceilings = [np.inf, *CEILINGS]
     found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
     waves = (1 / given["short_cutoff"].values).round().astype(int)
@@ -134,11 +108,10 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)], "kind"
     )
     along = along.assign_coords(waves=waves[elastic], kind=["elastic", "ceiling"])
-    slope = (same_for_all(given["rms_slope"]) * whole).values[elastic]
+    slope = (averaging.same_for_all(given["rms_slope"]) * whole).values[elastic]
     found = found.assign({f"waves_{name}": each for name, each in along.data_vars.items()})
-    return found.assign(slope=("waves", slope, {"long_name": "rms slope", "units": "1"})).assign_attrs(
-        surfaces=exported.sizes["sample"], cells=points
-    )
+    found["slope"] = "waves", slope, {"long_name": "rms slope", "units": "1"}
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:
@@ -148,93 +121,63 @@ def _rows_of_waves(count: int) -> tuple[list[int], list[int]]:
     return [*range(first, middle), 0], [*range(middle, count), 1 + CEILINGS.index(GIVEN)]
 
 
-def _moments(points: int, shortest: float) -> Moments:
+def _moments(points: int, shortest: float) -> rc.Moments:
     """Return the moments of a surface with waves down to a shortest one; the scale is that of the spectrum."""
-    return grid_moments(Grid((points, points), 1 / points), SelfAffineSpectrum(HURST, short_cutoff=shortest))
+    spectrum = rc.SelfAffineSpectrum(HURST, short_cutoff=shortest)
+    return rc.grid_moments(rc.Grid((points, points), 1 / points), spectrum)
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw area (a) and stiffness (b) against force, both against the ceiling (c), and against the waves (d)."""
-    (first, second), (third, fourth) = figure.subplots(2, 2)
+    first, second, third, fourth = drawing.panels(figure, 2, 2)
     for ceiling, colour in zip(averages["ceiling"].values, _COLOURS, strict=True):
         one = averages.sel(ceiling=ceiling)
         words = f"{ceiling:g} E* g" if np.isfinite(ceiling) else "elastic"
-        first.plot(one["force"], one["area"], color=colour, linewidth=1.3, label=words)
-        second.plot(one["force"], one["stiffness"], color=colour, linewidth=1.3, label=words)
-        second.plot(one["force"], one["region_stiffness"], "--", color=colour, linewidth=1.1)
-    second.plot([], [], "--", color="0.4", label="whole region")
-    for axes, label in ((first, r"contact area $A\,/\,L^2$"), (second, r"stiffness $k\,/\,(E^* L)$")):
-        axes.set(xscale="log", yscale="log")
-        low, high = axes.get_ylim()
-        readable_ticks(axes.yaxis, high / low)
-        axes.set_xlabel(r"force $F\,/\,(E^* h L)$", fontsize=LABEL)
-        axes.set_ylabel(label, fontsize=LABEL)
-        axes.legend(fontsize=TICK, frameon=False)
+        first.plot(one["force"], one["area"], color=colour, label=words)
+        second.plot(one["force"], one["stiffness"], color=colour, label=words)
+        second.plot(one["force"], one["region_stiffness"], "--", color=colour)
+    drawing.key(second, "--", "whole region")
+    for axes, words in ((first, r"contact area $A\,/\,L^2$"), (second, drawing.STIFFNESS)):
+        drawing.label(axes, drawing.FORCE, words, **drawing.LOG)
+        drawing.readable(axes)
+
     at = averages.sel(force=FORCE, method="nearest")
-    _ceilings(third, at.isel(ceiling=slice(1, None)))
-    _waves(fourth, at)
-    for letter, axes in zip("abcd", (first, second, third, fourth), strict=True):
-        axes.set_title(f"({letter})", fontsize=TICK + 1, loc="left")
-        quiet(axes)
-
-
-def _ceilings(axes: Axes, at: xarray.Dataset) -> None:
-    for name, mark, colour, words in (
-        ("stiffness", "o-", "black", "k of pressing on"),
-        ("region_stiffness", "o--", "black", "k of the whole region"),
-        ("area", "s-", "#c8290b", "area"),
+    hard = at.isel(ceiling=slice(1, None))
+    for name, style, colour, words in (
+        ("stiffness_change", "o-", "black", "k of pressing on"),
+        ("region_stiffness_change", "o--", "black", "k of the whole region"),
+        ("area_change", "s-", _AREA, "area"),
     ):
-        axes.errorbar(
-            at["ceiling"],
-            at[f"{name}_change"],
-            at[f"{name}_change_error"],
-            fmt=mark,
-            markersize=4,
-            color=colour,
-            linewidth=1.2,
-            label=words,
-        )
-    axes.plot(at["ceiling"], at["yielded"], ":", color="0.4", label="part at the ceiling")
-    axes.axhline(1, color="0.6", linewidth=0.8)
-    axes.set(xscale="log")
-    axes.set_xticks(at["ceiling"].values, [f"{each:g}" for each in at["ceiling"].values])
-    axes.minorticks_off()
-    axes.set_xlabel(r"ceiling $\sigma_0\,/\,(E^* g)$", fontsize=LABEL)
-    axes.set_ylabel(f"over the elastic one, at a force of {FORCE:g}", fontsize=LABEL)
-    axes.legend(fontsize=TICK, frameon=False)
+        drawing.with_errors(third, hard, name, "ceiling", fmt=style, color=colour, label=words)
+    third.plot(hard["ceiling"], hard["yielded"], ":", color="0.4", label="part at the ceiling")
+    third.axhline(1, color="0.6", linewidth=0.8)
+    drawing.named_ticks(third, hard["ceiling"].values, "{:g}")
+    words = f"over the elastic one, at a force of {FORCE:g}"
+    drawing.label(third, r"ceiling $\sigma_0\,/\,(E^* g)$", words)
 
-
-def _waves(axes: Axes, at: xarray.Dataset) -> None:
-    for kind, style in (("elastic", "-"), ("ceiling", "--")):
+    for kind, style, words in (("elastic", "-", "elastic"), ("ceiling", "--", "one ceiling")):
         one = at.sel(kind=kind)
-        for name, mark, colour in (("region_stiffness", "o", "black"), ("area", "s", "#c8290b")):
-            axes.errorbar(
-                one["waves"],
-                one[f"waves_{name}_change"],
-                one[f"waves_{name}_change_error"],
-                fmt=mark,
-                linestyle=style,
-                markersize=4,
-                color=colour,
-                linewidth=1.2,
-                label=f"{name.replace('region_', '')}, {'elastic' if kind == 'elastic' else 'one ceiling'}",
-            )
-    axes.set(xscale="log")
-    axes.set_xticks(at["waves"].values, [f"L/{waves}" for waves in at["waves"].values])
-    axes.minorticks_off()
-    axes.set_xlabel("shortest wave", fontsize=LABEL)
-    axes.set_ylabel(f"over that with all waves, elastic, at {FORCE:g}", fontsize=LABEL)
-    axes.legend(fontsize=TICK, frameon=False)
+        for name, mark, colour in (("region_stiffness", "o", "black"), ("area", "s", _AREA)):
+            given = {
+                "fmt": mark + style,
+                "color": colour,
+                "label": f"{name.removeprefix('region_')}, {words}",
+            }
+            drawing.with_errors(fourth, one, f"waves_{name}_change", "waves", **given)
+    drawing.named_ticks(fourth, at["waves"].values, "L/{}")
+    drawing.label(fourth, "shortest wave", f"over that with all waves, elastic, at {FORCE:g}")
+    for axes in (first, second, third, fourth):
+        axes.legend()
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say what a ceiling does to stiffness and area, when contact is elastic, and what more waves do under it."""
     at = averages.sel(force=FORCE, method="nearest")
-    told = f"{averages.attrs['surfaces']} samples of {averages.attrs['cells']}² cells, H = {HURST:g}"
+    told = f"{counted(averages)}, H = {HURST:g}"
+    hard = [at.isel(ceiling=i) for i in range(1, at.sizes["ceiling"])]
     each = {
         name: ", ".join(
-            f"{float(one['ceiling']):g}: {plus_minus(one, f'{name}_change', '.3f')}"
-            for one in (at.isel(ceiling=i) for i in range(1, at.sizes["ceiling"]))
+            f"{float(one['ceiling']):g}: {plus_minus(one, f'{name}_change', '.3f')}" for one in hard
         )
         for name in _NAMES
     }
@@ -243,44 +186,38 @@ def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
     errors = np.array([float(given[f"{name}_change_error"]) for name in _NAMES[:2]])
     yielded, soft = averages["yielded"], averages.sel(ceiling=0.5)
     first, last = (int(averages["waves"][i]) for i in (0, -1))
-    grown = {
-        name: plus_minus(at, f"{name}_grown", "+.1%")
-        for name in (
-            f"{kind}_{each}" for kind in ("ceiling", "elastic") for each in ("region_stiffness", "area")
-        )
-    }
+    kinds = [f"{kind}_{name}" for kind in ("ceiling", "elastic") for name in ("region_stiffness", "area")]
+    grown = {name: plus_minus(at, f"{name}_grown", "+.1%") for name in kinds}
     worst = {each: float(yielded.sel(ceiling=each).max()) for each in (2.0, 1.0)}
-    return (
-        Verdict(
-            "elasticity on all scales plays no crucial role for the stiffness (section 4.3)",
-            "not crucial",
-            f"k over the elastic one at F = {FORCE:g} E* h L, by the ceiling over E* g: pressing on "
-            f"{each['stiffness']}; of the whole contact region {each['region_stiffness']}; the area {each['area']}; "
-            f"{told}. Judged at {GIVEN:g}, the mean pressure of eq. 4.19",
-            judged(off, errors, 0.1),
-        ),
-        Verdict(
-            "contact is elastic for a plasticity index E* g/sigma_0 below 2/3 (section 4.3)",
-            "2/3",
-            f"{spanned(yielded.sel(ceiling=2.0), '.1%')} of the contact area yields at an index of 0.5, "
-            f"{spanned(yielded.sel(ceiling=1.0), '.1%')} at 1, {spanned(yielded.sel(ceiling=0.5), '.1%')} at 2; forces "
-            f"from {FORCES[0]:g} to {FORCES[-1]:g} E* h L",
-            worst[2.0] < NONE < worst[1.0],
-        ),
-        Verdict(
-            "the index, and with it the state of the contact, does not depend on the force (section 4.3)",
-            "independent",
-            "the part of the contact area that yields at an index of 2 goes from "
-            f"{plus_minus(soft.isel(force=0), 'yielded')} to {plus_minus(soft.isel(force=-1), 'yielded')} as the force "
-            f"grows {FORCES[-1] / FORCES[0]:.0f} times",
-            None,
-        ),
-        Verdict(
-            "the stiffness does not see the smallest scales, which yield (section 4.3)",
-            "not sensitive",
-            f"under one ceiling, waves from L/{first} to L/{last} change the stiffness of the contact region by "
-            f"{grown['ceiling_region_stiffness']} and the area by {grown['ceiling_area']}; without it by "
-            f"{grown['elastic_region_stiffness']} and {grown['elastic_area']}; {told}",
-            judged(at["ceiling_region_stiffness_grown"], at["ceiling_region_stiffness_grown_error"], 0.1),
-        ),
+    yield Verdict(
+        "elasticity on all scales plays no crucial role for the stiffness (section 4.3)",
+        "not crucial",
+        f"k over the elastic one at F = {FORCE:g} E* h L, by the ceiling over E* g: pressing on {each['stiffness']}; "
+        f"of the whole contact region {each['region_stiffness']}; the area {each['area']}; {told}. Judged at "
+        f"{GIVEN:g}, the mean pressure of eq. 4.19",
+        judged(off, errors, 0.1),
+    )
+    yield Verdict(
+        "contact is elastic for a plasticity index E* g/sigma_0 below 2/3 (section 4.3)",
+        "2/3",
+        f"{spanned(yielded.sel(ceiling=2.0), '.1%')} of the contact area yields at an index of 0.5, "
+        f"{spanned(yielded.sel(ceiling=1.0), '.1%')} at 1, {spanned(yielded.sel(ceiling=0.5), '.1%')} at 2; forces "
+        f"from {FORCES[0]:g} to {FORCES[-1]:g} E* h L",
+        worst[2.0] < NONE < worst[1.0],
+    )
+    yield Verdict(
+        "the index, and with it the state of the contact, does not depend on the force (section 4.3)",
+        "independent",
+        "the part of the contact area that yields at an index of 2 goes from "
+        f"{plus_minus(soft.isel(force=0), 'yielded')} to {plus_minus(soft.isel(force=-1), 'yielded')} as the force "
+        f"grows {FORCES[-1] / FORCES[0]:.0f} times",
+        None,
+    )
+    yield Verdict(
+        "the stiffness does not see the smallest scales, which yield (section 4.3)",
+        "not sensitive",
+        f"under one ceiling, waves from L/{first} to L/{last} change the stiffness of the contact region by "
+        f"{grown['ceiling_region_stiffness']} and the area by {grown['ceiling_area']}; without it by "
+        f"{grown['elastic_region_stiffness']} and {grown['elastic_area']}; {told}",
+        judged(at["ceiling_region_stiffness_grown"], at["ceiling_region_stiffness_grown_error"], 0.1),
     )

@@ -6,35 +6,16 @@ of every size.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray
+from matplotlib.figure import Figure
 
-from roughcontact.grid import Grid
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
-from roughcontact.study.study import Study
-from roughcontact.surface.moments import grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+import roughcontact as rc
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import logarithm
+from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.outlook_cutoff import cutoff_study
-from roughcontact.thesis.sample_means import (
-    apart,
-    converged,
-    exponential,
-    logarithm,
-    means,
-    plus_minus,
-    slope,
-)
-from roughcontact.thesis.stiffness_view import quiet
-from roughcontact.thesis.verdict import Verdict, judged
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, plus_minus
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -44,17 +25,16 @@ ONE = 0.2  # force F/(E* h L) of the smallest size at which sizes are compared a
 OCTAVE = 0.5  # the longest waves: those from L down to this part of it
 CHOSEN = (
     "the surfaces of outlook-cutoff on their finest grid: one shortest wave, sizes L of 8 to 128 of it (small: to 64)",
-    "zeta, (k/E*) (F/(E* Theta))^(-1/(H + 1)), its geometric mean over forces from "
-    f"{WINDOW[0]:g} to {WINDOW[1]:g} E* h L",
+    f"zeta, (k/E*) (F/(E* Theta))^(-1/(H + 1)), its geometric mean over forces from {WINDOW[0]:g} to {WINDOW[1]:g} E* "
+    f"h L",
     "Theta = h L^-H as in eq. 7.1, with the rms height h of all waves; and, beside it, with that of the longest "
     "octave, which does not know the shortest wave",
 )
 SIZE = (8.8, 7.2)
 SHOWN = (0.0, 0.7)
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the study of outlook-cutoff."""
     return (cutoff_study(scale),)
 
@@ -71,7 +51,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         window with all waves; ``same_force``, the logarithm of the stiffness over that of the smallest size at one
         force.
     """
-    given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
+    given = averaging.without_parameters(averaging.converged(exported))
     fine = given.isel(row=np.flatnonzero(given["points"] == given["points"].max()))
     fine = fine.assign_coords(row=(1 / fine["short_cutoff"]).round().astype(int).values).rename(row="waves")
     fine = fine.drop_vars(["points", "short_cutoff"])
@@ -83,174 +63,113 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     mean_log = log_zeta.isel(load=inside).mean("load")
     octave = mean_log + logarithm(_octave(exported)) / (hurst + 1)
     sizes, forces = logarithm(waves), logarithm(loads.isel(load=inside))
-    values = {
-        "zeta_at": zeta,
-        "same_force": _at_one_force(log_zeta, logarithm(loads)),
-        "zeta": exponential(mean_log),
-        "zeta_octave": exponential(octave),
-        "growth": slope(mean_log, sizes, "waves"),
-        "growth_octave": slope(octave, sizes, "waves"),
-        "steepness": slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
-    }
-    found = means(values)
+    found = averaging.means(
+        {
+            "zeta_at": zeta,
+            "same_force": _at_one_force(log_zeta, logarithm(loads)),
+            "zeta": averaging.exponential(mean_log),
+            "zeta_octave": averaging.exponential(octave),
+            "growth": averaging.slope(mean_log, sizes, "waves"),
+            "growth_octave": averaging.slope(octave, sizes, "waves"),
+            "steepness": averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
+        }
+    )
     found["force"] = loads * waves.astype(float) ** (hurst + 1)
     found["dimensionless_force"] = loads
-    return found.assign_attrs(surfaces=exported.sizes["sample"], cells=int(given["points"].max()))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _at_one_force(log_zeta: xarray.DataArray, log_loads: xarray.DataArray) -> xarray.DataArray:
     """Return ln k less that of the smallest size, at the force F/(E* Theta) of which this bears `ONE` E* h L."""
-    import xarray
-
     # At one F/(E* Theta) the force F/(E* h L) goes as L^-(H+1), and the stiffness as zeta.
     waves = log_zeta["waves"]
     place = np.log(ONE) - (log_zeta["hurst"] + 1) * (logarithm(waves) - float(np.log(waves[0])))
+    dims: list[list[str]] = [[], ["load"], ["load"]]
     found: xarray.DataArray = xarray.apply_ufunc(
-        np.interp,
-        place,
-        log_loads,
-        log_zeta,
-        input_core_dims=[[], ["load"], ["load"]],
-        vectorize=True,
+        np.interp, place, log_loads, log_zeta, input_core_dims=dims, vectorize=True
     )
     return found - found.isel(waves=0, drop=True)
 
 
 def _octave(exported: xarray.Dataset) -> xarray.DataArray:
     """Return the rms height of the longest octave over that of all waves, that of the last row being 1."""
-    import xarray
-
     points = int(exported["drawn_on"])
-    grid = Grid((points, points), 1 / points)
+    grid = rc.Grid((points, points), 1 / points)
 
-    def part(hurst: float, shortest: float) -> float:
-        longest, every = (
-            grid_moments(grid, SelfAffineSpectrum(hurst, short_cutoff=each)).rms_height
-            for each in (OCTAVE, shortest)
-        )
-        return longest / every
+    def height(hurst: float, shortest: float) -> float:
+        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
 
     waves = np.unique((1 / exported["short_cutoff"].values).round().astype(int))
-    rows = [[part(hurst, 1 / each) for each in waves] for hurst in exported["hurst"].values]
-    found = xarray.DataArray(
-        rows, dims=("hurst", "waves"), coords={"hurst": exported["hurst"].values, "waves": waves}
-    )
+    every = exported["hurst"].values
+    rows = [[height(hurst, OCTAVE) / height(hurst, 1 / each) for each in waves] for hurst in every]
+    found = xarray.DataArray(rows, {"hurst": every, "waves": waves}, ("hurst", "waves"))
     return found / found.isel(waves=-1)
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw the prefactor against the force for two Hurst exponents (a, b), and against the size (c, d)."""
-    (first, second), (third, fourth) = figure.subplots(2, 2)
-    for axes, hurst in zip((first, second), SHOWN, strict=True):
-        one = averages.sel(hurst=hurst)
-        for waves, colour in zip(one["waves"].values, _COLOURS, strict=False):
-            each = one.sel(waves=waves)
-            axes.errorbar(
-                each["force"],
-                each["zeta_at"],
-                each["zeta_at_error"],
-                color=colour,
-                linewidth=1.3,
-                elinewidth=0.7,
-                label=f"{waves}",
-            )
+    *curves, third, fourth = drawing.panels(figure, 2, 2)
+    force = r"force $F\,/\,(E^* \Theta \lambda_s^{H+1})$"
+    for axes, hurst in zip(curves, SHOWN, strict=True):
+        drawing.family(axes, averages.sel(hurst=hurst), "waves", {"zeta_at": "-"}, "{}")
         axes.axhline(1.7 / (hurst + 1), color="0.5", linestyle="--", linewidth=1.0, label="1.7/(H + 1)")
-        axes.set(xscale="log", yscale="log")
-        low, high = axes.get_ylim()
-        readable_ticks(axes.yaxis, high / low)
-        axes.set_xlabel(r"force $F\,/\,(E^* \Theta \lambda_s^{H+1})$", fontsize=LABEL)
-        axes.set_ylabel(rf"$(k/E^*)\,(F/E^*\Theta)^{{-1/(H+1)}}$, H = {hurst:g}", fontsize=LABEL)
-        axes.legend(fontsize=TICK, frameon=False, title=r"$L/\lambda_s$", title_fontsize=TICK)
-    _sizes(third, averages, "zeta", r"$\zeta$, with $\Theta = h L^{-H}$")
-    _sizes(fourth, averages, "zeta_octave", r"$\zeta$, with $\Theta$ of the longest octave")
-    limits = [
-        min(each.get_ylim()[0] for each in (third, fourth)),
-        max(each.get_ylim()[1] for each in (third, fourth)),
-    ]
-    for axes in (third, fourth):
-        axes.set_ylim(*limits)
-    for letter, axes in zip("abcd", (first, second, third, fourth), strict=True):
-        axes.set_title(f"({letter})", fontsize=TICK + 1, loc="left")
-        quiet(axes)
+        zeta = rf"$(k/E^*)\,(F/E^*\Theta)^{{-1/(H+1)}}$, H = {hurst:g}"
+        drawing.label(axes, force, zeta, **drawing.LOG)
+        drawing.readable(axes)
+        axes.legend(title=r"$L/\lambda_s$")
+    fourth.sharey(third)
+    for axes, name, theta in (
+        (third, "zeta", r"with $\Theta = h L^{-H}$"),
+        (fourth, "zeta_octave", r"with $\Theta$ of the longest octave"),
+    ):
+        drawing.family(axes, averages, "hurst", {name: "o-"}, "H = {:g}", x="waves")
+        drawing.named_ticks(axes, averages["waves"].values, "{}")
+        drawing.label(axes, r"size $L/\lambda_s$", rf"$\zeta$, {theta}")
+        axes.legend()
 
 
-def _sizes(axes: Axes, averages: xarray.Dataset, name: str, label: str) -> None:
-    for hurst, colour in zip(averages["hurst"].values, _COLOURS, strict=False):
-        one = averages.sel(hurst=hurst)
-        axes.errorbar(
-            one["waves"],
-            one[name],
-            one[f"{name}_error"],
-            fmt="o-",
-            color=colour,
-            markersize=4,
-            linewidth=1.2,
-            label=f"H = {hurst:g}",
-        )
-    axes.set(xscale="log")
-    axes.set_xticks(averages["waves"].values, [f"{waves}" for waves in averages["waves"].values])
-    axes.minorticks_off()
-    axes.set_xlabel(r"size $L/\lambda_s$", fontsize=LABEL)
-    axes.set_ylabel(label, fontsize=LABEL)
-    axes.legend(fontsize=TICK, frameon=False)
-
-
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say how the prefactor goes with the size at each Hurst exponent, and with the force."""
     waves = averages["waves"].values
     told = (
-        f"{averages.attrs['surfaces']} samples of {averages.attrs['cells']}² cells, L from {waves[0]} to {waves[-1]} "
-        f"shortest waves, F from {WINDOW[0]:g} to {WINDOW[1]:g} E* h L"
+        f"{counted(averages)}, L from {waves[0]} to {waves[-1]} shortest waves, F from {WINDOW[0]:g} to {WINDOW[1]:g} "
+        "E* h L"
     )
-    sizes = tuple(_size(averages.sel(hurst=hurst), told) for hurst in averages["hurst"].values)
-    each = [averages.sel(hurst=hurst) for hurst in averages["hurst"].values]
-    octave = ", ".join(
-        f"{plus_minus(one, 'growth_octave', '+.3f')} at H = {float(one['hurst']):g}" for one in each
+    octave = listed(averages, "growth_octave", "hurst", "+.3f")
+    steep = listed(averages, "steepness", "hurst", "+.2f")
+    whole, part = (float(np.abs(averages[name]).max()) for name in ("growth", "growth_octave"))
+    yield from (_size(averages.sel(hurst=hurst), told) for hurst in averages["hurst"].values)
+    yield Verdict(
+        "the normalisation by Theta is the favourable one at small H (Outlook)",
+        "favourable",
+        f"with Theta of the longest octave in place of all waves d ln zeta/d ln L is {octave}; at most {part:.3f} in "
+        f"place of {whole:.3f}; {told}",
+        whole < part,
     )
-    steep = ", ".join(
-        f"{plus_minus(one, 'steepness', '+.2f')} at H = {float(one['hurst']):g}" for one in each
-    )
-    worst = float(np.abs(averages["growth"]).max()), float(np.abs(averages["growth_octave"]).max())
-    return (
-        *sizes,
-        Verdict(
-            "the normalisation by Theta is the favourable one at small H (Outlook)",
-            "favourable",
-            f"with Theta of the longest octave in place of all waves d ln zeta/d ln L is {octave}; at most "
-            f"{worst[1]:.3f} in place of {worst[0]:.3f}; {told}",
-            worst[0] < worst[1],
-        ),
-        Verdict(
-            "the stiffness goes as F^(1/(H + 1)), with one zeta for all forces (eq. 7.2)",
-            "0",
-            f"d ln zeta/d ln F = {steep}; {told}",
-            judged(averages["steepness"], averages["steepness_error"], 0.05),
-        ),
+    yield Verdict(
+        "the stiffness goes as F^(1/(H + 1)), with one zeta for all forces (eq. 7.2)",
+        "0",
+        f"d ln zeta/d ln F = {steep}; {told}",
+        judged(averages["steepness"], averages["steepness_error"], 0.05),
     )
 
 
 def _size(one: xarray.Dataset, told: str) -> Verdict:
     """Return the verdict on the size at one Hurst exponent."""
-    first, last = one.isel(waves=0), one.isel(waves=-1)
+    first, last, hurst = one.isel(waves=0), one.isel(waves=-1), float(one["hurst"])
     factor = float(np.exp(last["same_force"]))
     error = factor * float(last["same_force_error"])
-    small = float(one["hurst"]) < 0.5
-    found = (
+    independent = judged(factor - 1, error, 0.1)
+    if hurst < 0.5:
+        claim, thesis = "the prefactor depends on the size for small H (Outlook)", "surely"
+        holds = None if independent is None else not independent
+    else:
+        claim, thesis, holds = "the size is not in the stiffness (eq. 7.2)", "0", independent
+    return Verdict(
+        f"at a given Theta {claim}, H = {hurst:g}",
+        thesis,
         f"at one force F/(E* Theta), {ONE:g} E* h L of the smallest size, the largest is {factor:.2f} ± {error:.2f} "
         f"times as stiff; at equal F/(E* h L) zeta goes from {plus_minus(first, 'zeta')} to "
-        f"{plus_minus(last, 'zeta')}, d ln zeta/d ln L = {plus_minus(one, 'growth', '+.3f')}; {told}"
-    )
-    independent = judged(factor - 1, error, 0.1)
-    if small:
-        return Verdict(
-            f"at a given Theta the prefactor depends on the size for small H (Outlook), H = {float(one['hurst']):g}",
-            "surely",
-            found,
-            None if independent is None else not independent,
-        )
-    return Verdict(
-        f"at a given Theta the size is not in the stiffness (eq. 7.2), H = {float(one['hurst']):g}",
-        "0",
-        found,
-        independent,
+        f"{plus_minus(last, 'zeta')}, d ln zeta/d ln L = {plus_minus(one, 'growth', '+.3f')}; {told}",
+        holds,
     )

@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import xarray
+from matplotlib.figure import Figure
 from scipy.interpolate import CubicHermiteSpline
 
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
-from roughcontact.study.study import Study
 from roughcontact.theory import mindlin, pohrt_popov
-from roughcontact.thesis.sample_means import apart, converged, means, plus_minus, same_for_all
-from roughcontact.thesis.stiffness_view import quiet
-from roughcontact.thesis.verdict import Verdict, judged, spanned
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from roughcontact.thesis.figures import Scale
+from roughcontact.thesis import averaging, drawing
+from roughcontact.thesis.averaging import RMS
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -45,32 +38,21 @@ SIZE = (8.8, 7.2)
 SEED = 14
 _POINTS = {"small": 128, "thesis": 256}
 _SAMPLES = {"small": 10, "thesis": 20}
-_COLOURS = ("#0072b2", "#d55e00", "#009e73")
-_RMS = 0.01
 
 
-def studies(scale: Scale) -> tuple[Study, ...]:
+def studies(scale: Scale) -> Studies:
     """Return the one study: three Hurst exponents, three Poisson's ratios."""
-    return (
-        Study(
-            name={"small": "outlook-tangential-small", "thesis": "outlook-tangential"}[scale],
-            case="slip",
-            seed=SEED,
-            samples=_SAMPLES[scale],
-            parameters={
-                "points": _POINTS[scale],
-                "size": 1.0,
-                "modulus": 1.0,
-                "rms": _RMS,
-                "friction": FRICTION,
-                "lowest_force": 3e-3,
-                "highest_force": 0.3,
-                "loads": 9,
-                "pulls": 10,
-            },
-            table={"hurst": HURST, "poisson_ratio": POISSON},
-        ),
+    forces = {"lowest_force": 3e-3, "highest_force": 0.3, "loads": 9, "pulls": 10}
+    study = averaging.outlook_study(
+        "tangential",
+        scale,
+        {"points": _POINTS[scale], "friction": FRICTION} | forces,
+        case="slip",
+        seed=SEED,
+        samples=_SAMPLES[scale],
+        table={"hurst": HURST, "poisson_ratio": POISSON},
     )
+    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -86,18 +68,18 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         the parts ``pulled`` of mu F, and ``path_by_depth`` what the normal loading curve says. ``force`` F/(E* h L);
         ``resolved`` where k stands above 20 cells.
     """
-    given = apart(converged(exported.drop_vars("case_seconds", errors="ignore")))
+    given = averaging.without_parameters(averaging.converged(exported))
     disc = given["poisson_ratio"].copy(data=[mindlin.ratio(float(nu)) for nu in given["poisson_ratio"]])
     force, depth = given["dimensionless_force"], given["depth"]
     moved = given["tangential_displacement"] / (FRICTION * disc * depth)
     principal = given["principal_stiffness"]
-    found = means(
+    found = averaging.means(
         {
             "ratio": given["stiffness"] / given["tangential_stiffness"] / disc,
             "axes": principal.isel(principal=1) / principal.isel(principal=0),
             "stiffness": given["dimensionless_stiffness"],
             "tangential": given["tangential_stiffness"],
-            "slip": given["tangential_displacement"].isel(pull=-1) / (FRICTION * _RMS),
+            "slip": given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
             "slip_by_depth": moved.isel(pull=-1),
             "path": moved,
             "path_by_depth": _by_depth(given),
@@ -106,9 +88,9 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     shape = ("hurst", "poisson_ratio", "load")
     for name, values in _laws(given["hurst"].values, disc.values, force.values).items():
         found[name] = shape, values
-    found["resolved"] = found["stiffness"] > 20 * same_for_all(given["cell_stiffness"])
+    found["resolved"] = found["stiffness"] > 20 * averaging.same_for_all(given["cell_stiffness"])
     found["force"], found["pulled"], found["disc"] = force, given["pulled"], disc
-    return found.assign_attrs(surfaces=exported.sizes["sample"], cells=int(exported["points"]))
+    return found.assign_attrs(averaging.counts(exported))
 
 
 def _by_depth(given: xarray.Dataset) -> xarray.DataArray:
@@ -116,7 +98,6 @@ def _by_depth(given: xarray.Dataset) -> xarray.DataArray:
 
     Between loads by cubics through the logarithms of depth and force, with the slopes that the stiffness gives.
     """
-    import xarray
 
     def gained(depth: Array, stiffness: Array, force: Array, pulled: Array) -> Array:
         curve = CubicHermiteSpline(
@@ -125,11 +106,10 @@ def _by_depth(given: xarray.Dataset) -> xarray.DataArray:
         held = np.where(pulled < 1, force[:, None] * (1 - pulled), np.nan)
         return np.where(pulled < 1, 1 - np.exp(curve(np.log(held))) / depth[:, None], 1.0)
 
+    curves = [given[name] for name in ("depth", "stiffness", "force")]
     path: xarray.DataArray = xarray.apply_ufunc(
         gained,
-        given["depth"],
-        given["stiffness"],
-        given["force"],
+        *curves,
         given["pulled"],
         input_core_dims=[["load"], ["load"], ["load"], ["pull"]],
         output_core_dims=[["load", "pull"]],
@@ -142,92 +122,55 @@ def _laws(hursts: Any, discs: Any, forces: Any) -> dict[str, Any]:
     """Return eqs 7.5 and 7.6, the latter with both constants, for every Hurst exponent, Poisson's ratio and force."""
     shape = (len(hursts), len(discs), len(forces))
     laws = {name: np.empty(shape) for name in ("by_7_5", "by_7_6", "by_7_7")}
-    load = forces * _RMS  # F/(E* L^2)
+    load = forces * RMS  # F/(E* L^2)
     for i, hurst in enumerate(hursts):
-        theta = float(pohrt_popov.theta(hurst, _RMS, 1.0))
+        theta = float(pohrt_popov.theta(hurst, RMS, 1.0))
         for j, disc in enumerate(discs):
-            stiffness = pohrt_popov.stiffness(load, hurst, _RMS, 1.0, 1.0)
+            stiffness = pohrt_popov.stiffness(load, hurst, RMS, 1.0, 1.0)
             laws["by_7_5"][i, j] = mindlin.tangential_stiffness(stiffness, disc)
             for name, constants in (("by_7_6", "consistent"), ("by_7_7", "printed")):
                 constant = mindlin.slip_constant(theta, hurst, constants=constants)  # type: ignore[arg-type]
                 slip = mindlin.fractal_gross_slip(load, 1.0, hurst, constant, friction=FRICTION, ratio=disc)
-                laws[name][i, j] = slip / (FRICTION * _RMS)
+                laws[name][i, j] = slip / (FRICTION * RMS)
     return laws
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
     """Draw k/k_t (a), k_t (b), the largest displacement (c) and the path to it (d)."""
-    (first, second), (third, fourth) = figure.subplots(2, 2)
-    force = averages["force"]
-    shown = averages.sel(hurst=SHOWN)
-    for nu, colour in zip(averages["poisson_ratio"].values, _COLOURS, strict=True):
-        one = shown.sel(poisson_ratio=nu)
-        first.errorbar(
-            force,
-            one["ratio"],
-            one["ratio_error"],
-            fmt="o-",
-            markersize=3.5,
-            color=colour,
-            label=rf"$\nu$ = {nu:g}",
-        )
-        first.plot(force, one["axes"], "--", color=colour, linewidth=1.0)
-    first.plot([], [], "--", color="0.4", label="larger over smaller axis of $k_t$")
-    first.set(xscale="log", ylim=(0.96, 1.25))
-    first.set_ylabel(rf"$(k/k_t)\,/\,C_m$, H = {SHOWN:g}", fontsize=LABEL)
-    _laws_beside(second, averages, "tangential", ("by_7_5",), r"tangential stiffness $k_t\,/\,(E^* L)$")
-    _laws_beside(third, averages, "slip", ("by_7_6", "by_7_7"), r"largest displacement $u_{max}\,/\,(\mu h)$")
-    _paths(fourth, shown)
-    for axes in (first, second, third):
-        axes.set_xlabel(r"force $F\,/\,(E^* h L)$", fontsize=LABEL)
-    for letter, axes in zip("abcd", (first, second, third, fourth), strict=True):
-        axes.set_title(f"({letter})", fontsize=TICK + 1, loc="left")
-        axes.legend(fontsize=TICK, frameon=False)
-        quiet(axes)
-
-
-def _laws_beside(axes: Axes, averages: xarray.Dataset, name: str, laws: tuple[str, ...], label: str) -> None:
-    middle = averages.sel(poisson_ratio=0.3)
-    for hurst, colour in zip(middle["hurst"].values, _COLOURS, strict=True):
-        one = middle.sel(hurst=hurst)
-        axes.errorbar(
-            one["force"],
-            one[name],
-            one[f"{name}_error"],
-            fmt="o",
-            markersize=3.5,
-            color=colour,
-            label=f"H = {hurst:g}",
-        )
-        for law, style in zip(laws, ("-", "--"), strict=False):
-            axes.plot(one["force"], one[law], style, color=colour, linewidth=1.1)
-    words = {"by_7_5": "eqs 7.5 and 4.74", "by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"}
-    for law, style in zip(laws, ("-", "--"), strict=False):
-        axes.plot([], [], style, color="0.4", label=words[law])
-    axes.set(xscale="log", yscale="log")
-    low, high = axes.get_ylim()
-    readable_ticks(axes.yaxis, high / low)
-    axes.set_ylabel(rf"{label}, $\nu$ = 0.3", fontsize=LABEL)
-
-
-def _paths(axes: Axes, shown: xarray.Dataset) -> None:
+    first, second, third, fourth = drawing.panels(figure, 2, 2)
+    shown, middle = averages.sel(hurst=SHOWN), averages.sel(poisson_ratio=0.3)
+    ratios = {"ratio": "o-", "axes": "--"}
+    bare = shown.drop_vars("axes_error")  # errors of both would cover each other
+    drawing.family(first, bare, "poisson_ratio", ratios, r"$\nu$ = {:g}", markersize=3.5)
+    drawing.key(first, "--", "larger over smaller axis of $k_t$")
+    drawing.label(first, drawing.FORCE, rf"$(k/k_t)\,/\,C_m$, H = {SHOWN:g}", xscale="log", ylim=(0.96, 1.25))
+    for axes, name, laws, words in (
+        (second, "tangential", {"by_7_5": "eqs 7.5 and 4.74"}, r"tangential stiffness $k_t\,/\,(E^* L)$"),
+        (
+            third,
+            "slip",
+            {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"},
+            r"largest displacement $u_{max}\,/\,(\mu h)$",
+        ),
+    ):
+        styles = dict(zip(laws, ("-", "--"), strict=False))
+        drawing.family(axes, middle, "hurst", {name: "o"} | styles, "H = {:g}", markersize=3.5)
+        for law, style in styles.items():
+            drawing.key(axes, style, laws[law])
+        drawing.label(axes, drawing.FORCE, rf"{words}, $\nu$ = 0.3", **drawing.LOG)
+        drawing.readable(axes)
     one = shown.isel(load=_load(shown))
-    for nu, colour in zip(one["poisson_ratio"].values, _COLOURS, strict=True):
+    for nu, colour in zip(one["poisson_ratio"].values, drawing.COLOURS, strict=False):
         each = one.sel(poisson_ratio=nu)
-        axes.errorbar(
-            each["path"],
-            each["pulled"],
-            xerr=each["path_error"],
-            fmt="o",
-            markersize=3.5,
-            color=colour,
-            label=rf"$\nu$ = {nu:g}",
-        )
+        given: Any = {"fmt": "o", "markersize": 3.5, "color": colour, "label": rf"$\nu$ = {nu:g}"}
+        fourth.errorbar(each["path"], each["pulled"], xerr=each["path_error"], **given)
     by_depth = one["path_by_depth"].isel(poisson_ratio=0)
-    axes.plot(by_depth, one["pulled"], color="0.4", label=r"$1 - d(F - Q/\mu)/d(F)$")
-    axes.set_xlabel(r"displacement $u_x\,/\,(\mu C_m d)$", fontsize=LABEL)
-    axes.set_ylabel(r"tangential force $Q\,/\,(\mu F)$", fontsize=LABEL)
-    axes.set_title(rf"F = {float(one['force']):.2g} $E^* h L$, H = {SHOWN:g}", fontsize=TICK + 1)
+    fourth.plot(by_depth, one["pulled"], color="0.4", label=r"$1 - d(F - Q/\mu)/d(F)$")
+    words = r"displacement $u_x\,/\,(\mu C_m d)$"
+    drawing.label(fourth, words, r"tangential force $Q\,/\,(\mu F)$")
+    fourth.set_title(rf"F = {float(one['force']):.2g} $E^* h L$, H = {SHOWN:g}", loc="center")
+    for axes in (first, second, third, fourth):
+        axes.legend()
 
 
 def _load(averages: xarray.Dataset) -> int:
@@ -235,75 +178,49 @@ def _load(averages: xarray.Dataset) -> int:
     return int(np.argmin(np.abs(np.log(averages["force"].values / FORCE))))
 
 
-def verdicts(averages: xarray.Dataset) -> tuple[Verdict, ...]:
+def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Judge eqs 7.4, 7.5, 7.6 and 7.7 where the contact is resolved, and what stands behind 7.6."""
     kept = averages.where(averages["resolved"])
     told = (
-        f"H = {', '.join(f'{h:g}' for h in averages['hurst'].values)}, {averages.attrs['surfaces']} samples of "
-        f"{averages.attrs['cells']}² cells, k above 20 cells, forces up to {float(averages['force'].max()):g} E* h L"
+        f"H = {', '.join(f'{h:g}' for h in averages['hurst'].values)}, {counted(averages)}, k above 20 cells, forces "
+        f"up to {float(averages['force'].max()):g} E* h L"
     )
     at = averages.sel(hurst=SHOWN).isel(load=_load(averages))
-    each = [at.sel(poisson_ratio=nu) for nu in averages["poisson_ratio"].values]
-    ratios = ", ".join(
-        f"{plus_minus(one, 'ratio', '.4f')} at nu = {float(one['poisson_ratio']):g}" for one in each
+    ratios, tilted, slipped = (
+        listed(at, name, "poisson_ratio", form, "nu = {:g}")
+        for name, form in (("ratio", ".4f"), ("axes", ".3f"), ("slip_by_depth", ".3f"))
     )
-    tilted = ", ".join(
-        f"{plus_minus(one, 'axes', '.3f')} at nu = {float(one['poisson_ratio']):g}" for one in each
-    )
-    slipped = ", ".join(
-        f"{plus_minus(one, 'slip_by_depth', '.3f')} at nu = {float(one['poisson_ratio']):g}" for one in each
-    )
-    off = {
-        law: kept[name] / kept[law] - 1
-        for name, law in (("tangential", "by_7_5"), ("slip", "by_7_6"), ("slip", "by_7_7"))
-    }
-    errors = {
-        law: kept[f"{name}_error"] / kept[law]
-        for name, law in (("tangential", "by_7_5"), ("slip", "by_7_6"), ("slip", "by_7_7"))
-    }
+    laws = {"by_7_5": "tangential", "by_7_6": "slip", "by_7_7": "slip"}
+    off = {law: kept[name] / kept[law] - 1 for law, name in laws.items()}
+    errors = {law: kept[f"{name}_error"] / kept[law] for law, name in laws.items()}
     path = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
-    spread = {law: ", ".join(_spread(off[law], hurst) for hurst in averages["hurst"].values) for law in off}
-    return (
-        Verdict(
-            "k/k_t = C_m = (2 - nu)/(2(1 - nu)) on rough surfaces (eqs 4.5 and 7.4)",
-            "1",
-            f"(k/k_t)/C_m, mean over directions, {ratios}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
-            f"{spanned(kept['ratio'], '.4f')} in all; the larger k_t of a sample over the smaller {tilted}; {told}",
-            judged(kept["ratio"] - 1, kept["ratio_error"], 0.02),
-        ),
-        Verdict(
-            "k_t by eq. 7.5 with zeta = 1.7/(H + 1)",
-            "eq. 7.5",
-            f"{spread['by_7_5']}; {told}",
-            judged(off["by_7_5"], errors["by_7_5"], 0.15),
-        ),
-        Verdict(
-            "the largest displacement before gross slip is mu C_m d (behind eq. 7.6)",
-            "1",
-            f"u_max/(mu C_m d) = {slipped}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
-            f"{spanned(kept['slip_by_depth'], '.3f')} in all; {told}",
-            judged(kept["slip_by_depth"] - 1, kept["slip_by_depth_error"], 0.05),
-        ),
-        Verdict(
-            "the largest displacement by eq. 7.6, Z from zeta = 1.7/(H + 1)",
-            "eq. 7.6",
-            f"{spread['by_7_6']}; {told}",
-            judged(off["by_7_6"], errors["by_7_6"], 0.15),
-        ),
-        Verdict(
-            "the largest displacement by eq. 7.6, Z as printed",
-            "eq. 7.7",
-            f"{spread['by_7_7']}; {told}",
-            judged(off["by_7_7"], errors["by_7_7"], 0.15),
-        ),
-        Verdict(
-            "the way to gross slip follows from the normal loading curve, u = mu C_m [d(F) - d(F - Q/mu)] (behind 7.6)",
-            "exact for nu = 0",
-            f"displacements {spanned(path, '+.1%')} from it at nu = 0, all Hurst exponents, forces and pulls; {told}",
-            bool((np.abs(path.where(np.isfinite(path), 0)) < 0.05).all()),
-        ),
+
+    def by_law(claim: str, thesis: str, law: str) -> Verdict:
+        spread = (
+            f"{spanned(off[law].sel(hurst=h), '+.0%')} from it at H = {h:g}" for h in off[law]["hurst"].values
+        )
+        return Verdict(claim, thesis, f"{', '.join(spread)}; {told}", judged(off[law], errors[law], 0.15))
+
+    yield Verdict(
+        "k/k_t = C_m = (2 - nu)/(2(1 - nu)) on rough surfaces (eqs 4.5 and 7.4)",
+        "1",
+        f"(k/k_t)/C_m, mean over directions, {ratios}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
+        f"{spanned(kept['ratio'], '.4f')} in all; the larger k_t of a sample over the smaller {tilted}; {told}",
+        judged(kept["ratio"] - 1, kept["ratio_error"], 0.02),
     )
-
-
-def _spread(off: xarray.DataArray, hurst: float) -> str:
-    return f"{spanned(off.sel(hurst=hurst), '+.0%')} from it at H = {hurst:g}"
+    yield by_law("k_t by eq. 7.5 with zeta = 1.7/(H + 1)", "eq. 7.5", "by_7_5")
+    yield Verdict(
+        "the largest displacement before gross slip is mu C_m d (behind eq. 7.6)",
+        "1",
+        f"u_max/(mu C_m d) = {slipped}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
+        f"{spanned(kept['slip_by_depth'], '.3f')} in all; {told}",
+        judged(kept["slip_by_depth"] - 1, kept["slip_by_depth_error"], 0.05),
+    )
+    yield by_law("the largest displacement by eq. 7.6, Z from zeta = 1.7/(H + 1)", "eq. 7.6", "by_7_6")
+    yield by_law("the largest displacement by eq. 7.6, Z as printed", "eq. 7.7", "by_7_7")
+    yield Verdict(
+        "the way to gross slip follows from the normal loading curve, u = mu C_m [d(F) - d(F - Q/mu)] (behind 7.6)",
+        "exact for nu = 0",
+        f"displacements {spanned(path, '+.1%')} from it at nu = 0, all Hurst exponents, forces and pulls; {told}",
+        bool((np.abs(path.where(np.isfinite(path), 0)) < 0.05).all()),
+    )

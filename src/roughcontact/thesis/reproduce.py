@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from roughcontact.thesis.figures import EnsembleFigure, Scale
+import xarray
 
-if TYPE_CHECKING:
-    import xarray
-
-    from roughcontact.study.study import Study
-    from roughcontact.study.task import Executor, Summary
+from roughcontact.study.export import export
+from roughcontact.study.run import run
+from roughcontact.study.store import Store
+from roughcontact.study.study import Study
+from roughcontact.study.task import Executor, Summary
+from roughcontact.thesis.figures import EnsembleFigure, Scale, Studies
 
 __all__ = ["STUDIES", "averages_of", "planned", "run_study", "store_of"]
 
@@ -21,7 +21,7 @@ STUDIES = "studies"
 """Folder beside the pictures that holds a store a study."""
 
 
-def planned(found: EnsembleFigure, scale: Scale = "small", seed: int | None = None) -> tuple[Study, ...]:
+def planned(found: EnsembleFigure, scale: Scale = "small", seed: int | None = None) -> Studies:
     """Return the studies of a figure; another `seed` than their own gives them another name, and so another store."""
     studies = found.studies(scale)
     if seed is None:
@@ -43,14 +43,10 @@ def run_study(
     on_progress: Callable[[Summary], None] | None = None,
 ) -> Summary:
     """Run a study in its store under `folder`; what is done already is not done again."""
-    from roughcontact.study.run import run
-
     return run(study, store_of(folder, study), executor, on_progress=on_progress)
 
 
-def averages_of(
-    found: EnsembleFigure, studies: tuple[Study, ...], folder: str | os.PathLike[str]
-) -> xarray.Dataset:
+def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLike[str]) -> xarray.Dataset:
     """Return what a figure shows, from what the stores of its studies under `folder` hold so far.
 
     Attributes say what that was, an entry a study: ``studies`` as TOML, ``cases_done``, ``cases_failed`` and
@@ -65,10 +61,7 @@ def averages_of(
     return found.averages(*exports).assign_attrs(_origin(exports))
 
 
-def _exports(studies: tuple[Study, ...], folder: str | os.PathLike[str]) -> Iterator[xarray.Dataset]:
-    from roughcontact.study.export import export
-    from roughcontact.study.store import Store
-
+def _exports(studies: Studies, folder: str | os.PathLike[str]) -> Iterator[xarray.Dataset]:
     for study in studies:
         if not (store_of(folder, study) / "study.toml").is_file():
             raise ValueError(f"the study {study.name!r} was not run in {folder}: run it first")

@@ -6,11 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from roughcontact.contact.press import press
-from roughcontact.contact.solution import Solution
-from roughcontact.grid import RadialGrid
-from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.surface.radial import RadialProfile
+import roughcontact as rc
 from roughcontact.theory.stepped import SteppedIndenter
 
 __all__ = ["INDENTER", "MODULUS", "RINGS", "full_steps", "stepped_body"]
@@ -24,7 +20,7 @@ RINGS = 32  # a disc or step: stiffnesses are right to 2e-4
 _WIDEST = 3.0  # times the height of all steps above: the wall has reached the next one before
 
 
-def stepped_body(indenter: SteppedIndenter, count: int, rings: int = RINGS) -> RadialProfile:
+def stepped_body(indenter: SteppedIndenter, count: int, rings: int = RINGS) -> rc.RadialProfile:
     """Return the first `count` cylinders as heights on rings, which are narrow where a step may carry load.
 
     Parameters
@@ -44,12 +40,12 @@ def stepped_body(indenter: SteppedIndenter, count: int, rings: int = RINGS) -> R
         edges.append(inner + (outer - inner) * share)
         heights.append(np.full(rings, -depth))
     name = f"{count} cylinders, C = {indenter.ratio:g}, H = {indenter.hurst:g}"
-    return RadialProfile(np.concatenate(heights), RadialGrid(np.concatenate(edges)), (name,))
+    return rc.RadialProfile(np.concatenate(heights), rc.RadialGrid(np.concatenate(edges)), (name,))
 
 
 def full_steps(
-    body: RadialProfile, operator: Operator, count: int, rings: int = RINGS
-) -> tuple[Solution, ...]:
+    body: rc.RadialProfile, operator: rc.Operator, count: int, rings: int = RINGS
+) -> tuple[rc.Solution, ...]:
     """Return the contact just before cylinder n + 1 touches, for n below `count`.
 
     The wall comes down to the rim of the next cylinder, where the surface has sunk least.
@@ -69,16 +65,13 @@ def full_steps(
     for n in range(count):
         # Without what comes later, and with a little of the depth at which it would come anyway.
         alone = np.where(np.arange(body.grid.size) < (n + 1) * rings, body.heights, np.nan)
-        part, rim = RadialProfile(alone, body.grid), (n + 2) * rings - 1
+        part, rim = rc.RadialProfile(alone, body.grid), (n + 2) * rings - 1
         step = -float(body.heights[rim])
 
-        def gap_of_next(
-            depth: float, part: RadialProfile = part, rim: int = rim, step: float = step
-        ) -> float:
-            return (
-                step + float(press(part, MODULUS, depth=depth, operator=operator).displacement[rim]) - depth
-            )
+        def gap_of_next(depth: float, part: rc.RadialProfile, rim: int, step: float) -> float:
+            sunk = rc.press(part, MODULUS, depth=depth, operator=operator).displacement[rim]
+            return step + float(sunk) - depth
 
-        depth = float(brentq(gap_of_next, step, _WIDEST * step, rtol=1e-10))
-        states.append(press(part, MODULUS, depth=depth, operator=operator))
+        depth = float(brentq(gap_of_next, step, _WIDEST * step, (part, rim, step), rtol=1e-10))
+        states.append(rc.press(part, MODULUS, depth=depth, operator=operator))
     return tuple(states)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+import xarray
 
-__all__ = ["Verdict", "judged", "spanned"]
+__all__ = ["Verdict", "Verdicts", "counted", "judged", "listed", "plus_minus", "series", "spanned"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +40,10 @@ class Verdict:
         return {True: "holds", False: "does not hold", None: "open"}[self.holds]
 
 
+Verdicts = Iterator[Verdict]
+"""What a figure says, a claim after the other."""
+
+
 def judged(deviation: npt.ArrayLike, error: npt.ArrayLike, tolerance: float) -> bool | None:
     """Return whether all deviations stay within a tolerance, as far as their standard errors let one say.
 
@@ -56,3 +63,28 @@ def spanned(values: npt.ArrayLike, form: str) -> str:
     numbers = np.asarray(values, dtype=np.float64)
     there = numbers[np.isfinite(numbers)]
     return f"{there.min():{form}} to {there.max():{form}}" if there.size else "none"
+
+
+def series(values: npt.ArrayLike, form: str = ".3f", between: str = ", ") -> str:
+    """Return numbers in words, one after the other."""
+    return between.join(f"{float(value):{form}}" for value in np.asarray(values, dtype=np.float64))
+
+
+def plus_minus(averages: xarray.Dataset, name: str, form: str = ".2f") -> str:
+    """Return a mean with its standard error in words; of one sample the mean alone."""
+    value, error = float(averages[name]), float(averages[f"{name}_error"])
+    spread = "" if math.isnan(error) else f" ± {error:{form.replace('+', '')}}"
+    return f"{value:{form}}{spread}"
+
+
+def listed(
+    averages: xarray.Dataset, name: str, along: str, form: str = ".2f", words: str = "H = {:g}"
+) -> str:
+    """Return the means of a variable with their errors in words, and for which value along a dimension each is."""
+    each = ((value, averages.sel({along: value})) for value in averages[along].values)
+    return ", ".join(f"{plus_minus(one, name, form)} at {words.format(value)}" for value, one in each)
+
+
+def counted(averages: xarray.Dataset, what: str = "samples") -> str:
+    """Return how many samples of how many cells averages are from, in words."""
+    return f"{averages.attrs['surfaces']} {what} of {averages.attrs['cells']}² cells"

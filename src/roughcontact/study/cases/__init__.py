@@ -31,12 +31,22 @@ _OWN = "a case of your own is named as module:attribute"
 
 
 def find_case(name: str) -> Case:
-    """Return the case of that name, or that of a module of the user's: ``"module:attribute"``.
+    """Return a case by its name.
+
+    Parameters
+    ----------
+    name : str
+        Of a case that comes with the package, or ``"module:attribute"`` for a `Case` of the user's.
+
+    Returns
+    -------
+    Case
+        The case.
 
     Raises
     ------
     StudyError
-        If there is none.
+        If there is no such case.
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:

@@ -10,7 +10,7 @@ from pydantic import Field
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
-from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.study.cases.shared_parameters import ForceRange
 from roughcontact.surface.analysis.summits import find_summits
 from roughcontact.surface.fourier import self_affine
 from roughcontact.theory.asperities import Asperities, press

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
-from roughcontact.contact.curve import POINTS, collect
+from roughcontact.contact.curve import collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
+from roughcontact.labels.variables import CURVE_POINTS
 from roughcontact.study.case import Case
-from roughcontact.study.cases.force_range import ForceRange
-from roughcontact.study.cases.surfaces import PressedSquare
+from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["CASE", "CurveParameters", "run"]
 
 _ARRAYS = (
-    *(*POINTS, "spots", "dimensionless_stiffness"),
+    *(*CURVE_POINTS, "spots", "dimensionless_stiffness"),
     *("residual", "stiffness_residual", "resolved", "status"),
 )
 _SCALES = ("cell_stiffness", "full_contact_stiffness")
@@ -76,7 +76,7 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
         tolerance=parameters.tolerance,
         hardness=parameters.hardness_on(moments.rms_slope),
     )
-    curve = collect(_saturated(path, parameters))
+    curve = collect(_with_limit(path, parameters))
     whole = curve.to_dataset()
     names = [*_ARRAYS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
     record = whole[names].drop_vars("axis", errors="ignore")
@@ -88,7 +88,7 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
     return record.assign_attrs(title="loading curves of rough surfaces by boundary elements")
 
 
-def _saturated(path: Iterator[Solution], parameters: CurveParameters) -> Iterator[Solution]:
+def _with_limit(path: Iterator[Solution], parameters: CurveParameters) -> Iterator[Solution]:
     """Yield a path whose full-contact stiffness is known: where few cells touch, finding it takes half of the time."""
     unit = parameters.modulus * parameters.size
     for solution in path:

@@ -12,7 +12,7 @@ from roughcontact.labels.labelled import described
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.study.case import Case
-from roughcontact.study.cases.force_range import ForceRange
+from roughcontact.study.cases.shared_parameters import ForceRange
 from roughcontact.surface.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:

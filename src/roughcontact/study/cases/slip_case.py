@@ -16,8 +16,7 @@ from roughcontact.labels.labelled import described, variable
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
 from roughcontact.study.case import Case, Positive, Pressure
-from roughcontact.study.cases.force_range import ForceRange
-from roughcontact.study.cases.surfaces import RoughSquare
+from roughcontact.study.cases.shared_parameters import ForceRange, RoughSquare
 
 if TYPE_CHECKING:
     import xarray

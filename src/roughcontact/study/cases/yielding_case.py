@@ -13,7 +13,7 @@ from roughcontact.contact.loading import loading_path
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.labels.labelled import described, variable
 from roughcontact.study.case import Case
-from roughcontact.study.cases.surfaces import PressedSquare
+from roughcontact.study.cases.shared_parameters import PressedSquare
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:

@@ -74,6 +74,18 @@ class Dask:
     def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
         """Yield one outcome for each task, in the order in which they are done.
 
+        Parameters
+        ----------
+        perform : function
+            Takes a task and returns its outcome; it never raises.
+        tasks : iterable of Task
+            The tasks, which are taken one by one as workers become free.
+
+        Yields
+        ------
+        Outcome
+            One for each task.
+
         Raises
         ------
         WorkersError

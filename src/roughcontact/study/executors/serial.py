@@ -22,6 +22,19 @@ class Serial:
         return 1
 
     def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
-        """Yield the outcome of each task, in their order."""
+        """Yield the outcome of each task, in their order.
+
+        Parameters
+        ----------
+        perform : function
+            Takes a task and returns its outcome; it never raises.
+        tasks : iterable of Task
+            The tasks, which are taken one by one as workers become free.
+
+        Yields
+        ------
+        Outcome
+            One for each task.
+        """
         for task in tasks:
             yield perform(task)

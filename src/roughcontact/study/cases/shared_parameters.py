@@ -1,0 +1,140 @@
+"""Parameters shared by several cases: forces in equal ratios, and rough squares on a flat or a rounded body."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import Field, model_validator
+
+from roughcontact.grid import Grid
+from roughcontact.study.case import Length, Parameters, Positive, Pressure
+from roughcontact.surface.fourier import self_affine
+from roughcontact.surface.shapes import paraboloid
+from roughcontact.surface.surface import Surface
+
+__all__ = ["ForceRange", "PressedSquare", "RoughSquare"]
+
+
+class ForceRange(Parameters):
+    """Parameters of a case that is pressed by forces ``F/(E* h L)``, h the rms height and L the side.
+
+    Parameters
+    ----------
+    lowest_force, highest_force : float
+        The first and the last.
+    loads : int
+        How many.
+    """
+
+    lowest_force: float = Field(gt=0)
+    highest_force: float = Field(gt=0)
+    loads: int = Field(ge=2)
+
+    @model_validator(mode="after")
+    def _rising(self) -> Self:
+        if not self.lowest_force < self.highest_force:
+            raise ValueError(
+                f"lowest_force must be below highest_force, not {self.lowest_force:g} and {self.highest_force:g}"
+            )
+        return self
+
+    @property
+    def forces(self) -> npt.NDArray[np.float64]:
+        """The forces, shape (loads,)."""
+        return np.geomspace(self.lowest_force, self.highest_force, self.loads)
+
+
+class RoughSquare(Parameters):
+    """Parameters of a case on a square with self-affine roughness.
+
+    The waves' phases come from the generator of the sample: surfaces of one sample and one number of points are
+    alike for all other parameters.
+
+    Parameters
+    ----------
+    points : int
+        Cells along a side.
+    size : float
+        Side of the square L [m].
+    hurst : float
+        Hurst exponent H, from -1 to 3.
+    rms : float
+        Root mean square height h of the roughness [m].
+    rolloff, long_cutoff, short_cutoff : float, optional
+        Limits of the power law, as wavelengths over the side: waves longer than the roll-off have its amplitude, and
+        those beyond the long or the short cut-off are absent. Without: all waves of the grid.
+    amplitudes : {"exact", "gaussian"}
+        The spectrum exactly in every sample, or on the average over a Gaussian process.
+    periodic : bool
+        Whether the body repeats itself.
+    radius : float, optional
+        Radius of curvature of a paraboloid under the roughness, its apex in the middle [m].
+    """
+
+    points: int = Field(ge=4)
+    size: Positive[Length]
+    hurst: float = Field(ge=-1, le=3)
+    rms: Positive[Length]
+    rolloff: float | None = Field(default=None, gt=0)
+    long_cutoff: float | None = Field(default=None, gt=0)
+    short_cutoff: float | None = Field(default=None, gt=0)
+    amplitudes: Literal["exact", "gaussian"] = "exact"
+    periodic: bool = False
+    radius: Positive[Length] | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The cells."""
+        return Grid((self.points, self.points), self.size / self.points, self.periodic)
+
+    def roughness(self, rng: np.random.Generator) -> Surface:
+        """Return the roughness alone, as if on a flat body."""
+        return self_affine(
+            self.grid,
+            self.hurst,
+            self.rms,
+            rng,
+            rolloff=self._length(self.rolloff),
+            long_cutoff=self._length(self.long_cutoff),
+            short_cutoff=self._length(self.short_cutoff),
+            amplitudes=self.amplitudes,
+        )
+
+    def on_body(self, roughness: Surface) -> Surface:
+        """Return a roughness on the body that it belongs to."""
+        return roughness if self.radius is None else paraboloid(self.grid, self.radius) + roughness
+
+    def _length(self, part: float | None) -> float | None:
+        return None if part is None else part * self.size
+
+
+class PressedSquare(RoughSquare):
+    """Parameters of a case that presses such a square, elastic or with a largest pressure.
+
+    Parameters
+    ----------
+    modulus : float
+        Reduced modulus E* [Pa].
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+    relative_hardness : float, optional
+        The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
+    """
+
+    modulus: Positive[Pressure]
+    hardness: Positive[Pressure] | None = None
+    relative_hardness: float | None = Field(default=None, gt=0)
+
+    @model_validator(mode="after")
+    def _one_hardness(self) -> Self:
+        if self.hardness is not None and self.relative_hardness is not None:
+            raise ValueError("give hardness or relative_hardness, not both")
+        return self
+
+    def hardness_on(self, rms_slope: float) -> float | None:
+        """Return the hardness of a roughness of this rms slope [Pa]; None of an elastic body."""
+        if self.relative_hardness is None:
+            return self.hardness
+        return self.relative_hardness * self.modulus * rms_slope

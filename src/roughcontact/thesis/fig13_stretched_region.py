@@ -1,0 +1,100 @@
+"""Figure 13: how the stiffness of a contact region changes with its size and with its shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.theory import punch
+from roughcontact.thesis import drawing
+from roughcontact.thesis.verdict import Verdict, Verdicts
+
+__all__ = ["Configurations", "case", "draw", "verdicts"]
+
+Mask = npt.NDArray[np.bool_]
+
+TITLE = "stiffness of a contact region that is enlarged, and of one that is stretched one way"
+POINTS = 64
+HURST = 0.8
+RMS = 0.02  # over the side
+PRESSURE = 0.006  # over E*
+STRETCH = 2.0
+SEED = 114
+CHOSEN = (
+    f"the region: contact of a rough square, H = {HURST:g}, {POINTS} x {POINTS} cells, under {PRESSURE:g} E*",
+    f"enlarged and stretched by {STRETCH:g}",
+)
+SIZE = (7.0, 3.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Configurations:
+    """A contact region and its stiffness when it is stretched.
+
+    Attributes
+    ----------
+    region : bool array
+    stretches : tuple of (float, float)
+        Along y and x.
+    stiffness : tuple of float
+        Over that of the region as it is.
+    """
+
+    region: Mask
+    stretches: tuple[tuple[float, float], ...]
+    stiffness: tuple[float, ...]
+
+
+def case(seed: int = SEED) -> Configurations:
+    """Return a region of contact, and its stiffness enlarged, and stretched along x and along y."""
+    grid = rc.Grid((POINTS, POINTS), 1 / POINTS)
+    surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(seed))
+    region = rc.press(surface, 1.0, pressure=PRESSURE).contact
+    stretches = ((1.0, 1.0), (STRETCH, STRETCH), (1.0, STRETCH), (STRETCH, 1.0))
+    first, *others = (
+        rc.contact_stiffness(region, rc.Grid(grid.shape, (y / POINTS, x / POINTS)), 1.0) for y, x in stretches
+    )
+    return Configurations(region, stretches, (1.0, *(each / first for each in others)))
+
+
+def draw(figure: Figure, data: Configurations) -> None:
+    """Draw the region (a), enlarged (b), and stretched along x (c), to one scale."""
+    panels = figure.subplots(1, 3, width_ratios=[x for _, x in data.stretches[:3]])
+    words = ("$k$", f"$\\lambda k$,  $\\lambda$ = {STRETCH:g}", f"{data.stiffness[2]:.3f} $k$")
+    colours = ListedColormap(["#eef3f7", drawing.LINES])
+    for letter, axes, (y, x), text in zip("abc", panels, data.stretches, words, strict=False):
+        axes.imshow(data.region, cmap=colours, extent=(0, x, y, 0), interpolation="nearest", vmin=0, vmax=1)
+        # As high as the largest, so that all have one scale.
+        drawing.frameless(axes, xlim=(0, x), ylim=((STRETCH + y) / 2, (y - STRETCH) / 2))
+        axes.set_title(f"({letter})  {text}", loc="center")
+
+
+def verdicts(data: Configurations) -> Verdicts:
+    """Return the ratios of the stiffnesses."""
+    _, enlarged, along_x, along_y = data.stiffness
+    disc, along, across = (
+        float(punch.ellipse(1.0, after) / punch.ellipse(1.0, before))
+        for after, before in (
+            ((STRETCH, 1.0), (1.0, 1.0)),
+            ((10 * STRETCH, 1.0), (10.0, 1.0)),
+            ((10.0, STRETCH), (10.0, 1.0)),
+        )
+    )
+    yield Verdict(
+        "the stiffness grows as the lateral extension, not as the area",
+        f"{STRETCH:g}",
+        f"{enlarged:.6f} for {STRETCH:g} times the extension",
+        bool(abs(enlarged / STRETCH - 1) < 1e-6),
+    )
+    yield Verdict(
+        "stretched one way, the stiffness cannot be deduced from the one before",
+        "no rule",
+        f"times {along_x:.3f} along x and {along_y:.3f} along y; a disc {disc:.3f}, an ellipse of 10:1 {along:.3f} or "
+        f"{across:.3f}",
+        True,
+    )

@@ -1,0 +1,92 @@
+"""Figure 22: stiffness of rough lines against force, from the first spring to the last."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.study.ranges import Range
+from roughcontact.thesis import drawing
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.line_ensembles import line_averages, line_fits, line_study
+from roughcontact.thesis.verdict import Verdict, Verdicts
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "stiffness of rough lines against force, by the reduced model"
+POINTS, LINES = 500, 1500
+CHOSEN = (
+    "forces F/(E* h L) from 1e-8 to 10 in equal ratios; the thesis gives their number only",
+    "lines by the inverse Fourier transform with exact amplitudes, paired across H",
+    "arithmetic means over the lines at each force",
+)
+SIZE = (6.4, 4.4)
+
+
+def studies(scale: Scale) -> Studies:
+    """Return the one study: 11 Hurst exponents, 400 forces, 1500 lines of 500 points."""
+    return (
+        line_study(
+            "lines-of-figure-22",
+            scale,
+            table={"hurst": Range(start=0.0, stop=2.0, step=0.2)},
+            parameters={"points": POINTS, "lowest_force": 1e-8, "highest_force": 10.0, "loads": 400},
+            lines=LINES,
+        ),
+    )
+
+
+def averages(lines: xarray.Dataset) -> xarray.Dataset:
+    """Return mean stiffnesses, their power laws, and the time that all lines took [s]."""
+    found = line_averages(lines).merge(line_fits(lines), combine_attrs="drop_conflicts")
+    if "case_seconds" in lines:
+        seconds = lines["case_seconds"].sum()
+        found["seconds"] = seconds.assign_attrs(long_name="computing time of all lines", units="s")
+    return found
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw the mean stiffness for each Hurst exponent, between its two plateaus."""
+    axes = figure.subplots()
+    force, points = averages["force"].to_numpy(), float(averages["points"])
+    laws = {0.0: (1.1, np.array([3e-3, 4e-2])), 2.0: (1.0, np.array([1e-6, 1e-3]))}  # their places and forces
+    for hurst, one, colour in drawing.by_hurst(averages):
+        axes.plot(force, one["stiffness"], color=colour, zorder=3)
+        if hurst in laws:
+            place, law = laws[hurst]
+            axes.plot(law, place * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
+    drawing.level(axes, 1.0, "every spring carries load", ":", va="top")
+    drawing.level(axes, 1 / points, "one spring carries load", ":", va="top")
+    drawing.key(axes, "--", "slopes 1/(H + 1) at H = 0 and 2")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85))
+    drawing.stiffness_axes(axes, xlim=(force[0], force[-1]), ylim=(0.5 / points, 2))
+    drawing.colour_key(figure, axes, averages["hurst"].to_numpy())
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Compare plateaus, laws and time."""
+    points, lines = float(averages["points"]), averages.attrs["lines"]
+    first, last = (averages["stiffness"].isel(load=place) for place in (0, -1))
+    low, high = float(abs(first * points - 1).max()), float(abs(last - 1).max())
+    misfit, hurst = averages["misfit"].to_numpy(), averages["hurst"].to_numpy()
+    yield Verdict(
+        "stiffness saturates at low and at high forces",
+        "k/(E* L) = 1/N and 1",
+        f"within {low:.1g} and {high:.1g} of them at the first and the last force; {lines} lines of {points:.0f} "
+        f"points for each of {hurst.size} H",
+        low < 0.05 and high < 0.05,
+    )
+    yield Verdict(
+        "a power law in the medium range",
+        "straight lines in logarithmic axes",
+        f"straight to {misfit.min():.1%} (H = {hurst[np.argmin(misfit)]:g}) to {misfit.max():.1%} (H = "
+        f"{hurst[np.argmax(misfit)]:g}), from 20 springs to a force of 0.07",
+        bool(misfit.max() < 0.05),
+    )
+    if "seconds" in averages:
+        seconds = float(averages["seconds"])
+        said = f"{seconds:.1f} s for {lines} lines a Hurst exponent, on one core"
+        # A longer time may be that of a busy computer.
+        soon = True if lines >= LINES and seconds < 4 else None
+        yield Verdict("computing time of the figure", "4 s", said, soon)

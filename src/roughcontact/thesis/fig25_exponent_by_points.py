@@ -1,0 +1,120 @@
+"""Figure 25: the exponent at low Hurst exponents against the number of points."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.thesis import drawing
+from roughcontact.thesis.ensembles import curve_fits, resolution_studies
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.line_ensembles import (
+    WINDOWED,
+    line_averages,
+    line_fits,
+    line_study,
+    resolution_exponent,
+    white_exponent,
+)
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "exponent at a low Hurst exponent against the number of points"
+HURST = -0.5
+POINTS = tuple(2**n for n in range(8, 16))
+CHOSEN = (
+    f"H = {HURST:g}; lines of 2^8 to 2^15 points, 1000 of each; on the small scale to 2^13, 200 of each",
+    "fits: more than 20 springs or cells, forces up to 0.07; of fewer points nothing is left of this window",
+    "surfaces: those of figure 26",
+)
+SIZE = (6.2, 4.2)
+
+_LAW, _SIDE, _AREA, _WHITE = "#c8290b", "#009e73", "#8e44ad", "0.45"
+
+
+def studies(scale: Scale) -> Studies:
+    """Return a study of lines of many lengths, and those of surfaces that figure 26 is made of."""
+    lines = line_study(
+        "lines-of-figure-25",
+        scale,
+        table={"points": POINTS[: {"small": 6, "thesis": 8}[scale]]},
+        parameters={"hurst": HURST, "lowest_force": 7e-5, "highest_force": 0.07, "loads": 73},
+    )
+    return (lines, *resolution_studies(scale))
+
+
+def averages(lines: xarray.Dataset, *surfaces: xarray.Dataset) -> xarray.Dataset:
+    """Return the exponents of lines and of surfaces, and what white heights give in the windows of the lines."""
+    fits = line_fits(lines)
+    found = fits[list(WINDOWED)].assign(white=white_exponent(lines["dimensionless_force"], fits))
+    means = line_averages(lines)
+    last = means.isel(load=-1)
+    for name in ("force", "stiffness", "stiffness_error"):
+        found[name] = last[name]
+    parts = [
+        curve_fits(each)[list(WINDOWED)]
+        .sel(hurst=HURST)
+        .assign_coords(cells=int(each["points"]))
+        .drop_vars("points")
+        for each in surfaces
+    ]
+    squares = xarray.concat(parts, "cells", coords="minimal", compat="override")
+    # Surfaces without three forces in the window have no exponent.
+    named = squares.rename({name: f"surface_{name}" for name in WINDOWED})
+    return found.merge(named, compat="override").assign_attrs(lines=means.attrs["lines"])
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw exponents against the number of points: of lines, of surfaces in two readings, and eq. 4.73."""
+    axes = figure.subplots()
+    points, cells = (averages[name].to_numpy().astype(float) for name in ("points", "cells"))
+    x = np.geomspace(points[0] / 1.5, max(points[-1], cells[-1] ** 2) * 1.5, 200)
+    axes.plot(x, [resolution_exponent(n) for n in x], color=_LAW, label="eq. 4.73")
+    white = averages["white"]
+    axes.plot(points, white, ":", color=_WHITE, linewidth=2.0, label="independent Gaussian heights")
+    for places, name, style, words in (
+        (points, "exponent", {"fmt": "x", "color": "black"}, "lines"),
+        (cells, "surface_exponent", {"fmt": "P", "color": _SIDE}, "surfaces, N points a side"),
+        (cells**2, "surface_exponent", {"fmt": "P", "color": _AREA}, "surfaces, N points in all"),
+    ):
+        drawing.with_intervals(axes, places, averages, name, markersize=5.5, label=words, **style)
+    axes.set_xscale("log", base=2)
+    drawing.label(axes, "number of points N", drawing.EXPONENT, xlim=(x[0], x[-1]))
+    axes.legend(loc="upper left")
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Compare exponents with eq. 4.73, and say what their growth is."""
+    points = averages["points"].to_numpy()
+    law = np.array([resolution_exponent(n) for n in points])
+    alpha, white = averages["exponent"].to_numpy(), averages["white"].to_numpy()
+    stiffness, error = averages["stiffness"].to_numpy(), averages["stiffness_error"].to_numpy()
+    spread = np.ptp(stiffness) / stiffness.mean()
+    cells = averages["cells"].to_numpy()
+    surface, uncertain = (averages[f"surface_exponent{end}"].to_numpy() for end in ("", "_error"))
+    side = np.array([resolution_exponent(n) for n in cells])
+    area = np.array([resolution_exponent(n**2) for n in cells])
+    yield Verdict(
+        "exponents of lines at low H, fitted above 20 springs, follow eq. 4.73",
+        series(law),
+        f"{series(alpha)} for N = 2^{int(np.log2(points[0]))} to 2^{int(np.log2(points[-1]))}, H = {HURST:g}, "
+        f"{averages.attrs['lines']} lines each",
+        bool(np.nanmax(np.abs(alpha - law)) < 0.02),
+    )
+    yield Verdict(
+        "the number of modes makes the exponent",
+        "the density of heights is a power of N, eq. 4.72",
+        f"independent Gaussian heights, whose stiffness knows no N, give {series(white)} in the same windows; the "
+        f"stiffness at a force of {float(averages['force']):.2g} is the same for all N to {spread:.1%} (errors up to "
+        f"{(error / stiffness).max():.1%})",
+        bool(spread > 0.05),
+    )
+    yield Verdict(
+        "exponents of surfaces follow the same law, with N points a side or in all",
+        f"{series(side)} or {series(area)}",
+        f"{series(surface)} for {', '.join(str(n) for n in cells)} points a side, errors up to "
+        f"{np.nanmax(uncertain):.3f}, H = {HURST:g}",
+        bool(min(np.nanmax(np.abs(surface - reading)) for reading in (side, area)) < 0.03),
+    )

@@ -1,0 +1,125 @@
+"""Figure 26: the exponent for low Hurst exponents on several numbers of cells."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.statistics.common_forces import on_common
+from roughcontact.statistics.fit_window import force_window
+from roughcontact.thesis import drawing
+from roughcontact.thesis.averaging import without_parameters
+from roughcontact.thesis.ensembles import curve_averages, curve_fits, resolution_studies
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, judged, series
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "exponent of the stiffness for low Hurst exponents on several numbers of cells"
+COMMON = (0.025, 0.07)  # forces at which 257 x 257 cells are resolved for all H below 0.2
+FORCE = 0.07
+NEAR = 0.03  # of exponents: what counts as no difference
+CHOSEN = (
+    "free squares of 257 x 257, 513 x 513 (500 samples each) and 1025 x 1025 cells (200; small: two sizes, 20)",
+    "filled: the window of figure 27, mean stiffness above 20 cells, forces F/(E* h L) up to 0.07: the finer the grid "
+    "the lower it begins",
+    f"open: one window for all, forces from {COMMON[0]:g} to {COMMON[1]:g}",
+    "bars: 95 % of resampled ensembles",
+)
+SIZE = (6.2, 4.2)
+
+_STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#d55e00", "^"))
+_FITS = ("exponent", "exponent_error", "exponent_low", "exponent_high", "window_low", "count", "samples")
+
+
+def studies(scale: Scale) -> Studies:
+    """Return one study for each number of cells."""
+    return resolution_studies(scale)
+
+
+def averages(*squares: xarray.Dataset) -> xarray.Dataset:
+    """Return exponents in the window of each grid and, named ``common_...``, in one window, and stiffnesses."""
+    parts = []
+    for each in squares:
+        own = curve_fits(each)[list(_FITS)]
+        common = curve_fits(each, window=force_window(*COMMON))[list(_FITS)]
+        at = on_common(curve_averages(each), [FORCE], at="force").isel(force=0, drop=True)
+        part = own.assign({f"common_{name}": values for name, values in common.items()})
+        part["stiffness"], part["stiffness_error"] = at["stiffness"], at["stiffness_error"]
+        parts.append(without_parameters(part).expand_dims(points=[int(each["points"])]))
+    return xarray.concat(parts, "points", combine_attrs="drop")
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw the exponents, filled in the window of each grid and open in the common one."""
+    axes = figure.subplots()
+    hurst, grids = averages["hurst"].to_numpy(), averages["points"].to_numpy()
+    for place, (points, (colour, mark)) in enumerate(zip(grids, _STYLES, strict=False)):
+        one = averages.sel(points=points)
+        # Side by side, so that bars do not cover each other.
+        x = hurst + 0.012 * (place - (len(grids) - 1) / 2)
+        words = f"{points}² cells, from {float(one['window_low'].mean()):.2g}"
+        given = {"color": colour, "markersize": 4.5, "linewidth": 1.0}
+        drawing.with_intervals(axes, x, one, "exponent", fmt=f"{mark}-", label=words, **given)
+        drawing.with_intervals(
+            axes, x, one, "common_exponent", fmt=f"{mark}:", markerfacecolor="white", **given
+        )
+    drawing.key(axes, "o:", f"one window, from {COMMON[0]:g}", color="0.4", markerfacecolor="white")
+    x = np.linspace(-0.02, hurst[-1] + 0.05, 50)
+    axes.plot(x, 1 / (x + 1), "--", color="black", label="1/(H + 1)")
+    lowest = float(min(averages["exponent_low"].min(), averages["common_exponent_low"].min()))
+    # With room for the legend below.
+    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.16, 1.02))
+    axes.legend(loc="lower left", title="cells, window in force")
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Say whether the exponent depends on the number of cells, in windows of each grid and in a common one."""
+    # One surface of a grid is no mean, and has no error to be judged by.
+    averages = averages.isel(points=averages["samples"][:, 0].to_numpy() > 1)
+    low = averages.sel(hurst=slice(None, -0.2))
+    flat = low["exponent"] - low["exponent"].mean("hurst")
+    counts = ", ".join(
+        f"{int(n)} of {points}²"
+        for n, points in zip(averages["samples"][:, 0], averages["points"].values, strict=True)
+    )
+    grid = low["stiffness"].isel(points=-1) / low["stiffness"].isel(points=0) - 1
+    yield Verdict(
+        "alpha depends on the number of cells for low H",
+        "it does",
+        f"{_means(low['exponent'])} on {_sizes(averages)} cells for H < -0.2, each in the window above its 20 cells, "
+        f"errors about {float(low['exponent_error'].mean()):.3f}; surfaces a value: {counts}",
+        _differs(low["exponent"], low["exponent_error"]),
+    )
+    yield Verdict(
+        "the dependence is one on the number of modes, not on the forces of the fit",
+        "the small-scale limit decides",
+        f"{_means(low['common_exponent'])} where all are fitted between {COMMON[0]:g} and {COMMON[1]:g}, errors about "
+        f"{float(low['common_exponent_error'].mean()):.3f}; stiffness at {FORCE:g} on the finest grid "
+        f"{float(grid.mean()):+.1%} from the coarsest",
+        _differs(low["common_exponent"], low["common_exponent_error"]),
+    )
+    yield Verdict(
+        "a constant for H < 0",
+        "constant",
+        f"the same within {float(abs(flat).max()):.3f} from H = {float(low['hurst'][0]):g} to "
+        f"{float(low['hurst'][-1]):g} on each grid",
+        judged(flat, low["exponent_error"], 0.02),
+    )
+
+
+def _means(exponents: xarray.DataArray) -> str:
+    return series(exponents.mean("hurst"))
+
+
+def _sizes(averages: xarray.Dataset) -> str:
+    return ", ".join(f"{points}²" for points in averages["points"].to_numpy())
+
+
+def _differs(exponents: xarray.DataArray, errors: xarray.DataArray) -> bool | None:
+    """Return whether the finest and the coarsest grid differ; None where the errors do not let one say."""
+    apart = abs(float((exponents.isel(points=-1) - exponents.isel(points=0)).mean()))
+    # Samples are paired over H: their errors do not fall with the number of H.
+    error = float(np.hypot(errors.isel(points=-1), errors.isel(points=0)).mean())
+    return True if apart > 3 * error else False if apart + 2 * error < NEAR else None

@@ -1,0 +1,113 @@
+"""Figure 29: the factor of the line's spectrum that makes it as stiff as the surface."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.thesis import drawing
+from roughcontact.thesis.ensembles import square_study
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.line_ensembles import each_line, line_studies
+from roughcontact.thesis.line_match import match, pairs
+from roughcontact.thesis.verdict import Verdict, Verdicts
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "factor of the spectrum C1D = lambda q C2D that makes a line as stiff as its surface"
+HIGHEST = 0.05  # force F/(E* h L), a little below the last one of the surfaces
+SINGLE_WAVE = 4.0  # exact for H to infinity
+CHOSEN = (
+    "lines and surfaces of figures 27 and 28, matched at equal mean stiffness",
+    f"one window for both: stiffnesses from 20 cells of the surface up to that at a force of {HIGHEST:g}",
+    "lambda_rms, of equal rms heights, for the waves of the surface's grid",
+)
+SIZE = (6.0, 4.2)
+
+
+def studies(scale: Scale) -> Studies:
+    """Return the studies of lines and of surfaces that figures 27 and 28 are made of."""
+    return (*line_studies(scale), square_study(scale))
+
+
+def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
+    """Return lambda with its standard error, that of equal rms heights, and how well the matched curves agree."""
+    longest = each_line(lines).isel(points=-1)
+    points = int(surfaces["points"])
+    rows = []
+    for hurst, line, surface in pairs(longest, surfaces):
+        found = match(line, surface, HIGHEST)
+        same = lambda_rms(hurst, (points - 1) // 2)
+        factor = same * found.ratio**2
+        rows.append((factor, 2 * found.error * factor, same, found.ratio, found.mismatch, *found.window))
+    names = {
+        "factor": "lambda of C1D = lambda q C2D",
+        "factor_error": "standard error of lambda",
+        "factor_rms": "lambda of equal rms heights",
+        "ratio": "force of surfaces over that of lines at one stiffness",
+        "mismatch": "largest difference of ln k in the window after the match",
+        "window_low": "lowest k/(E* L) of the window",
+        "window_high": "highest k/(E* L) of the window",
+    }
+    return xarray.Dataset(
+        {
+            name: ("hurst", column, {"long_name": words, "units": "1"})
+            for (name, words), column in zip(names.items(), np.transpose(rows), strict=True)
+        },
+        {"hurst": surfaces["hurst"]},
+        {"points": points, "samples": surfaces.sizes["sample"], "lines": longest.sizes["sample"]},
+    )
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw lambda against the Hurst exponent, with that of equal rms heights, Geike's pi and the limit 4."""
+    axes = figure.subplots()
+    factor = averages["factor"]
+    # An error of a logarithm: of few samples it is not small.
+    spread = np.exp(2 * averages["factor_error"] / factor)
+    shown = averages.assign(factor_low=factor / spread, factor_high=factor * spread)
+    style = {"fmt": "o-", "color": drawing.COLOURS[0], "capsize": 2, "zorder": 3}
+    words = "equal stiffness, with two standard errors"
+    drawing.with_intervals(axes, averages["hurst"], shown, "factor", label=words, **style)
+    words = r"$\lambda$ of equal rms heights"
+    axes.plot(averages["hurst"], averages["factor_rms"], "--", color=drawing.COLOURS[1], label=words)
+    for value, dashes, words in (
+        (math.pi, "-.", r"$\pi$ (eq. 4.54)"),
+        (SINGLE_WAVE, ":", r"4: a single wave, $H \to \infty$"),
+    ):
+        axes.axhline(value, color="0.35", linewidth=1.0, linestyle=dashes, label=words)
+    top = 1.4 * max(SINGLE_WAVE, float(shown["factor_high"].max()))
+    words = r"factor $\lambda$ of $C_{\mathrm{1D}} = \lambda\, q\, C_{\mathrm{2D}}$"
+    drawing.label(axes, "Hurst exponent H", words, ylim=(0, top))
+    axes.legend(loc="upper left")
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Say what lambda is, and whether it does what it is for."""
+    inside = averages.sel(hurst=slice(0.15, 2.05))
+    over = (inside["factor"] / inside["factor_rms"]).to_numpy()
+    mismatch = inside["mismatch"].to_numpy()
+    worst = float(inside["hurst"][int(np.argmax(mismatch))])
+    few = averages.sel(hurst=[0.4, 1.0, 2.0, 2.95], method="nearest")
+    rows = zip(few["factor"].values, few["factor_error"].values, few["hurst"].values, strict=True)
+    values = ", ".join(f"{value:.2f} +- {error:.2f} at H = {hurst:.2g}" for value, error, hurst in rows)
+    told = averages.attrs
+    counts = f"{told['lines']} lines, {told['samples']} surfaces of {told['points']}² points"
+    yield Verdict("lambda depends on H", "figure only", f"{values}; {counts}", None)
+    yield Verdict(
+        "with C1D = pi q C2D and one rms height (eq. 4.54) lines are as stiff as surfaces to a first approximation",
+        "lambda(H) adapts the spectrum even better",
+        f"lambda is {over.min():.2f} to {over.max():.2f} times that of equal rms heights for 0.2 < H < 2: forces "
+        f"differ by {abs(np.sqrt(over) - 1).max():.0%} at most",
+        None,
+    )
+    yield Verdict(
+        "a line with this lambda has the stiffness of the surface at low loads, and need not be normalised",
+        "the same asymptotical behaviour",
+        f"mean stiffnesses agree to {mismatch.max():.1%} all over the window for 0.2 < H < 2, worst at H = {worst:.2g}",
+        bool(mismatch.max() < 0.05),
+    )

@@ -1,0 +1,111 @@
+"""Figure 30: lines and surfaces from the power law to full contact, matched at low loads."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.study.ranges import Range
+from roughcontact.thesis import drawing
+from roughcontact.thesis.ensembles import curve_averages, full_contact_study
+from roughcontact.thesis.figures import Scale, Studies
+from roughcontact.thesis.line_ensembles import each_line, line_study
+from roughcontact.thesis.line_match import match, pairs
+from roughcontact.thesis.verdict import Verdict, Verdicts
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "lines and surfaces in the crossover from the power law to full contact"
+POINTS = 2**13
+HIGHEST = 0.1  # force F/(E* h L) up to which both are matched
+CROSSOVER = (0.1, 10.0)  # forces F/(E* h L) of the surfaces
+CHOSEN = (
+    "surfaces of figure 21: H = 0, 0.2, ... 1",
+    f"lines of 2^{POINTS.bit_length() - 1} points, their forces times the ratio that makes both equally stiff from 20 "
+    f"cells of the surface up to a force of {HIGHEST:g}",
+    "the ratio of both beneath",
+)
+SIZE = (6.2, 5.6)
+
+
+def studies(scale: Scale) -> Studies:
+    """Return a study of lines at the Hurst exponents of figure 21, and that of its surfaces."""
+    lines = line_study(
+        "lines-of-figure-30",
+        scale,
+        table={"hurst": Range(start=0.0, stop=1.0, step=0.2)},
+        parameters={"points": POINTS, "lowest_force": 7e-6, "highest_force": 70.0, "loads": 85},
+    )
+    return lines, full_contact_study(scale)
+
+
+def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
+    """Return the mean curves of both on the forces of the surfaces, matched at low loads."""
+    every = each_line(lines)
+    force = surfaces["dimensionless_force"].to_numpy()
+    found = []
+    for _, line, surface in pairs(every, surfaces):
+        matched = match(line, surface, HIGHEST)
+        moved = np.interp(np.log(force / matched.ratio), np.log(line.force), np.log(line.mean()))
+        found.append((np.exp(moved), matched.ratio, matched.ratio * matched.error, matched.window[0]))
+    columns = map(np.array, zip(*found, strict=True))
+    whole = curve_averages(surfaces)[["force", "stiffness", "stiffness_error"]]
+    whole = whole.rename(stiffness="surface", stiffness_error="surface_error")
+    for (name, words), values in zip(
+        (
+            ("line", "stiffness of lines at matched forces"),
+            ("ratio", "force of surfaces over that of lines"),
+            ("ratio_error", "standard error of it"),
+            ("resolved", "lowest stiffness of the match"),
+        ),
+        columns,
+        strict=True,
+    ):
+        whole[name] = ("hurst", "load")[: values.ndim], values, {"long_name": words, "units": "1"}
+    return whole.assign_attrs(
+        samples=surfaces.sizes["sample"], lines=every.sizes["sample"], points=int(surfaces["points"])
+    )
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw both stiffnesses, and beneath them one over the other."""
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
+    force = averages["force"]
+    for hurst, one, colour in drawing.by_hurst(averages):
+        surface = one["surface"].where(one["surface"] >= one["resolved"])
+        upper.plot(force, one["line"], color=colour, label=f"H = {hurst:g}")
+        upper.plot(force, surface, "x", color=colour, markersize=4.5)
+        lower.plot(force, one["line"] / surface, color=colour)
+    drawing.key(upper, "-", "lines")
+    drawing.key(upper, "x", "surfaces", markersize=4.5)
+    drawing.stiffness_axes(upper)
+    upper.set_xlabel("")
+    upper.legend(loc="lower right", ncols=2)
+    lower.axhline(1, color="0.5", linewidth=0.8, zorder=1)
+    drawing.label(lower, f"dimensionless {drawing.FORCE}", "lines / surfaces")
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Say how far lines and surfaces are apart in the crossover, and at its end."""
+    ratio = averages["line"] / averages["surface"]
+    force = averages["force"]
+    between = ratio.isel(load=np.flatnonzero((force >= CROSSOVER[0]) & (force <= CROSSOVER[1])))
+    high, low = between.max("load") - 1, between.min("load") - 1
+    rows = zip(low.values, high.values, averages["hurst"].values, strict=True)
+    each = ", ".join(f"{least:+.0%} to {most:+.0%} at H = {hurst:g}" for least, most, hurst in rows)
+    last = float(averages["surface"].isel(load=-1).mean())
+    told = averages.attrs
+    counts = f"{told['lines']} lines, {told['samples']} surfaces of {told['points']}² points"
+    yield Verdict(
+        "some deviations of lines from surfaces in the transition, which depend on H",
+        "figure only",
+        f"at forces from {CROSSOVER[0]:g} to {CROSSOVER[1]:g}: {each}; {counts}",
+        bool(max(abs(low).max(), high.max()) > 0.05),
+    )
+    yield Verdict(
+        "both end in a constant stiffness",
+        "1 and 1.142 (eqs 4.7 and 4.14; exactly 1.1523)",
+        f"{float(averages['line'].isel(load=-1).mean()):.3f} and {last:.3f} at a force of {float(force[-1]):.3g}",
+        bool(abs(last / 1.1523 - 1) < 0.02),
+    )

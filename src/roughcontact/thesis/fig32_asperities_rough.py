@@ -1,0 +1,38 @@
+"""Figure 32: independent and interacting asperities of a surface with D_f = 2.95, and the slope of eq. 4.31."""
+
+from __future__ import annotations
+
+import xarray
+
+from roughcontact.thesis.asperity_ensembles import (
+    asperity_averages,
+    exponent_words,
+    law_exponent,
+    linear_model,
+    studies,
+)
+from roughcontact.thesis.asperity_ensembles import draw_realisations as draw
+from roughcontact.thesis.fig31_asperities_smooth import CHOSEN, SIZE
+from roughcontact.thesis.verdict import Verdict, Verdicts
+
+__all__ = ["CHOSEN", "SIZE", "averages", "draw", "studies", "verdicts"]
+
+TITLE = "asperities with and without interaction, D_f = 2.95"
+HURST = 0.05
+
+
+def averages(asperities: xarray.Dataset) -> xarray.Dataset:
+    """Return every realisation of this fractal dimension, with means and power laws."""
+    return asperity_averages(asperities.sel(hurst=[HURST])).isel(hurst=0)
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Compare the slopes of both models."""
+    exponent, error = float(averages["exponent"]), float(averages["exponent_error"])
+    yield Verdict(
+        "for D_f = 2.95 the slope of eq. 4.31 is too steep for interacting asperities",
+        f"slightly below 1/(4 - D_f) = {law_exponent(HURST):.4f}",
+        f"{exponent_words(averages)}, {averages.sizes['sample']} surfaces",
+        exponent + 2 * error < law_exponent(HURST),
+    )
+    yield linear_model(averages)

@@ -1,0 +1,67 @@
+"""Figure 33: conductance of surfaces of several fractal dimensions, and the slopes of eq. 4.31."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+
+from roughcontact.thesis import drawing
+from roughcontact.thesis.asperity_ensembles import CHOSEN as SHARED
+from roughcontact.thesis.asperity_ensembles import asperity_averages, law_exponent, studies
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
+
+__all__ = ["averages", "draw", "studies", "verdicts"]
+
+TITLE = "interacting asperities of surfaces of several fractal dimensions"
+HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
+CHOSEN = (*SHARED, "D_f = 2.1, 2.3, 2.5, 2.7, 2.9; means over 25 surfaces, on the small scale 8")
+SIZE = (7.4, 4.0)
+
+
+def averages(asperities: xarray.Dataset) -> xarray.Dataset:
+    """Return mean stiffnesses and power laws."""
+    found = asperity_averages(asperities.sel(hurst=list(HURST)))
+    found["samples"] = found.sizes["sample"]
+    # The realisations themselves are shown in figures 31 and 32.
+    for name in ("stiffness", "independent"):
+        found[name] = found[name].mean("sample", keep_attrs=True)
+    return found.drop_vars("sample", errors="ignore")
+
+
+def draw(figure: Figure, averages: xarray.Dataset) -> None:
+    """Draw the mean stiffness for each fractal dimension with its slope (a), and the exponents (b)."""
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1.5, 1))
+    force = averages["force"].to_numpy()
+    for hurst, one, colour in reversed([*drawing.by_hurst(averages)]):
+        stiffness, low = one["stiffness"].to_numpy(), float(one["window_low"])
+        seen = force >= low
+        left.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.35)
+        words = f"$D_f$ = {3 - hurst:.1f}"
+        left.plot(force[seen], stiffness[seen], "o-", color=colour, markersize=3, label=words)
+        x = np.array([low, float(one["window_high"])])
+        law = stiffness[seen][0] * (x / x[0]) ** law_exponent(hurst)
+        left.plot(x, law, "--", color=colour, zorder=4)
+        error = 2 * one["exponent_error"]
+        right.errorbar(3 - hurst, one["exponent"], error, fmt="o", color=colour, capsize=2.5)
+    drawing.key(left, "--", r"slopes $1/(4 - D_f)$")
+    drawing.stiffness_axes(left)
+    left.legend(loc="lower right")
+    x = np.linspace(2.05, 2.95, 100)
+    right.plot(x, 1 / (4 - x), "--", color="0.3", zorder=1, label=r"$1/(4 - D_f)$")
+    drawing.label(right, "fractal dimension $D_f$", "exponent, with two standard errors")
+    right.legend(loc="upper left")
+
+
+def verdicts(averages: xarray.Dataset) -> Verdicts:
+    """Compare the exponents."""
+    exponents, hurst = averages["exponent"].to_numpy(), averages["hurst"].to_numpy()
+    laws = np.array([law_exponent(float(each)) for each in hurst])
+    errors = averages["exponent_error"].to_numpy()
+    yield Verdict(
+        "for small forces a power law with an exponent close to 1/(4 - D_f)",
+        f"{series(laws)} for D_f = {series(3 - hurst, '.1f')}",
+        f"{series(exponents)}, each +-{errors.max():.3f} or less, from {int(averages['samples'])} surfaces; the law is "
+        "too steep where H is low",
+        bool(np.abs(exponents - laws).max() < 0.05),
+    )

@@ -1,0 +1,105 @@
+"""Figure 34: roll-off and cut-off of a fractal spectrum, and what they make of a line."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.thesis import drawing
+
+__all__ = ["Roughness", "case", "draw"]
+
+TITLE = "spectra without a limit, with a roll-off and with a cut-off, and lines of each"
+HURST = 0.7
+POINTS = 2048
+LENGTH = 1.0
+RMS = 0.05  # of the unrestricted line, over its length
+LIMIT = 1 / 16  # wavelength of roll-off and cut-off over the length
+SEED = 3
+CHOSEN = (
+    f"H = {HURST:g}, {POINTS} points",
+    f"roll-off and cut-off at a wavelength of L/{1 / LIMIT:g}",
+    "the same phases and the same short waves on every line",
+)
+SIZE = (7.2, 3.6)
+
+_COLOURS = ("black", "#0072b2", "#d55e00")
+_NAMES = ("unrestricted", "roll-off", "cut-off")
+
+
+@dataclass(frozen=True, slots=True)
+class Roughness:
+    """A spectrum of the figure and a line that has it."""
+
+    name: str
+    spectrum: rc.SelfAffineSpectrum
+    line: rc.Surface
+
+
+def case(seed: int = SEED) -> tuple[Roughness, ...]:
+    """Return the spectrum C1D [m^3] without a limit, with a plateau and with a cut, and a line of each."""
+    grid = rc.Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
+    scale = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid).scale
+    limit = LIMIT * LENGTH
+    spectra = (
+        rc.SelfAffineSpectrum(HURST, dimension=1, scale=scale),
+        rc.SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
+        rc.SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
+    )
+    return tuple(
+        Roughness(name, spectrum, rc.synthesise(grid, spectrum, np.random.default_rng(seed)))
+        for name, spectrum in zip(_NAMES, spectra, strict=True)
+    )
+
+
+def draw(figure: Figure, data: tuple[Roughness, ...]) -> None:
+    """Draw the spectra (a) and the lines (b)."""
+    left, right = drawing.panels(figure, 1, 2, width_ratios=(1, 1.35))
+    _spectra(left, data)
+    _lines(right, data)
+
+
+def _spectra(axes: Axes, data: tuple[Roughness, ...]) -> None:
+    # In units of the longest wave, and of the unrestricted spectrum there.
+    q0 = 2 * math.pi / LENGTH
+    q = np.geomspace(1, POINTS / 2, 600)
+    bend = 1 / LIMIT
+    unit = float(data[0].spectrum(np.array([q0]))[0])
+    lowest = float(data[0].spectrum(np.array([q0 * POINTS / 2]))[0]) / unit / 3
+    widths = (1.0, 2.0, 3.2)
+    for each, colour, width, order in zip(data, _COLOURS, widths, (4, 3, 2), strict=True):
+        points = np.unique(np.append(q, bend * (1 + 1e-9)))
+        density = each.spectrum(points * q0) / unit
+        drawn = density > 0
+        x, y = points[drawn], density[drawn]
+        if not drawn.all():  # the cut: straight down
+            x, y = np.append(x[0], x), np.append(lowest, y)
+        axes.plot(x, y, color=colour, linewidth=width, zorder=order, label=each.name)
+    axes.set(xscale="log", yscale="log", ylim=(lowest, 3), xlim=(0.8, POINTS / 2 * 1.3))
+    axes.axvline(bend, color="0.6", linewidth=0.8, linestyle=":", zorder=1)
+    axes.set_xlabel(r"wavenumber $q\,/\,q_0$")
+    axes.set_ylabel(r"power spectrum $C_{\mathrm{1D}}\,/\,C_{\mathrm{1D}}(q_0)$")
+    axes.legend(loc="upper right")
+
+
+def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
+    x = (np.arange(POINTS) + 0.5) / POINTS
+    base = 0.0
+    for each, colour in zip(data, _COLOURS, strict=True):
+        heights = each.line.heights / LENGTH
+        top = base - 0.03
+        base = top - float(heights.max())
+        axes.plot(x, heights + base, color=colour, linewidth=0.9)
+        axes.text(0.0, top + 0.004, each.name, fontsize=drawing.TICK, color=colour, va="bottom")
+        base += float(heights.min())
+    # The wavelength of the cut, below the line that has it.
+    y = base - 0.02
+    drawing.arrow(axes, (0.5, y), (0.5 + LIMIT, y), "<->")
+    axes.text(0.5 + LIMIT + 0.015, y, r"$\lambda_c$", va="center")
+    axes.set(xlim=(-0.01, 1.01), ylim=(y - 0.03, 0.01))
+    axes.set_axis_off()

@@ -1,0 +1,42 @@
+"""Figure 7: rough surfaces with different Hurst exponents."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.plot.view import surface_view
+from roughcontact.thesis.fig6_lines_by_hurst import EXPONENTS, LENGTH
+
+__all__ = ["EXPONENTS", "case", "draw"]
+
+TITLE = "surfaces with H = 0, 0.5, 1, 1.5, 2 and the same phases"
+POINTS = 128
+RMS = 0.05  # over the side
+SEED = 3
+CHOSEN = (
+    f"{POINTS} x {POINTS} points",
+    f"rms height {RMS:g} L for every H; each view is as high as its surface",
+    "the same phases for every H",
+)
+SIZE = (7.2, 4.7)
+
+
+def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
+    """Return a periodic surface for each exponent, with the same phases and rms height."""
+    grid = rc.Grid((POINTS, POINTS), LENGTH / POINTS, periodic=True)
+    return tuple(
+        rc.self_affine(grid, hurst, RMS * LENGTH, np.random.default_rng(seed)) for hurst in EXPONENTS
+    )
+
+
+def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
+    """Draw the surfaces (a) to (e): three above, two below."""
+    # Six columns, of which each view takes two: so the lower row stands in the middle.
+    table = figure.add_gridspec(2, 6)
+    places = [table[0, 0:2], table[0, 2:4], table[0, 4:6], table[1, 1:3], table[1, 3:5]]
+    for letter, place, hurst, surface in zip("abcde", places, EXPONENTS, data, strict=True):
+        axes = figure.add_subplot(place, projection="3d")
+        surface_view(axes, surface, frame=False)
+        axes.set_title(f"({letter})  H = {hurst:.1f}", loc="center", y=0.92)
