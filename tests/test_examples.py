@@ -37,7 +37,7 @@ def check_demo(stdout, folder):
     assert any(line.startswith("# input_sha256 = ") for line in lines)
     assert any(re.search("^# history = .*: demo.py --out", line) for line in lines)
     with xarray.open_dataset(folder / "landscape_pressure.nc") as dataset:
-        assert dataset.attrs["input_surface"] == "Jacksboro fault\nlevelled by its plane"
+        assert dataset.attrs["input_surface"] == "Jacksboro fault\nleast-squares plane removed"
         assert dataset.attrs["input_reduced_modulus_in_Pa"] == pytest.approx(32e9, rel=1e-14)
 
 

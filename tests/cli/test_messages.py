@@ -154,14 +154,14 @@ class TestMemory:
         assert "pressing 24 x 32 cells needs" in answer.stderr
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
-        read = options.Reading.map_or_line
+        read = options.Source.map_or_line
 
         def then_another_program_takes_it(reading):
             surface = read(reading)
             monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e3))
             return surface
 
-        monkeypatch.setattr(options.Reading, "map_or_line", then_another_program_takes_it)
+        monkeypatch.setattr(options.Source, "map_or_line", then_another_program_takes_it)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("surface", "info", rough)
         assert answer.exit_code == BAD_INPUT

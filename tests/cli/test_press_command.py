@@ -53,7 +53,7 @@ def test_the_plane_is_taken_out_unless_told_otherwise_and_it_says_so(invoke, rou
         )
         depths[level] = json.loads(answer.stdout)["depth"]
         assert depths[level] == rc.press(expected, 110e9, force=0.01).depth
-        assert ("levelled by their plane" in answer.stderr) == (level is None)
+        assert ("removed by a least-squares plane" in answer.stderr) == (level is None)
     assert depths["plane"] != depths["none"]
 
 
@@ -82,10 +82,10 @@ def test_a_file_that_says_it_is_periodic_is_pressed_so(invoke, tmp_path):
     assert invoke("surface", "make", path, *making).exit_code == 0
     answer = invoke("press", path, *FORCE, *MODULUS, "--json")
     assert json.loads(answer.stdout)["periodic"] == [True, True]
-    assert "levelled by its mean" in answer.stderr
+    assert "its mean height is removed" in answer.stderr
     free = invoke("press", path, *FORCE, *MODULUS, "--json", "--free")
     assert json.loads(free.stdout)["periodic"] == [False, False]
-    assert "levelled by their plane" in free.stderr
+    assert "removed by a least-squares plane" in free.stderr
 
 
 def test_a_periodic_surface_has_no_edge(invoke, rough):

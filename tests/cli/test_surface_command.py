@@ -145,11 +145,11 @@ def test_info_looks_at_a_line_scan(invoke, tmp_path):
         rc.write(line, path)
         answer = invoke("surface", "info", path, "--json")
         assert answer.exit_code == 0, answer.stderr
-        assert f"Note: {path} holds a line scan of 50 heights" in answer.stderr
+        assert f"Note: {path} holds a profile of 50 heights" in answer.stderr
         record = json.loads(answer.stdout)
         assert (record["shape"], record["rms"]) == ([50], pytest.approx(line.rms, rel=1e-12))
     table = invoke("surface", "info", tmp_path / "line.txt").stdout
-    assert "heights: 50, in m, a line scan" in table
+    assert "heights: 50, in m, a profile" in table
     assert "about its slope" in table
     np.save(tmp_path / "bare.npy", line.heights)
     given = invoke("surface", "info", tmp_path / "bare.npy", "--unit", "m", "--size", "100um", "--json")

@@ -31,7 +31,7 @@ def test_spectrum_says_what_the_library_says(invoke, free):
     path, surface = free
     answer = invoke("surface", "spectrum", path, "--json")
     assert answer.exit_code == 0, answer.stderr
-    assert "levelled by their plane" in answer.stderr
+    assert "removed by a least-squares plane" in answer.stderr
     record = json.loads(answer.stdout)
     fit = rc.hurst_exponent(surface)
     assert record["hurst"] == pytest.approx(fit.hurst, rel=1e-12)
@@ -204,7 +204,7 @@ def test_spectrum_of_a_line_scan_is_c1d_and_the_c2d_that_follows(invoke, line, t
     out = tmp_path / "out"
     answer = invoke("surface", "spectrum", path, "--limit", "none", "--out", out, "--json")
     assert answer.exit_code == 0, answer.stderr
-    assert "levelled by their slope" in answer.stderr
+    assert "removed by a least-squares line" in answer.stderr
     record = json.loads(answer.stdout)
     profile = rc.power_spectrum(made, per_decade=200)
     fit = rc.fit_spectrum(profile, limit="none")

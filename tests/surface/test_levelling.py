@@ -53,7 +53,7 @@ def test_levelling_ignores_what_it_takes_out(kind, degree, offset):
     # The form and the offset leave their own rounding behind.
     atol = 8 * np.finfo(float).eps * (np.abs(form).max() + offset + 1e-6)
     np.testing.assert_allclose(with_form.heights, without.heights, rtol=0, atol=atol)
-    assert with_form.provenance == (f"levelled by its {kind}",)
+    assert with_form.provenance == (f"least-squares {kind} removed",)
 
 
 def test_a_high_degree_stays_exact_beside_large_gaps():

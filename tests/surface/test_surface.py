@@ -36,7 +36,7 @@ def test_a_plane_is_taken_out_exactly_and_missing_points_are_ignored(offset):
     assert np.isnan(tilted.heights).sum() == tilted.missing == 2
     measured = tilted.heights[tilted.measured]
     assert abs(measured.sum()) < 1e-12 + 1e-14 * offset
-    assert tilted.provenance[-1] == "levelled by its plane"
+    assert tilted.provenance[-1] == "least-squares plane removed"
 
 
 def test_levelling_by_the_mean():

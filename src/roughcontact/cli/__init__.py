@@ -1,1 +1,1 @@
-"""The command line: verbs, no numerics."""
+"""The command line: commands, no numerics."""

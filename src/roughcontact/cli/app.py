@@ -1,4 +1,4 @@
-"""The program ``roughcontact``: its verbs and its version."""
+"""The program ``roughcontact``: its commands and its version."""
 
 from __future__ import annotations
 
@@ -15,8 +15,16 @@ from roughcontact.cli import spectrum_command as spectrum
 from roughcontact.cli import study_command as study
 from roughcontact.cli import surface_command as surface
 from roughcontact.cli import thesis_command as thesis
+from roughcontact.cli.groups import grouped
 
 __all__ = ["app"]
+
+
+def _examples(text: str) -> str:
+    """Return lines of examples as paragraphs under a heading."""
+    lines = text.split("\n")[1:-1]
+    return "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
+
 
 app = typer.Typer(
     name="roughcontact",
@@ -35,20 +43,20 @@ _study = typer.Typer(
     help="Run ensembles that can be stopped, continued and enlarged; export them.", no_args_is_help=True
 )
 
-app.command(epilog=press.EXAMPLES)(press.press)
-app.command(epilog=curve.EXAMPLES)(curve.curve)
-app.command(epilog=conductance.EXAMPLES)(conductance.conductance)
+app.command(epilog=_examples(press.EXAMPLES))(grouped(press.press))
+app.command(epilog=_examples(curve.EXAMPLES))(grouped(curve.curve))
+app.command(epilog=_examples(conductance.EXAMPLES))(grouped(conductance.conductance))
 app.add_typer(_surface, name="surface")
-_surface.command(epilog=surface.INFO_EXAMPLES)(surface.info)
-_surface.command(epilog=surface.MAKE_EXAMPLES)(surface.make)
-_surface.command(epilog=prepare.EXAMPLES)(prepare.prepare)
-_surface.command(epilog=spectrum.EXAMPLES)(spectrum.spectrum)
+_surface.command(epilog=_examples(surface.INFO_EXAMPLES))(grouped(surface.info))
+_surface.command(epilog=_examples(surface.MAKE_EXAMPLES))(grouped(surface.make))
+_surface.command(epilog=_examples(prepare.EXAMPLES))(grouped(prepare.prepare))
+_surface.command(epilog=_examples(spectrum.EXAMPLES))(grouped(spectrum.spectrum))
 app.add_typer(_study, name="study")
-_study.command(epilog=study.RUN_EXAMPLES)(study.run)
-_study.command(epilog=study.STATUS_EXAMPLES)(study.status)
-_study.command(epilog=study.EXPORT_EXAMPLES)(study.export)
-_study.command(epilog=study.ADD_EXAMPLES)(study.add)
-app.command(epilog=thesis.EXAMPLES)(thesis.thesis)
+_study.command(epilog=_examples(study.RUN_EXAMPLES))(grouped(study.run))
+_study.command(epilog=_examples(study.STATUS_EXAMPLES))(grouped(study.status))
+_study.command(epilog=_examples(study.EXPORT_EXAMPLES))(grouped(study.export))
+_study.command(epilog=_examples(study.ADD_EXAMPLES))(grouped(study.add))
+app.command(epilog=_examples(thesis.EXAMPLES))(grouped(thesis.thesis))
 
 
 def _version(wanted: bool) -> None:

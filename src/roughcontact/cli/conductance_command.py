@@ -1,15 +1,14 @@
-"""The verb ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
+"""The command ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import dataset_table, emit, note_files, print_table
@@ -20,51 +19,33 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.conduction import Conductors
 
-__all__ = ["COLUMNS", "EXAMPLES", "ConductivityOption", "Materials", "ResistivityOption", "conductance"]
+__all__ = ["COLUMNS", "EXAMPLES", "Materials", "conductance"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa --out result
-
 roughcontact conductance result/curve.nc --resistivity 17nohm*m
-
 roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
 """
 
 COLUMNS = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
-_BODIES = "The two bodies"
+_CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
 
-ResistivityOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="17nohm*m[,...]",
-        help="Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
-        rich_help_panel=_BODIES,
-    ),
-]
-ConductivityOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="400W/m/K[,...]",
-        help="Thermal conductivity of both bodies, likewise.",
-        rich_help_panel=_BODIES,
-    ),
-]
-
-
-class Share(StrEnum):
-    """Which resistance: the total one of the contact, or that of the interface alone."""
-
-    TOTAL = "total"
-    INTERFACE = "interface"
+Part = StrEnum("Part", ["TOTAL", "INTERFACE"])
+_OF = option(
+    "Total resistance, macro-constriction included, or that of the interface alone.", default=Part.TOTAL
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Materials:
     """The conducting bodies, as the user gave them."""
 
-    resistivity: str | None
-    conductivity: str | None
+    PANEL: ClassVar = "The two bodies"
+    resistivity: str | None = option(
+        "Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
+        "17nohm*m[,...]",
+    )
+    conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
 
     def conductors(self) -> Conductors | None:
         """Return the bodies; None where nothing was said."""
@@ -83,24 +64,18 @@ class Materials:
 
 
 def conductance(
-    file: Annotated[
-        Path, typer.Argument(metavar="CURVE", help="curve.nc that the verb curve wrote, or its folder.")
-    ],
+    file: Path = _CURVE,
     *,
-    resistivity: ResistivityOption = None,
-    conductivity: ConductivityOption = None,
-    of: Annotated[
-        Share,
-        typer.Option(help="Total resistance, macro-constriction included, or that of the interface alone."),
-    ] = Share.TOTAL,
-    out: options.OutOption = None,
-    json: options.JsonOption = False,
+    materials: Materials,
+    of: Part = _OF,
+    out: Path | None = options.OUT,
+    json: bool = options.JSON,
 ) -> None:
     """Tell what a contact conducts: electrical and thermal resistance against force."""
     from roughcontact.contact.dataset import with_conductance
 
     with reported(file, out):
-        conductors = Materials(resistivity, conductivity).conductors()
+        conductors = materials.conductors()
         if conductors is None:
             raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")
         path = file / "curve.nc" if file.is_dir() else file
@@ -127,7 +102,7 @@ def _read(path: Path) -> xarray.Dataset:
     except FileNotFoundError as error:
         raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
     except (OSError, ValueError) as error:
-        raise UsageError(f"{path} is not a curve.nc that the verb curve wrote: {error}") from error
+        raise UsageError(f"{path} is not a curve.nc that the command curve wrote: {error}") from error
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:
@@ -135,7 +110,7 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
 
     columns = {name: plain_values(answer[name].to_numpy()) for name in names}
     units = {name: answer[name].attrs["units"] for name in names}
-    return {"verb": "conductance", "file": plain(str(path)), **columns, "units": units}
+    return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}
 
 
 def _write(answer: xarray.Dataset, names: list[str], folder: Path) -> None:

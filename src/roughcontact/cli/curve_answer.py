@@ -1,4 +1,4 @@
-"""What the verb ``curve`` answers: on the screen, as JSON, and in files."""
+"""What the command ``curve`` answers: on the screen, as JSON, and in files."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class CurveAnswer:
 
         conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
         record = {
-            "verb": "curve",
+            "command": "curve",
             "file": plain(str(self.file)),
             "surface": list(self.surface.provenance),
             **curve_record(self.curve),
@@ -144,13 +144,8 @@ class CurveAnswer:
 
 
 def _fit_record(law: PowerLaw) -> dict[str, Any]:
-    return {
-        "exponent": float(law.exponent),
-        "prefactor": float(law.prefactor),
-        "scatter": float(law.scatter),
-        "window": [float(end) for end in law.window],
-        "count": int(law.count),
-    }
+    numbers = {name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter")}
+    return numbers | {"window": [float(end) for end in law.window], "count": int(law.count)}
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:

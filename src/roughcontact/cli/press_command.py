@@ -1,128 +1,95 @@
-"""The verb ``press``: one load, its pressure map and summary."""
+"""The command ``press``: one load, its pressure map and summary."""
 
 from __future__ import annotations
 
+from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, screen, solution_facts
-from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_load, parse_tolerance
+from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_load
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "press"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
-
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
-
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
-
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """
 
-_LOAD = "Load (one of them)"
 _KINDS = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
+Theory = StrEnum("Theory", ["PERSSON"])
+_THEORY = option(
+    "With --out: draw the distribution of the pressure beside that of a theory.", rich_help_panel="Answer"
+)
 
 
-class Theory(StrEnum):
-    """Theories of the distribution of the pressure."""
+@dataclass(frozen=True, slots=True)
+class Load:
+    """One load, as the user gave it."""
 
-    PERSSON = "persson"
+    PANEL: ClassVar = "Load (one of them)"
+    force: str | None = option("Normal force.", "10N")
+    pressure: str | None = option("Nominal pressure: force over area.", "1MPa")
+    depth: str | None = option("Indentation depth: approach since first touch.", "1um")
 
-
-ForceOption = Annotated[str | None, typer.Option(metavar="10N", help="Normal force.", rich_help_panel=_LOAD)]
-PressureOption = Annotated[
-    str | None, typer.Option(metavar="1MPa", help="Nominal pressure: force over area.", rich_help_panel=_LOAD)
-]
-TheoryOption = Annotated[
-    Theory | None,
-    typer.Option(
-        help="With --out: draw the distribution of the pressure beside that of a theory.",
-        rich_help_panel="Answer",
-    ),
-]
-DepthOption = Annotated[
-    str | None, typer.Option(metavar="1um", help="Approach since first touch.", rich_help_panel=_LOAD)
-]
+    def value(self) -> dict[str, float]:
+        """Return the load in SI units, by its name."""
+        given = asdict(self)
+        name = options.only_one(given, "one load")
+        return {name: parse_load(given[name], _KINDS[name], f"--{name}")}
 
 
 def press(
-    file: options.FileArgument,
+    reading: options.Reading,
     *,
-    force: ForceOption = None,
-    pressure: PressureOption = None,
-    depth: DepthOption = None,
-    modulus: options.ModulusOption = None,
-    young: options.YoungOption = None,
-    poisson: options.PoissonOption = None,
-    young2: options.Young2Option = None,
-    poisson2: options.Poisson2Option = None,
-    channel: options.ChannelOption = None,
-    unit: options.UnitOption = None,
-    size: options.SizeOption = None,
-    periodic: options.PeriodicOption = None,
-    level: options.LevelOption = None,
-    hardness: options.HardnessOption = None,
-    theory: TheoryOption = None,
-    tolerance: options.ToleranceOption = "1e-8",
-    out: options.OutOption = None,
-    json: options.JsonOption = False,
+    load: Load,
+    elasticity: options.Elasticity,
+    theory: Theory | None = _THEORY,
+    answer: options.Answer,
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
+    file, out = reading.source.file, answer.out
     with reported(file, out):
-        given = {"force": force, "pressure": pressure, "depth": depth}
-        name = options.only_one({f"--{key}": value for key, value in given.items()}, "one load")[2:]
+        given = load.value()
         if theory is not None and out is None:
             raise UsageError("--theory draws a picture: say where by --out")
-        load = {name: parse_load(str(given[name]), _KINDS[name], f"--{name}")}
-        asked = parse_tolerance(tolerance, "--tolerance")
-        reduced = options.Bodies(modulus, young, poisson, young2, poisson2).reduced_modulus()
-        strength = options.hardness_of(hardness)
+        limits = {"tolerance": answer.residual, "hardness": elasticity.yield_pressure()}
+        modulus = elasticity.reduced_modulus()
         with output(out) as folder:
-            surface = options.Reading(file, channel, unit, size, level, periodic).surface()
-            solution = _solve(surface, reduced, load, asked, strength)
+            solution = _solve(reading.surface(), modulus, **given, **limits)
             record = _record(solution, file)
             if folder is not None:
-                _write(solution, record, folder, f"{name} = {load[name]!r} {_KINDS[name].unit}", theory)
-        _tell(solution, record, json)
+                [(name, value)] = given.items()
+                _write(solution, record, folder, f"{name} = {value!r} {_KINDS[name].unit}", theory)
+        _tell(solution, record, answer.json)
         pictures = ("pressure.png",) if theory is None else ("distribution.png", "pressure.png")
         note_files(folder, ("pressure.nc", *pictures, "summary.json"))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
 
 
-def _solve(
-    surface: Surface, modulus: float, load: dict[str, float], tolerance: float, hardness: float | None
-) -> Solution:
+def _solve(surface: Surface, modulus: float, **given: float | None) -> Solution:
     """Return the loaded state, the best that was reached where the tolerance was missed."""
     import roughcontact as rc
 
     cells = " x ".join(str(n) for n in surface.grid.shape)
     with screen().status(f"Pressing {cells} cells ..."):
         try:
-            return rc.press(
-                surface,
-                modulus,
-                force=load.get("force"),
-                pressure=load.get("pressure"),
-                depth=load.get("depth"),
-                tolerance=tolerance,
-                hardness=hardness,
-            )
+            return rc.press(surface, modulus, **given)  # type: ignore[arg-type]
         except rc.ConvergenceError as error:
             return error.solution
 
@@ -133,7 +100,7 @@ def _record(solution: Solution, file: Path) -> dict[str, Any]:
     surface = solution.problem.surface
     history = list(surface.provenance) if surface is not None else []
     return {
-        "verb": "press",
+        "command": "press",
         "file": plain(str(file)),
         "surface": history,
         **solution_record(solution),
@@ -147,9 +114,11 @@ def _write(
     solution: Solution, record: dict[str, Any], folder: Path, control: str, theory: Theory | None
 ) -> None:
     from roughcontact.contact.dataset import solution_dataset
+    from roughcontact.contact.theories import persson_pressures
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json, write_netcdf
     from roughcontact.plot.canvas import save, solution_figure
+    from roughcontact.plot.pressures import pressure_distribution_figure
 
     problem = solution.problem
     source = provenance(
@@ -163,15 +132,9 @@ def _write(
         write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
         save(solution_figure(solution), aside / "pressure.png")
         if theory is not None:
-            save(_distribution(solution), aside / "distribution.png")
+            theories = {"Persson": persson_pressures(solution)}
+            save(pressure_distribution_figure(solution, theories), aside / "distribution.png")
         write_json(record, aside / "summary.json", source)
-
-
-def _distribution(solution: Solution) -> Figure:
-    from roughcontact.contact.theories import persson_pressures
-    from roughcontact.plot.pressures import pressure_distribution_figure
-
-    return pressure_distribution_figure(solution, {"Persson": persson_pressures(solution)})
 
 
 def _tell(solution: Solution, record: dict[str, Any], json: bool) -> None:

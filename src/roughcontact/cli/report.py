@@ -12,7 +12,7 @@ from rich.console import Console
 
 from roughcontact.cli.messages import note
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.engineering_units import pretty, scale, written
+from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
+    from roughcontact.surface.surface import Surface
 
 __all__ = [
     "curve_table",
@@ -34,6 +35,9 @@ __all__ = [
     "screen",
     "size_of",
     "solution_facts",
+    "surface_facts",
+    "surface_record",
+    "tell",
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
@@ -92,7 +96,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("stiffness", quantity("stiffness", solution.stiffness)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness)),
         ("contact area", quantity("contact_area", solution.contact_area)),
-        ("share of the nominal area", f"{solution.contact_fraction:.4g}"),
+        ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
         ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)))),
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy)),
@@ -105,8 +109,7 @@ def dataset_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[s
     header, columns = [], []
     for name in names:
         values = dataset[name].to_numpy()
-        finite = values[np.isfinite(values)]
-        chosen = scale(float(finite.max(initial=0.0)), dataset[name].attrs["units"])
+        chosen = _scale(values, dataset[name].attrs["units"])
         header.append(f"{name.replace('_', ' ')} [{chosen.unit}]")
         columns.append([format(value * chosen.factor, ".4g") for value in values])
     return header, [list(row) for row in zip(*columns, strict=True)]
@@ -129,13 +132,18 @@ def curve_table(
         if name == "mean_gap":
             values = _closed(values, curve.depth)
         plain = known.unit in ("", "1")
-        chosen = scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), known.unit)
+        chosen = _scale(values, known.unit)
         header.append(known.label if plain else f"{known.label} [{chosen.unit or pretty(known.unit)}]")
         digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
         columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
     header.append("")
     columns.append([_remark(*point) for point in zip(curve.resolved, curve.status, strict=True)])
     return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def _scale(values: Any, unit: str) -> Scale:
+    """Return the unit that suits a column."""
+    return scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), unit)
 
 
 def _closed(gap: Any, depth: Any) -> Any:
@@ -147,3 +155,45 @@ def _remark(resolved: bool, status: Any) -> str:
     if not status.converged:
         return f"MISSED: {status.value}"
     return "" if resolved else "not resolved"
+
+
+def surface_record(surface: Surface) -> dict[str, Any]:
+    """Return what is worth keeping of a surface, as plain values."""
+    grid = surface.grid
+    return {
+        "shape": list(grid.shape),
+        "spacing": list(grid.spacing),
+        "lengths": list(grid.lengths),
+        "periodic": list(grid.periodic),
+        "missing": surface.missing,
+        "rms": surface.rms,
+        "rms_levelled": surface.levelled("plane").rms,
+        "lowest": float(np.nanmin(surface.heights)),
+        "highest": float(np.nanmax(surface.heights)),
+        "provenance": list(surface.provenance),
+        "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
+    }
+
+
+def surface_facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what is worth telling of a surface, line by line."""
+    cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
+    missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
+    trend = "plane" if surface.grid.ndim == 2 else "slope"
+    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its {trend}"
+    return [
+        ("size", size_of(surface.grid)),
+        ("cell", cell),
+        ("missing points", missing),
+        ("rms height", rms),
+        ("heights", f"{quantity('heights', record['lowest'])} to {quantity('heights', record['highest'])}"),
+        *(("history", line) for line in record["provenance"]),
+    ]
+
+
+def tell(record: Mapping[str, Any], facts: Sequence[tuple[str, str]], *, as_json: bool) -> None:
+    """Print an answer as one JSON object, or the file it is about and what is worth telling."""
+    if as_json:
+        emit(record)
+    else:
+        print_facts([("file", record["file"]), *facts])

@@ -1,4 +1,4 @@
-"""Surfaces that a verb writes: refused before the work, written whole, with a word on what the format leaves out."""
+"""Surfaces that a command writes: refused before the work, written whole, with a word on what the format leaves out."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from roughcontact.cli.messages import UsageError, note
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
-__all__ = ["ENDINGS", "require_output", "save_surface"]
+__all__ = ["require_output", "save_surface"]
 
-ENDINGS = ".npz, .nc, .x3p, .txt, .npy, or .vti for ParaView"
 _LEFT_OUT = {
     ".x3p": "keeps neither the history nor whether the surface repeats itself",
     ".txt": "keeps the history for people only, and not whether the surface repeats itself",

@@ -1,46 +1,43 @@
-"""The verb ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
+"""The command ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
-from roughcontact.cli.output import output
+from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.spectrum_files import write_spectrum
-from roughcontact.cli.unit_options import LENGTH, parse
+from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.engineering_units import written
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughcontact.surface.analysis.hurst import HurstFit
     from roughcontact.surface.analysis.power import PowerSpectrum
     from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "spectrum"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact surface spectrum part.x3p --out result
-
 roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
-
 roughcontact surface spectrum scan.csv --out result
 """
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
 _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
+_LIMITS = {"rolloff": "roll-off", "long_cutoff": "long cut-off", "short_cutoff": "short cut-off"}
 _UNITS = {
-    **dict.fromkeys(
-        ("rms", "rms_in_band", "longest", "shortest", "rolloff", "long_cutoff", "short_cutoff"), "m"
-    ),
+    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", *_LIMITS), "m"),
     **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
     **dict.fromkeys(
         ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
@@ -48,82 +45,67 @@ _UNITS = {
 }
 
 
-class Limit(StrEnum):
-    """How the law may end toward long waves."""
+Limit = StrEnum("Limit", ["AUTO", "NONE", "ROLLOFF", "LONG_CUTOFF"])
+Direction = StrEnum("Direction", ["AUTO", "RING", "X", "Y"])
 
-    AUTO = "auto"
-    NONE = "none"
-    ROLLOFF = "rolloff"
-    LONG_CUTOFF = "long_cutoff"
+# The spectrum, the law fitted to it and, of a profile, C2D of the isotropic surface that has such profiles.
+_Found = tuple["PowerSpectrum", "HurstFit", "PowerSpectrum | None"]
 
 
-class Direction(StrEnum):
-    """Which spectrum: of the surface, or of its profiles."""
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Which spectrum is asked for, and which law in it."""
 
-    AUTO = "auto"
-    RING = "ring"
-    X = "x"
-    Y = "y"
+    PANEL: ClassVar = "Spectrum"
+    direction: Direction = option(
+        "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+        "auto: ring of a map, x of a profile.",
+        default=Direction.AUTO,
+    )
+    limit: Limit = option("How the power law may end toward long waves.", default=Limit.AUTO)
+    longest: str | None = option(
+        "Longest wave that counts (default: a third of a free map's length).", "100um"
+    )
+    shortest: str | None = option("Shortest wave that the instrument follows (default: two cells).", "1um")
+    fill: bool = option("Fill missing points smoothly first.", default=False)
 
-
-_SPECTRUM = "Spectrum"
-DirectionOption = Annotated[
-    Direction,
-    typer.Option(
-        help="Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
-        "auto: ring of a map, x of a line scan.",
-        rich_help_panel=_SPECTRUM,
-    ),
-]
-LimitOption = Annotated[
-    Limit, typer.Option(help="How the power law may end toward long waves.", rich_help_panel=_SPECTRUM)
-]
-LongestOption = Annotated[
-    str | None,
-    typer.Option(metavar="100um", help="Longest wave that counts (default: a third of a free map's length).",
-                 rich_help_panel=_SPECTRUM),
-]  # fmt: skip
-ShortestOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="1um", help="Shortest wave that the instrument follows (default: two cells).",
-        rich_help_panel=_SPECTRUM,
-    ),
-]  # fmt: skip
-FillOption = Annotated[
-    bool, typer.Option("--fill", help="Fill missing points smoothly first.", rich_help_panel=_SPECTRUM)
-]
+    def band(self) -> dict[str, float]:
+        """Return the band that was asked for as wavenumbers [rad/m]."""
+        band = {
+            name: 2 * math.pi / parse_positive(text, LENGTH, flag, "a wavelength")
+            for name, text, flag in (
+                ("q_min", self.longest, "--longest"),
+                ("q_max", self.shortest, "--shortest"),
+            )
+            if text is not None
+        }
+        if len(band) == 2 and not band["q_min"] < band["q_max"]:
+            raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
+        return band
 
 
 def spectrum(
-    file: options.AnyFileArgument,
+    source: options.Source,
     *,
-    direction: DirectionOption = Direction.AUTO,
-    limit: LimitOption = Limit.AUTO,
-    longest: LongestOption = None,
-    shortest: ShortestOption = None,
-    fill: FillOption = False,
-    channel: options.ChannelOption = None,
-    unit: options.UnitOption = None,
-    size: options.SizeOption = None,
-    periodic: options.PeriodicOption = None,
-    level: options.LevelOption = None,
-    out: options.OutOption = None,
-    json: options.JsonOption = False,
+    asked: Asked,
+    periodic: bool | None = options.PERIODIC,
+    level: options.Levelling | None = options.LEVEL,
+    out: Path | None = options.OUT,
+    json: bool = options.JSON,
 ) -> None:
-    """Power spectrum of a surface or line scan: Hurst exponent with its error, roll-off or cut-off, rms, moments.
+    """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
-    Of a line scan it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(file, out):
-        waves = _waves(longest, shortest)
+    with reported(source.file, out):
+        band = asked.band()
         with output(out) as folder:
-            surface = _surface(options.Reading(file, channel, unit, size, level, periodic), fill)
-            found, law = _analysed(surface, direction, limit, waves, level)
-            record = _record(surface, found, law, file)
+            surface = _surface(source, periodic, asked.fill)
+            found, law = _analysed(surface, asked, band, level)
+            record = _record(surface, found, law, source.file)
             if folder is not None:
                 isotropic = _isotropic(surface, found, law)
-                write_spectrum((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
+                _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
         if json:
             emit(record)
         else:
@@ -131,27 +113,13 @@ def spectrum(
         note_files(folder, ("spectrum.csv", "spectrum.png"))
 
 
-def _waves(longest: str | None, shortest: str | None) -> dict[str, float]:
-    """Return the band that was asked for as wavenumbers [rad/m]."""
-    band = {}
-    for name, text, option in (("q_min", longest, "--longest"), ("q_max", shortest, "--shortest")):
-        if text is not None:
-            wavelength = parse(text, LENGTH, option)
-            if not wavelength > 0:
-                raise UsageError(f"{option}: a wavelength must be positive, not {text!r}")
-            band[name] = 2 * math.pi / wavelength
-    if len(band) == 2 and not band["q_min"] < band["q_max"]:
-        raise UsageError(f"--longest {longest} must be longer than --shortest {shortest}")
-    return band
-
-
-def _surface(reading: options.Reading, fill: bool) -> Surface:
-    """Return the surface without missing points; its tilt goes when the spectrum is taken."""
-    surface = reading.map_or_line()
+def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surface:
+    """Return the surface without missing points; its tilt is removed when the spectrum is taken."""
+    surface = source.map_or_line(periodic)
     require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
     if surface.missing and not fill:
         raise UsageError(
-            f"{reading.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
             "or crop them away by 'roughcontact surface prepare'"
         )
     if surface.missing:
@@ -161,20 +129,23 @@ def _surface(reading: options.Reading, fill: bool) -> Surface:
 
 
 def _analysed(
-    surface: Surface, direction: Direction, limit: Limit, band: dict[str, float], level: options.Level | None
+    surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
 ) -> tuple[PowerSpectrum, HurstFit]:
     """Return the spectrum in fine bins, its band set, and the law that fits it."""
     from dataclasses import replace
 
     import roughcontact as rc
 
+    # mypy takes the values of an enum for any text.
+    direction: Any = asked.direction.value
+    limit: Any = asked.limit.value
     taken: Any = "auto" if level is None else level.value
     if level is None and not all(surface.grid.periodic):
-        trend = "plane" if surface.grid.ndim == 2 else "slope"
-        note(f"the heights are levelled by their {trend} (--level mean or none for another choice)")
-    whole = rc.power_spectrum(surface, direction.value, level=taken, per_decade=_FINE)
+        trend = "plane" if surface.grid.ndim == 2 else "line"
+        note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+    whole = rc.power_spectrum(surface, direction, level=taken, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
-    return whole, rc.fit_spectrum(whole, limit=limit.value)
+    return whole, rc.fit_spectrum(whole, limit=limit)
 
 
 def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
@@ -184,27 +155,20 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
     values = {
-        "hurst": law.hurst,
-        "standard_error": law.standard_error,
-        "misfit": law.misfit,
+        **{name: getattr(law, name) for name in ("hurst", "standard_error", "misfit")},
         "longest": 2 * math.pi / spectrum.q_min,
         "shortest": 2 * math.pi / spectrum.q_max,
-        "rolloff": law.rolloff,
-        "long_cutoff": law.long_cutoff,
-        "short_cutoff": law.short_cutoff,
+        **{name: getattr(law, name) for name in _LIMITS},
         "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
         "rms_in_band": moments.rms_height,
-        "rms_slope": moments.rms_slope,
-        "rms_curvature": moments.rms_curvature,
-        "m0": moments.m0,
-        "m2": moments.m2,
-        "m4": moments.m4,
-        "nayak": moments.nayak,
+        **{
+            name: getattr(moments, name) for name in ("rms_slope", "rms_curvature", "m0", "m2", "m4", "nayak")
+        },
     }
     if surface.grid.ndim == 1:
         values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
     return {
-        "verb": "surface spectrum",
+        "command": "surface spectrum",
         "file": plain(str(file)),
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
@@ -216,19 +180,15 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
 
 def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
     ends = [
-        (name.replace("_", " "), quantity("lengths", record[key]))
-        for name, key in (
-            ("roll-off", "rolloff"),
-            ("long cut-off", "long_cutoff"),
-            ("short cut-off", "short_cutoff"),
-        )
-        if record[key] is not None
+        (label, quantity("lengths", record[name]))
+        for name, label in _LIMITS.items()
+        if record[name] is not None
     ]
     band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"
     nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
-    return [
+    facts = [
         ("file", record["file"]),
-        ("surface" if surface.grid.ndim == 2 else "line scan", size_of(surface.grid)),
+        ("surface" if surface.grid.ndim == 2 else "profile", size_of(surface.grid)),
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
         ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
         ("waves", band),
@@ -244,16 +204,14 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
             f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
         ),
         ("Nayak's parameter", nayak),
-        *(
-            [("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band")]
-            if surface.grid.ndim == 1
-            else []
-        ),
     ]
+    if surface.grid.ndim == 1:
+        facts.append(("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band"))
+    return facts
 
 
 def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
-    """Return C2D of the isotropic surface that has the profile of a line scan, where there is one."""
+    """Return C2D of the isotropic surface that has such profiles, where there is one."""
     import roughcontact as rc
 
     if surface.grid.ndim == 2:
@@ -263,3 +221,51 @@ def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> Powe
     except ValueError as error:
         note(f"no C2D: {error}")
         return None
+
+
+def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path) -> None:
+    """Write ``spectrum.csv`` and ``spectrum.png``; the table repeats the numbers of the record."""
+    from matplotlib.figure import Figure
+
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.spectrum_plot import spectrum_curve
+
+    spectrum, law, isotropic = found
+    figure = Figure(figsize=(6.0 if isotropic is None else 10.0, 4.6), layout="constrained")
+    panels = figure.subplots(1, 1 if isotropic is None else 2, squeeze=False)[0]
+    spectrum_curve(panels[0], spectrum, law)
+    if isotropic is not None:
+        spectrum_curve(panels[1], isotropic, label="isotropic surface\nwith this profile")
+    source = provenance(surface, command=command_line())
+    with all_or_none(folder) as aside:
+        write_csv(_table(found, record), aside / "spectrum.csv", source, dimension="bin")
+        save(figure, aside / "spectrum.png")
+
+
+def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:
+    """Return the table: a row a bin, and the numbers that are known about the whole."""
+    import xarray
+
+    spectrum, law, isotropic = found
+    q = spectrum.wavenumber
+    unit = {"C2D": "m4", "C1D": "m3"}[spectrum.kind]
+    columns = {
+        "wavenumber": (q, "rad m-1"),
+        "wavelength": (spectrum.wavelength, "m"),
+        "density": (spectrum.density, unit),
+        "standard_error": (spectrum.standard_error, unit),
+        "law": (law(q), unit),
+    }
+    if isotropic is not None:
+        columns["isotropic_density"] = (isotropic.density, "m4")
+    reliable = (q >= spectrum.q_min * (1 - 1e-9)) & (q <= spectrum.q_max * (1 + 1e-9))
+    scalars = {
+        # The column of that name is the densities'.
+        f"hurst_{name}" if name == "standard_error" else name: ((), record[name], {"units": units})
+        for name, units in record["units"].items()
+        if record[name] is not None
+    }
+    data = {name: ("bin", column, {"units": units}) for name, (column, units) in columns.items()}
+    return xarray.Dataset({**scalars, **data, "reliable": ("bin", reliable)}, attrs={"kind": spectrum.kind})

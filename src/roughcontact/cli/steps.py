@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse
@@ -16,63 +16,54 @@ from roughcontact.cli.unit_options import LENGTH, parse
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
-__all__ = ["Step", "TipShape", "Trend", "WindowShape", "Wishes", "steps"]
+__all__ = ["Preparation", "Wishes", "steps"]
 
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
 
-class Trend(StrEnum):
-    """What is taken out of the heights."""
-
-    NONE = "none"
-    MEAN = "mean"
-    PLANE = "plane"
-    QUADRATIC = "quadratic"
-
-
-class TipShape(StrEnum):
-    """What the end of a tip looks like."""
-
-    SPHERE = "sphere"
-    PARABOLOID = "paraboloid"
-
-
-class WindowShape(StrEnum):
-    """How heights go to zero toward the edges."""
-
-    HANN = "hann"
-    WELCH = "welch"
-    TUKEY = "tukey"
+Trend = StrEnum("Trend", ["NONE", "MEAN", "PLANE", "QUADRATIC"])
+TipShape = StrEnum("TipShape", ["SPHERE", "PARABOLOID"])
+WindowShape = StrEnum("WindowShape", ["HANN", "WELCH", "TUKEY"])
 
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
     """What the user wrote, option by option; None where an option was left out."""
 
-    crop: str | None
-    level: Trend
-    form: str | None
-    fill: bool
-    tip: str | None
-    tip_shape: TipShape | None
-    short: str | None
-    long: str | None
-    average: int | None
-    downsample: int | None
-    alias: bool
-    window: WindowShape | None
-    share: float | None
+    PANEL: ClassVar = "Steps, in the order in which they are taken"
+    crop: str | None = option(
+        "1. Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
+        "0:512,100:612",
+    )
+    level: Trend = option(
+        "2. Remove the mean height, or a least-squares plane or quadratic.", default=Trend.NONE
+    )
+    form: str | None = option("3. Remove a form: a polynomial's degree, sphere or cylinder.", "2")
+    fill: bool = option("4. Fill missing points smoothly; else they stay missing.", default=False)
+    tip: str | None = option("5. What a tip of this radius records; a large one takes long.", "2um")
+    tip_shape: TipShape | None = option("5. Shape of its end (default: sphere).")
+    short_cutoff: str | None = option(
+        "6. Gaussian filter: remove waves shorter than this (S-filter).", "10um"
+    )
+    long_cutoff: str | None = option("6. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
+    average: int | None = option("7. Average over pixels of K x K cells, as a camera does.", "K")
+    downsample: int | None = option(
+        "8. Keep every K-th row and column; shorter waves are filtered out first.", "K"
+    )
+    alias: bool = option("8. Subsample without that filter.", default=False)
+    window: WindowShape | None = option("9. Taper the heights about their mean to zero at free edges.")
+    share: float | None = option("9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25")
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class Preparation:
     """One step: what is being done, in a word for the screen, and how."""
 
     doing: str
     apply: Callable[[Surface], Surface]
 
 
-def steps(wishes: Wishes) -> list[Step]:
+def steps(wishes: Wishes) -> list[Preparation]:
     """Return what was asked for, in the order of application.
 
     Raises
@@ -84,11 +75,11 @@ def steps(wishes: Wishes) -> list[Step]:
         _crop(wishes.crop),
         _level(wishes.level),
         _form(wishes.form),
-        Step("Filling", lambda surface: surface.filled() if surface.missing else surface)
+        Preparation("Filling", lambda surface: surface.filled() if surface.missing else surface)
         if wishes.fill
         else None,
         _tip(wishes.tip, wishes.tip_shape),
-        _filter(wishes.short, wishes.long),
+        _filter(wishes.short_cutoff, wishes.long_cutoff),
         _average(wishes.average),
         _downsample(wishes.downsample, wishes.alias),
         _window(wishes.window, wishes.share),
@@ -96,14 +87,14 @@ def steps(wishes: Wishes) -> list[Step]:
     return [step for step in found if step is not None]
 
 
-def _crop(text: str | None) -> Step | None:
+def _crop(text: str | None) -> Preparation | None:
     """Return the cut of ``0:512,100:612``, of a line ``0:512``; an end left open is that of the map."""
     if text is None:
         return None
     matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
     if len(matches) > 2 or not all(matches):
         raise UsageError(
-            f"--crop: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a line scan"
+            f"--crop: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a profile"
         )
     parts = [
         slice(*(int(end) if end else None for end in match.groups()))
@@ -119,17 +110,17 @@ def _crop(text: str | None) -> Step | None:
             raise UsageError(f"--crop: {text!r} has {len(parts)} range(s); write {wanted}")
         return surface.cropped(*parts)
 
-    return Step("Cropping", apply)
+    return Preparation("Cropping", apply)
 
 
-def _level(trend: Trend) -> Step | None:
+def _level(trend: Trend) -> Preparation | None:
     if trend is Trend.NONE:
         return None
     chosen: Any = trend.value
-    return Step("Levelling", lambda surface: surface.levelled(chosen))
+    return Preparation("Levelling", lambda surface: surface.levelled(chosen))
 
 
-def _form(text: str | None) -> Step | None:
+def _form(text: str | None) -> Preparation | None:
     """Return the removal of the form that the library knows by `text`: a degree or a word."""
     if text is None:
         return None
@@ -138,10 +129,10 @@ def _form(text: str | None) -> Step | None:
         if re.fullmatch(r"\d{1,2}", text, re.ASCII) is None or int(text) > 12:
             raise UsageError(f"--form: {text!r} is no form; write a degree from 0 to 12, sphere or cylinder")
         shape = int(text)
-    return Step("Taking out the form", lambda surface: surface.without_form(shape))
+    return Preparation("Removing the form", lambda surface: surface.without_form(shape))
 
 
-def _tip(text: str | None, shape: TipShape | None) -> Step | None:
+def _tip(text: str | None, shape: TipShape | None) -> Preparation | None:
     if text is None:
         if shape is not None:
             raise UsageError("--tip-shape belongs to --tip: give its radius as well")
@@ -152,10 +143,10 @@ def _tip(text: str | None, shape: TipShape | None) -> Step | None:
             f"--tip: a radius of {quantity('lengths', radius)} is no tip; write it with its unit, such as 2um"
         )
     chosen: Any = (shape or TipShape.SPHERE).value
-    return Step("Scanning by the tip", lambda surface: surface.scanned(radius, chosen))
+    return Preparation("Scanning by the tip", lambda surface: surface.scanned(radius, chosen))
 
 
-def _filter(short: str | None, long: str | None) -> Step | None:
+def _filter(short: str | None, long: str | None) -> Preparation | None:
     cutoffs = {
         name: parse(text, LENGTH, option)
         for name, text, option in (
@@ -164,7 +155,7 @@ def _filter(short: str | None, long: str | None) -> Step | None:
         )
         if text is not None
     }
-    return Step("Filtering", lambda surface: _filtered(surface, cutoffs)) if cutoffs else None
+    return Preparation("Filtering", lambda surface: _filtered(surface, cutoffs)) if cutoffs else None
 
 
 def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
@@ -178,36 +169,34 @@ def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
     return surface.filtered(**cutoffs)
 
 
-def _average(factor: int | None) -> Step | None:
+def _average(factor: int | None) -> Preparation | None:
     if factor is None:
         return None
     _require_factor(factor, "--average")
-    return Step("Averaging", lambda surface: surface.averaged(factor))
+    return Preparation("Averaging", lambda surface: surface.averaged(factor))
 
 
-def _downsample(factor: int | None, alias: bool) -> Step | None:
+def _require_factor(factor: int, name: str) -> None:
+    if factor < 1:
+        raise UsageError(f"{name}: K must be a whole number from 1 up, not {factor}")
+
+
+def _downsample(factor: int | None, alias: bool) -> Preparation | None:
     if factor is None:
         if alias:
             raise UsageError("--alias belongs to --downsample: give its K as well")
         return None
     _require_factor(factor, "--downsample")
-    return Step("Thinning out", lambda surface: surface.downsampled(factor, anti_alias=not alias))
+    return Preparation("Subsampling", lambda surface: surface.downsampled(factor, anti_alias=not alias))
 
 
-def _require_factor(factor: int, option: str) -> None:
-    if factor < 1:
-        raise UsageError(f"{option}: K must be a whole number from 1 up, not {factor}")
-
-
-def _window(window: WindowShape | None, share: float | None) -> Step | None:
+def _window(window: WindowShape | None, share: float | None) -> Preparation | None:
     if share is not None and window is not WindowShape.TUKEY:
         raise UsageError("--share belongs to --window tukey")
     if window is None:
         return None
-    if share is not None and not (math.isfinite(share) and 0 <= share <= 1):
-        raise UsageError(
-            f"--share: the part of the length that is bent lies between 0 and 1, not at {share:g}"
-        )
+    if share is not None and not 0 <= share <= 1:
+        raise UsageError(f"--share: the tapered part of the length lies between 0 and 1, not at {share:g}")
     chosen: Any = window.value
     bent = 0.25 if share is None else share
-    return Step("Tapering", lambda surface: surface.tapered(chosen, bent))
+    return Preparation("Tapering", lambda surface: surface.tapered(chosen, bent))

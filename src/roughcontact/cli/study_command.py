@@ -1,26 +1,31 @@
-"""The verbs ``study ...``: ensembles that can be stopped, continued and enlarged."""
+"""The commands ``study ...``: ensembles that can be stopped, continued and enlarged."""
 
 from __future__ import annotations
 
 import os
 import shlex
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.options import JSON
 from roughcontact.cli.output import command_line
+from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.resumable import resumable
-from roughcontact.cli.study_engine import Engine, engine_of, options_of, working
-from roughcontact.cli.study_report import tell
+from roughcontact.cli.study_engine import Workplace, working
+from roughcontact.cli.study_progress import duration
 
 if TYPE_CHECKING:
+    from roughcontact.study.row import Row
     from roughcontact.study.study import Study
+    from roughcontact.study.summary import Summary
 
 __all__ = [
     "ADD_EXAMPLES",
@@ -33,61 +38,38 @@ __all__ = [
     "status",
 ]
 
-RUN_EXAMPLES = """Examples:
-
+RUN_EXAMPLES = """
 roughcontact study run hurst.toml
-
 roughcontact study run hurst.toml --out results --workers 4
-
 roughcontact study run results --retry
 """
-STATUS_EXAMPLES = """Example:
-
+STATUS_EXAMPLES = """
 roughcontact study status results --failed
 """
-EXPORT_EXAMPLES = """Examples:
-
+EXPORT_EXAMPLES = """
 roughcontact study export results --out hurst.nc
-
 roughcontact study export results --out hurst.csv
 """
-ADD_EXAMPLES = """Example:
-
+ADD_EXAMPLES = """
 roughcontact study add results --samples 100
 """
 
-StudyArgument = Annotated[
-    Path, typer.Argument(metavar="STUDY.toml|DIR", help="A study, or the folder that one was run in.")
-]
-FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="The folder that a study was run in.")]
-OutOption = Annotated[
-    Path | None, typer.Option(metavar="DIR", help="Folder for the results (default: named like the study).")
-]
-EngineOption = Annotated[Engine, typer.Option("--executor", help="Where cases are computed.")]
-WorkersOption = Annotated[
-    int | None, typer.Option(min=1, metavar="N", help="Cases computed at once (default: one a core).")
-]
-SchedulerOption = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="Of a running Dask scheduler, such as tcp://node7:8786.")
-]
-RetryOption = Annotated[bool, typer.Option("--retry", help="Try failed cases again.")]
-FailedOption = Annotated[bool, typer.Option("--failed", help="List all failed cases, and why they failed.")]
-JsonOption = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]
-FileOption = Annotated[Path, typer.Option("--out", metavar="FILE", help="File to write: .nc or .csv.")]
-SamplesOption = Annotated[
-    int, typer.Option(min=1, metavar="N", help="Samples that every combination shall have.")
-]
+SOURCE = argument("A study, or the folder that one was run in.", "STUDY.toml|DIR")
+OUT = option("Folder for the results (default: named like the study).", "DIR")
+RETRY = option("Try failed cases again.", default=False)
+FOLDER = argument("The folder that a study was run in.", "DIR")
+FILE = option("File to write: .nc or .csv.", "FILE", default=...)
+FAILED = option("List all failed cases, and why they failed.", default=False)
+SAMPLES = option("Samples that every combination shall have.", "N", default=..., min=1)
 
 
 def run(
-    source: StudyArgument,
+    source: Path = SOURCE,
     *,
-    out: OutOption = None,
-    executor: EngineOption = Engine.PROCESSES,
-    workers: WorkersOption = None,
-    scheduler: SchedulerOption = None,
-    retry: RetryOption = False,
-    as_json: JsonOption = False,
+    out: Path | None = OUT,
+    workplace: Workplace,
+    retry: bool = RETRY,
+    json: bool = JSON,
 ) -> None:
     """Compute what is left of a study. Ctrl-C stops it; run again, it goes on."""
     with reported(source, out), _own_cases():
@@ -96,17 +78,17 @@ def run(
 
         study, folder = _found(source, out)
         with working():
-            engine = engine_of(executor, workers, scheduler)
-        again = [*options_of(executor, workers, scheduler), *(["--retry"] if retry else [])]
+            engine = workplace.open()
+        again = [*workplace.typed(), *(["--retry"] if retry else [])]
         with working(), resumable(_command("run", folder, *again)), progress(study.name) as show:
             summary = run_study(study, folder, engine, retry=retry, on_progress=show)
-        tell(study, folder, summary, as_json=as_json)
+        _tell(study, folder, summary, as_json=json)
         if summary.failed:
             note(f"{summary.failed} cases failed; why says: {_command('status', folder, '--failed')}")
             raise typer.Exit(MISSED)
 
 
-def status(folder: FolderArgument, *, failed: FailedOption = False, as_json: JsonOption = False) -> None:
+def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -> None:
     """Say how far a study is; also while it runs."""
     with reported(folder), _own_cases():
         from roughcontact.study.store import Store
@@ -116,10 +98,10 @@ def status(folder: FolderArgument, *, failed: FailedOption = False, as_json: Jso
             failures = store.failed() if failed else ()
         if outdated:
             note(f"{outdated} more cases are kept, of another version of the case or of earlier parameters")
-        tell(study, folder, summary, as_json=as_json, failures=failures if failed else None)
+        _tell(study, folder, summary, as_json=json, failures=failures if failed else None)
 
 
-def export(folder: FolderArgument, *, out: FileOption, as_json: JsonOption = False) -> None:
+def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> None:
     """Write all results of a study side by side into one file; also while it runs."""
     with reported(folder, out), _own_cases():
         from roughcontact.files.aside import require_target
@@ -144,10 +126,10 @@ def export(folder: FolderArgument, *, out: FileOption, as_json: JsonOption = Fal
             write_long_csv(dataset, out)
         if summary.failed or summary.left:
             note(f"{summary.failed} cases failed and {summary.left} are left: they are missing in {out}")
-        tell(study, folder, summary, as_json=as_json, file=out)
+        _tell(study, folder, summary, as_json=json, file=out)
 
 
-def add(folder: FolderArgument, *, samples: SamplesOption, as_json: JsonOption = False) -> None:
+def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> None:
     """Give a study more samples; they are computed when it is run again."""
     with reported(folder), _own_cases():
         from roughcontact.study.store import Store
@@ -157,7 +139,7 @@ def add(folder: FolderArgument, *, samples: SamplesOption, as_json: JsonOption =
             raise UsageError(f"--samples: the study has {study.samples} already: give more, not {samples}")
         with Store.open(folder, study.with_samples(samples)) as store:
             study, summary = store.study, store.summary()
-        tell(study, folder, summary, as_json=as_json)
+        _tell(study, folder, summary, as_json=json)
         note(f"to compute them: {_command('run', folder)}")
 
 
@@ -179,8 +161,8 @@ def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
     return study, out or Path(study.name)
 
 
-def _command(verb: str, folder: Path, *options: str) -> str:
-    return shlex.join(["roughcontact", "study", verb, str(folder), *options])
+def _command(name: str, folder: Path, *options: str) -> str:
+    return shlex.join(["roughcontact", "study", name, str(folder), *options])
 
 
 @contextmanager
@@ -192,3 +174,43 @@ def _own_cases() -> Iterator[None]:
         yield
     finally:
         sys.path.remove(here)
+
+
+def _tell(
+    study: Study,
+    folder: Path,
+    summary: Summary,
+    *,
+    as_json: bool,
+    failures: Sequence[Row] | None = None,
+    file: Path | None = None,
+) -> None:
+    """Print how far a study is, its `failures` if they were asked for, and the `file` that was written."""
+    if as_json:
+        record: dict[str, Any] = {"study": study.name, "folder": str(folder), "samples": study.samples}
+        record |= {"done": summary.done, "failed": summary.failed, "left": summary.left}
+        if summary.seconds:
+            record["seconds"] = summary.seconds
+        if file is not None:
+            record["file"] = str(file)
+        if failures is not None:
+            record["failures"] = [
+                {"key": row.key, "sample": row.sample, "parameters": row.parameters, "message": row.message}
+                for row in failures
+            ]
+        emit(record)
+        return
+    each = len(study.combinations())
+    facts = [
+        ("study", f"{study.name} (case {study.case}, seed {study.seed})"),
+        ("folder", str(folder)),
+        ("cases", f"{summary.total} ({each} combinations, {study.samples} samples of each)"),
+        ("done", str(summary.done)),
+        ("failed", str(summary.failed)),
+        ("left", str(summary.left)),
+    ]
+    facts += [("time", duration(summary.seconds))] if summary.seconds else []
+    print_facts([("file", str(file)), *facts] if file else facts)
+    for row in failures or ():
+        told = ", ".join(f"{name} = {value}" for name, value in row.parameters.items())
+        typer.echo(f"\nsample {row.sample}, {told}\n  {row.message}")

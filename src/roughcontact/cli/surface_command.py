@@ -1,106 +1,79 @@
-"""The verbs ``surface info`` and ``surface make``: look at a file, or make one."""
+"""The commands ``surface info`` and ``surface make``: look at a file, or make one."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import as_typed, plain, reported
-from roughcontact.cli.report import emit, print_facts, quantity, size_of
+from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import ENDINGS, require_output, save_surface
+from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
 
-INFO_EXAMPLES = """Examples:
-
+INFO_EXAMPLES = """
 roughcontact surface info part.x3p
-
 roughcontact surface info heights.csv --unit nm --size 1mm --json
-
 roughcontact surface info scan.csv
 """
-MAKE_EXAMPLES = """Examples:
-
+MAKE_EXAMPLES = """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
-
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
 _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
 _BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
 
-OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help=f"File to write: {ENDINGS}.")]
-HurstOption = Annotated[str, typer.Option(metavar="0.8", help="Hurst exponent, from -1 to 3.")]
-RmsOption = Annotated[str, typer.Option(metavar="1um", help="Root mean square height.")]
-NewSizeOption = Annotated[
-    str,
-    typer.Option(metavar="1mm", help="Width (cells are square), or height x width."),
-]
-PointsOption = Annotated[str, typer.Option(metavar="512", help="Points a side, or rows x columns.")]
-SeedOption = Annotated[str, typer.Option(metavar="1", help="Seed of the random phases.")]
-RolloffOption = Annotated[str | None, typer.Option(metavar="100um", help="Longer waves lie on a plateau.")]
-LongCutoffOption = Annotated[str | None, typer.Option(metavar="500um", help="Longer waves are absent.")]
-ShortCutoffOption = Annotated[str | None, typer.Option(metavar="5um", help="Shorter waves are absent.")]
-MakePeriodicOption = Annotated[bool, typer.Option("--periodic", help="For a surface that repeats itself.")]
-NodalOption = Annotated[
-    bool, typer.Option("--nodal", help="Repeat the first row and column at the end: grids of 2^m + 1 points.")
-]
 
-
-def info(
-    file: options.AnyFileArgument,
-    *,
-    channel: options.ChannelOption = None,
-    unit: options.UnitOption = None,
-    size: options.SizeOption = None,
-    json: options.JsonOption = False,
-) -> None:
-    """Say what a file holds, a map or a line scan: channels, size, unit, missing points, roughness."""
+def info(source: options.Source, *, json: bool = options.JSON) -> None:
+    """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness."""
+    file = source.file
     with reported(file):
         from roughcontact.files.file_errors import ReadError
 
         channels = _channels(file)
-        reading = options.Reading(file, channel, unit, size, options.Level.NONE, periodic=None)
         try:
-            surface = reading.map_or_line()
+            surface = source.map_or_line()
         except ReadError as error:
             # What the file leaves open, such as its size, does not hide what it holds.
-            _tell(
+            tell(
                 {"file": plain(str(file)), "channels": channels, "error": str(error)},
                 _channel_facts(channels),
-                json,
+                as_json=json,
             )
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        record = {"file": plain(str(file)), "channels": channels} | _record(surface)
-        _tell(record, [*_channel_facts(channels), *_facts(surface, record)], json)
+        record = {"file": plain(str(file)), "channels": channels} | surface_record(surface)
+        tell(record, [*_channel_facts(channels), *surface_facts(surface, record)], as_json=json)
 
 
-def make(
-    out: OutputArgument,
-    *,
-    hurst: HurstOption,
-    rms: RmsOption,
-    size: NewSizeOption,
-    points: PointsOption = "512",
-    seed: SeedOption = "1",
-    rolloff: RolloffOption = None,
-    long_cutoff: LongCutoffOption = None,
-    short_cutoff: ShortCutoffOption = None,
-    periodic: MakePeriodicOption = False,
-    nodal: NodalOption = False,
-    json: options.JsonOption = False,
-) -> None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recipe:
+    """A self-affine surface, as the user described it."""
+
+    hurst: str = option("Hurst exponent, from -1 to 3.", "0.8", default=...)
+    rms: str = option("Root mean square height.", "1um", default=...)
+    size: str = option("Width (cells are square), or height x width.", "1mm", default=...)
+    points: str = option("Points a side, or rows x columns.", "512", default="512")
+    seed: str = option("Seed of the random phases.", "1", default="1")
+    rolloff: str | None = option("Roll-off: the spectrum of longer waves is constant.", "100um")
+    long_cutoff: str | None = option("Longer waves are absent.", "500um")
+    short_cutoff: str | None = option("Shorter waves are absent.", "5um")
+    periodic: bool = option("For a surface that repeats itself.", default=False)
+    nodal: bool = option(
+        "Repeat the first row and column at the end: grids of 2^m + 1 points.", default=False
+    )
+
+
+def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
     with reported(out):
         import numpy as np
@@ -108,32 +81,29 @@ def make(
         import roughcontact as rc
 
         require_output(out)
-        grid = _grid(size, points, periodic)
+        grid = _grid(recipe.size, recipe.points, recipe.periodic)
         require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
-        height, exponent = parse(rms, LENGTH, "--rms"), parse_number(hurst, "--hurst", "0.8")
-        chosen = parse_seed(seed, "--seed")
-        given = {"rolloff": rolloff, "long_cutoff": long_cutoff, "short_cutoff": short_cutoff}
+        height, exponent = parse(recipe.rms, LENGTH, "--rms"), parse_number(recipe.hurst, "--hurst", "0.8")
+        chosen = parse_seed(recipe.seed, "--seed")
         waves = {
             name: parse(text, LENGTH, f"--{name.replace('_', '-')}")
-            for name, text in given.items()
-            if text is not None
+            for name in ("rolloff", "long_cutoff", "short_cutoff")
+            if (text := getattr(recipe, name)) is not None
         }
         surface = rc.self_affine(
             grid,
             exponent,
             height,
             np.random.default_rng(chosen),
-            nodal=nodal,
-            rolloff=waves.get("rolloff"),
-            long_cutoff=waves.get("long_cutoff"),
-            short_cutoff=waves.get("short_cutoff"),
+            nodal=recipe.nodal,
+            **waves,  # type: ignore[arg-type]
         )
-        recipe = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
-        made = f"made by roughcontact {rc.__version__}: {recipe}"
+        made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
+        made = f"made by roughcontact {rc.__version__}: {made}"
         surface = replace(surface, provenance=(*surface.provenance, made))
         save_surface(surface, out)
-        record = {"file": plain(str(out)), "seed": chosen} | _record(surface)
-        _tell(record, _facts(surface, record), json)
+        record = {"file": plain(str(out)), "seed": chosen} | surface_record(surface)
+        tell(record, surface_facts(surface, record), as_json=json)
 
 
 def _grid(size: str, points: str, periodic: bool) -> Grid:
@@ -155,41 +125,6 @@ def _channels(file: Path) -> list[dict[str, Any]]:
         return [asdict(channel) for channel in channels(file)]
 
 
-def _record(surface: Surface) -> dict[str, Any]:
-    import numpy as np
-
-    grid = surface.grid
-    return {
-        "shape": list(grid.shape),
-        "spacing": list(grid.spacing),
-        "lengths": list(grid.lengths),
-        "periodic": list(grid.periodic),
-        "missing": surface.missing,
-        "rms": surface.rms,
-        "rms_levelled": surface.levelled("plane").rms,
-        "lowest": float(np.nanmin(surface.heights)),
-        "highest": float(np.nanmax(surface.heights)),
-        "provenance": list(surface.provenance),
-        "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
-    }
-
-
-def _facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
-    """Return what is worth telling of a surface, line by line."""
-    cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
-    missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
-    trend = "plane" if surface.grid.ndim == 2 else "slope"
-    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its {trend}"
-    return [
-        ("size", size_of(surface.grid)),
-        ("cell", cell),
-        ("missing points", missing),
-        ("rms height", rms),
-        ("heights", f"{quantity('heights', record['lowest'])} to {quantity('heights', record['highest'])}"),
-        *(("history", line) for line in record["provenance"]),
-    ]
-
-
 def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
     facts = []
     for channel in channels:
@@ -197,13 +132,6 @@ def _channel_facts(channels: list[dict[str, Any]]) -> list[tuple[str, str]]:
         unit = "without a unit" if channel["unit"] is None else f"in {channel['unit']}"
         kind = "" if channel["is_height"] else ", not heights"
         if len(channel["shape"]) == 1:
-            kind = ", a line scan"
+            kind = ", a profile"
         facts.append(("channel", f"{channel['name']}: {shape}, {unit}{kind}"))
     return facts
-
-
-def _tell(record: dict[str, Any], facts: list[tuple[str, str]], json: bool) -> None:
-    if json:
-        emit(record)
-    else:
-        print_facts([("file", record["file"]), *facts])

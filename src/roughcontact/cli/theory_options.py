@@ -1,13 +1,12 @@
-"""The options that lay theories over a computed curve."""
+"""The options that overlay theories on a computed curve."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-import typer
-
+from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
 
@@ -16,47 +15,22 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
 
-__all__ = ["HurstOption", "RadiusOption", "RolloffOption", "Theories", "TheoryOption", "deviations"]
-
-_PANEL = "Theories"
-
-TheoryOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="persson,gw,...",
-        help="Theories to lay over the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
-        "rough-sphere. They take spectrum and moments from the surface.",
-        rich_help_panel=_PANEL,
-    ),
-]
-HurstOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="0.8", help="Hurst exponent, for theories (default: fitted).", rich_help_panel=_PANEL
-    ),
-]
-RolloffOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="20um", help="Length of the longest waves, for finite-size.", rich_help_panel=_PANEL
-    ),
-]
-RadiusOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="5mm", help="Radius of curvature, for hertz and rough-sphere.", rich_help_panel=_PANEL
-    ),
-]
+__all__ = ["Theories", "deviations"]
 
 
 @dataclass(frozen=True, slots=True)
 class Theories:
-    """What to lay over a curve, as the user gave it."""
+    """Theories to overlay on a curve, as the user gave them."""
 
-    names: str | None
-    hurst: str | None
-    rolloff: str | None
-    radius: str | None
+    PANEL: ClassVar = "Theories"
+    theory: str | None = option(
+        "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
+        "rough-sphere. They take spectrum and moments from the surface.",
+        "persson,gw,...",
+    )
+    hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")
+    rolloff: str | None = option("Roll-off wavelength, for finite-size.", "20um")
+    radius: str | None = option("Radius of curvature, for hertz and rough-sphere.", "5mm")
 
     def check(self) -> None:
         """Raise a `UsageError` for what makes no sense, before anything is computed."""
@@ -69,22 +43,22 @@ class Theories:
         Raises
         ------
         UsageError
-            If one is none, or named twice, or something is said about theories and none is named.
+            If one does not exist, or is named twice, or something is said about theories and none is named.
         """
         from roughcontact.theory.laws import LAWS
 
-        if self.names is None:
+        if self.theory is None:
             said = {"--hurst": self.hurst, "--rolloff": self.rolloff, "--radius": self.radius}
             for option, value in said.items():
                 if value is not None:
                     raise UsageError(f"{option} is for theories: name them, such as --theory persson,gw")
             return ()
-        names = tuple(part.strip() for part in self.names.split(",") if part.strip())
+        names = tuple(part.strip() for part in self.theory.split(",") if part.strip())
         for name in names:
             if name not in LAWS:
                 raise UsageError(f"--theory: there is no {name!r}; there are {', '.join(LAWS)}")
         if not names or len(set(names)) < len(names):
-            raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.names!r}")
+            raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.theory!r}")
         return names
 
     def knowns(self) -> dict[str, Any]:

@@ -1,13 +1,13 @@
-"""The verb ``thesis``: a figure of the thesis, computed."""
+"""The command ``thesis``: a figure of the thesis, computed."""
 
 from __future__ import annotations
 
 import shlex
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
-import typer
-
+from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import print_facts, screen
@@ -22,54 +22,34 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "thesis"]
 
-EXAMPLES = """Examples:
-
+EXAMPLES = """
 roughcontact thesis list
-
 roughcontact thesis fig6 --out figures --seed 2
-
 roughcontact thesis fig27 --out figures --workers 2
-
 roughcontact thesis all --scale thesis --out figures
 """
 
 _SCALES = ("small", "thesis")
-
-NameArgument = Annotated[str, typer.Argument(metavar="NAME", help="A figure, such as fig6; all; or list.")]
-FolderOption = Annotated[
-    Path,
-    typer.Option(metavar="DIR", help="Folder for pictures, averages and stores (default: this one)."),
-]
-ScaleOption = Annotated[
-    str,
-    typer.Option(metavar="SCALE", help="Ensembles: small, or with the thesis' own counts: thesis."),
-]
-SeedOption = Annotated[
-    str | None, typer.Option(metavar="1", help="Seed of the random numbers (default: the figure's own).")
-]
-WorkersOption = Annotated[
-    int | None,
-    typer.Option(metavar="N", min=1, help="Processes for an ensemble (default: one a core)."),
-]
-AsIsOption = Annotated[
-    bool, typer.Option("--as-is", help="Compute nothing: average what the stores hold so far.")
-]
+_NAME = argument("A figure, such as fig6; all; or list.", "NAME")
 
 
-def thesis(
-    name: NameArgument,
-    *,
-    out: FolderOption = Path(),
-    scale: ScaleOption = "small",
-    seed: SeedOption = None,
-    workers: WorkersOption = None,
-    as_is: AsIsOption = False,
-) -> None:
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """How a figure is to be computed, and where it goes."""
+
+    out: Path = option("Folder for pictures, averages and stores (default: this one).", "DIR", default=Path())
+    scale: str = option("Ensembles: small, or with the thesis' own counts: thesis.", "SCALE", default="small")
+    seed: str | None = option("Seed of the random numbers (default: the figure's own).", "1")
+    workers: int | None = option("Processes for an ensemble (default: one a core).", "N", min=1)
+    as_is: bool = option("Compute nothing: average what the stores hold so far.", default=False)
+
+
+def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
     """Compute a figure of the thesis, and say what the thesis leaves open and whether it holds.
 
     A figure of an ensemble keeps its cases in DIR/studies: stopped at any time, the same command goes on from there.
     """
-    with reported(out):
+    with reported(wanted.out):
         from roughcontact.thesis.figures import FIGURES, module
 
         if name == "list":
@@ -77,12 +57,13 @@ def thesis(
             return
         if name != "all" and name not in FIGURES:
             raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
-        if scale not in _SCALES:
-            raise UsageError(f"--scale: {scale!r} is no scale; write {' or '.join(_SCALES)}")
-        chosen = None if seed is None else parse_seed(seed, "--seed")
-        with output(out):
+        if wanted.scale not in _SCALES:
+            raise UsageError(f"--scale: {wanted.scale!r} is no scale; write {' or '.join(_SCALES)}")
+        chosen = None if wanted.seed is None else parse_seed(wanted.seed, "--seed")
+        workers = None if wanted.as_is else wanted.workers or 0
+        with output(wanted.out):
             for each in FIGURES if name == "all" else (name,):
-                _compute(each, out, cast("Scale", scale), chosen, None if as_is else workers or 0)
+                _compute(each, wanted.out, cast("Scale", wanted.scale), chosen, workers)
 
 
 def _compute(name: str, folder: Path, scale: Scale, seed: int | None, workers: int | None) -> None:

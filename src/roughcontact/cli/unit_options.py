@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +26,7 @@ __all__ = [
     "parse_number",
     "parse_pair",
     "parse_points",
+    "parse_positive",
     "parse_seed",
     "parse_size",
     "parse_tolerance",
@@ -40,10 +43,22 @@ def parse(text: str, kind: Kind, option: str) -> float:
     UsageError
         If the text is no finite number with a unit of that kind; the message names the `option`.
     """
-    try:
+    with _named(option):
         return quantity.parse(text, kind)
-    except ValueError as error:
-        raise UsageError(f"{option}: {error}") from error
+
+
+def parse_positive(text: str, kind: Kind, option: str, what: str) -> float:
+    """Return a quantity above 0 in the SI unit of its `kind`; the message says `what` must be positive.
+
+    Raises
+    ------
+    UsageError
+        If it is not.
+    """
+    value = parse(text, kind, option)
+    if not value > 0:
+        raise UsageError(f"{option}: {what} must be positive, not {text!r}")
+    return value
 
 
 def parse_load(text: str, kind: Kind, option: str) -> float:
@@ -52,13 +67,13 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
     Raises
     ------
     UsageError
-        If it is none.
+        If it is not.
     """
+    if kind is not LENGTH:
+        return parse_positive(text, kind, option, f"the {kind.name.split()[-1]}")
     value = parse(text, kind, option)
-    if kind is LENGTH and value < 0:
+    if value < 0:
         raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
-    if kind is not LENGTH and not value > 0:
-        raise UsageError(f"{option}: the {kind.name.split()[-1]} must be positive, not {text!r}")
     return value
 
 
@@ -89,10 +104,8 @@ def parse_number(text: str, option: str, example: str) -> float:
     UsageError
         If the text is no finite number.
     """
-    try:
+    with _named(option):
         return quantity.parse_number(text, example)
-    except ValueError as error:
-        raise UsageError(f"{option}: {error}") from error
 
 
 def parse_tolerance(text: str, option: str) -> float:
@@ -155,10 +168,7 @@ def parse_size(text: str, option: str) -> tuple[float, ...]:
     parts = re.split(r"[x*]", text)
     if len(parts) > 2:
         raise UsageError(f"{option}: {text!r} holds {len(parts)} lengths; write '1mm' or '1mm x 2mm'")
-    lengths = tuple(parse(part, LENGTH, option) for part in parts)
-    if not all(length > 0 for length in lengths):
-        raise UsageError(f"{option}: a side length must be positive, not {text!r}")
-    return lengths
+    return tuple(parse_positive(part, LENGTH, option, "a side length") for part in parts)
 
 
 def parse_points(text: str, option: str) -> tuple[int, int]:
@@ -173,6 +183,15 @@ def parse_points(text: str, option: str) -> tuple[int, int]:
     if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
         raise UsageError(f"{option}: {text!r} is no number of points; write 512 or 512x256 (rows x columns)")
     return int(match[1]), int(match[2] or match[1])
+
+
+@contextmanager
+def _named(option: str) -> Iterator[None]:
+    """Name the option in the message about its text."""
+    try:
+        yield
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from error
 
 
 def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:

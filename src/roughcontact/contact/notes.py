@@ -42,7 +42,9 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     elif in_contact and not solution.above_cells:
         line = problem.geometry is Geometry.LINE
         small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
-        notes.append(f"Not resolved: the contact is {small}, so that the grid speaks, not the surface.")
+        notes.append(
+            f"Not resolved: the contact is {small}, so that the grid sets the stiffness, not the surface."
+        )
     touching = int(count(solution.touching))
     if in_contact and touching:
         notes.extend(_of_two_sides(solution, touching))

@@ -66,16 +66,16 @@ def stiffness_curve(
 
 
 def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the real contact area against force, both logarithmic; the right axis is its share of the map."""
+    """Draw the real contact area against force, both logarithmic; the right axis is relative to the nominal area."""
     x, y = _draw(axes, curve, "contact_area")
     draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
     right = axes.secondary_yaxis("right", functions=_shares_of(curve.nominal_area * y.factor))
-    right.set_ylabel("share of the map", fontsize=LABEL)
+    right.set_ylabel("relative real contact area A/A0", fontsize=LABEL)
     right.tick_params(labelsize=TICK, which="both")
 
 
 def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the depth since first touch against force, both logarithmic."""
+    """Draw the indentation depth, since first touch, against force, both logarithmic."""
     draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
 
 

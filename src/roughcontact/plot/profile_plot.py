@@ -21,7 +21,7 @@ _LINE = "#0072b2"
 
 
 def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
-    """Draw the heights along a row of a surface, or a line scan; the curve is broken where points are missing.
+    """Draw the heights along a row of a surface, or a profile; the curve is broken where points are missing.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
             raise ValueError(f"row must lie between {-rows} and {rows - 1}, not at {chosen}")
         heights = heights[chosen]
     elif row is not None:
-        raise ValueError(f"a line scan has no row {row}: leave row out")
+        raise ValueError(f"a profile has no row {row}: leave row out")
     step = surface.grid.spacing[-1]
     places = (np.arange(heights.size) + 0.5) * step
     x = scale(heights.size * step, VARIABLES["lengths"].unit)

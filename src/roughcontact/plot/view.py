@@ -45,7 +45,7 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     from matplotlib.colors import LightSource
 
     if surface.grid.ndim != 2:
-        raise ValueError("a line scan has no view from aside: draw it with profile_curve")
+        raise ValueError("a profile has no view from aside: draw it with profile_curve")
     small = _reduced(surface)
     grid = small.grid
     length, z = length_scale(grid), scale(float(np.nanmax(np.abs(small.heights))), VARIABLES["heights"].unit)

@@ -24,7 +24,9 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     if kind not in _DEGREES:
         raise ValueError(f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
     heights = surface.heights - polynomial_trend(surface.heights, _DEGREES[kind])
-    return replace(surface, heights=heights, provenance=(*surface.provenance, f"levelled by its {kind}"))
+    return replace(
+        surface, heights=heights, provenance=(*surface.provenance, f"least-squares {kind} removed")
+    )
 
 
 def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) -> Surface:

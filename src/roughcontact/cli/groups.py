@@ -1,0 +1,66 @@
+"""Options of commands, each declared once: as a field of a group that commands share, or as a default value."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, field, fields, is_dataclass
+from typing import Any, get_type_hints
+
+import typer
+
+__all__ = ["argument", "grouped", "option"]
+
+
+def option(text: str, example: str | None = None, *names: str, default: Any = None, **more: Any) -> Any:
+    """Return an option: its help, what its value looks like, and its default; ``...`` where it must be given.
+
+    A group's options stand in the help under its ``PANEL``. `more` goes to `typer.Option`, as do `names` where the
+    name of the field will not do.
+    """
+    given = {"names": names, "metavar": example, "help": text, **more}
+    return field(default=MISSING if default is ... else default, metadata=given)
+
+
+def argument(text: str, metavar: str) -> Any:
+    """Return an argument, which must be given."""
+    return field(metadata={"argument": True, "metavar": metavar, "help": text})
+
+
+def grouped(command: Callable[..., None]) -> Callable[..., None]:
+    """Return a command as typer takes it: groups of options, which are dataclasses, become options side by side."""
+    hints = get_type_hints(command)
+    parameters = inspect.signature(command).parameters.values()
+    flat = [each for one in parameters for each in _flat(one.name, hints[one.name], one.default)]
+
+    def run(**given: Any) -> None:
+        command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+
+    run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
+    run.__annotations__ = {each.name: each.annotation for each in flat}
+    run.__name__, run.__doc__ = command.__name__, command.__doc__
+    return run
+
+
+def _flat(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iterator[inspect.Parameter]:
+    """Yield the options of a parameter: one, or those of its group and of the groups in it."""
+    if is_dataclass(kind):
+        hints, panel = get_type_hints(kind), getattr(kind, "PANEL", None)
+        for each in fields(kind):
+            yield from _flat(each.name, hints[each.name], each, panel)
+        return
+    given = {"rich_help_panel": panel, **declared.metadata}
+    if given.pop("argument", False):
+        info = typer.Argument(..., metavar=given["metavar"], help=given["help"])
+    else:
+        names = given.pop("names") or ([f"--{name.replace('_', '-')}"] if declared.default is False else [])
+        info = typer.Option(... if declared.default is MISSING else declared.default, *names, **given)
+    yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
+
+
+def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:
+    """Return the value of one parameter: what was given, or a group made of what was."""
+    if not is_dataclass(kind):
+        return given[name]
+    hints = get_type_hints(kind)
+    return kind(**{each.name: _built(hints[each.name], each.name, given) for each in fields(kind)})  # type: ignore[operator]
