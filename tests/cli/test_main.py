@@ -61,7 +61,7 @@ def test_json_is_all_there_is_on_standard_output(rough):
     assert answer.returncode == 0
     assert answer.stdout.count("\n") == 1
     assert json.loads(answer.stdout)["force"] == pytest.approx(1e-3, rel=1e-10)
-    assert "levelled" in answer.stderr
+    assert "least-squares plane" in answer.stderr
 
 
 def test_bad_input_is_one_line(tmp_path):
@@ -130,7 +130,7 @@ def test_sigterm_ends_a_run_and_leaves_nothing(rough, tmp_path):
     with subprocess.Popen(
         [*PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
     ) as process:
-        assert "levelled" in process.stderr.readline()  # it has begun
+        assert "least-squares plane" in process.stderr.readline()  # it has begun
         assert (tmp_path / "out").is_dir()
         process.send_signal(signal.SIGTERM)
         stdout, stderr = process.communicate(timeout=60)
@@ -155,7 +155,7 @@ def test_ctrl_c_ends_a_run(rough, tmp_path):
         stderr=subprocess.PIPE,
         encoding="utf-8",
     ) as process:
-        assert "levelled" in process.stderr.readline()  # it has begun
+        assert "least-squares plane" in process.stderr.readline()  # it has begun
         process.send_signal(signal.SIGINT)
         stdout, stderr = process.communicate(timeout=60)
     assert process.returncode == 130
