@@ -15,7 +15,7 @@ from roughcontact.cli import spectrum_command as spectrum
 from roughcontact.cli import study_command as study
 from roughcontact.cli import surface_command as surface
 from roughcontact.cli import thesis_command as thesis
-from roughcontact.cli.groups import grouped
+from roughcontact.cli.option_groups import grouped
 
 __all__ = ["app"]
 

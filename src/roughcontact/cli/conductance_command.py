@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
-from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, plain, reported
+from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import dataset_table, emit, note_files, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY, parse_pair

@@ -13,8 +13,8 @@ from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import note, reported
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.report import note_files, quantity, screen
 from roughcontact.cli.theory_options import Theories

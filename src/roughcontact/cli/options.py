@@ -7,8 +7,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
+from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.unit_options import (
     PRESSURE,
     parse_number,

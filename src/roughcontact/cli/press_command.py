@@ -11,8 +11,8 @@ import typer
 
 from roughcontact.cli import options
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, screen, solution_facts
 from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_load

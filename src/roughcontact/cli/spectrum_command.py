@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError, note, plain, reported
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.output import command_line
 from roughcontact.cli.report import emit, print_facts

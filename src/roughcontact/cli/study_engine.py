@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
+from roughcontact.cli.option_groups import option
 
 if TYPE_CHECKING:
     from roughcontact.study.task import Executor

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import as_typed, plain, reported
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.groups import option
 from roughcontact.cli.messages import UsageError
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from roughcontact.cli.groups import argument, option
 from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import print_facts, screen
 from roughcontact.cli.resumable import resumable

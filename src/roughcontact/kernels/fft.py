@@ -79,7 +79,7 @@ class RealField(NamedTuple):
     nx: Index
 
 
-class Range(NamedTuple):
+class IndexRange(NamedTuple):
     """The first, and the one after the last."""
 
     begin: Index
@@ -129,12 +129,12 @@ def convolve(
     def some_rows(phase: int, field: Vector, *, inverse: bool) -> None:
         plane = RealField(field, ny, nx)
         for part in code.shared(counters, phase, (ny + many - 1) // many):
-            some = Range(part * many, (part * many + many).min(ny))
+            some = IndexRange(part * many, (part * many + many).min(ny))
             code.call(_rows, plane, some, spectrum, along, pairs, scratch, inverse=inverse)
 
     some_rows(0, field, inverse=False)
     for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
-        some = Range(part * wide, (part * wide + wide).min(blocks))
+        some = IndexRange(part * wide, (part * wide + wide).min(blocks))
         code.call(_columns, spectrum, ny, some, across, multiplier, scratch.reversed)
     some_rows(2, answer, inverse=True)
 
@@ -210,7 +210,7 @@ def _half_butterfly(a: Sequence[Complex]) -> list[Complex]:
 def _rows(
     code: Code,
     plane: RealField,
-    some: Range,
+    some: IndexRange,
     spectrum: BlockedSpectrum,
     plan: Plan,
     pairs: Vector,
@@ -273,7 +273,7 @@ def _columns(
     code: Code,
     spectrum: BlockedSpectrum,
     ny: Index,
-    some: Range,
+    some: IndexRange,
     plan: Plan,
     multiplier: Vector,
     work: Vector,

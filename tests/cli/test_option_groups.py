@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from roughcontact.cli.groups import argument, grouped, option
+from roughcontact.cli.option_groups import argument, grouped, option
 
 
 @dataclass(frozen=True, slots=True)
