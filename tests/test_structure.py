@@ -16,6 +16,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 # Each room may look into those before it, and into itself.
 ORDER = [
     {"cached", "memory", "threads", "validation"},
+    {"late"},
     {"kernels"},
     {"arrays"},
     {"transforms"},
@@ -116,7 +117,7 @@ class TestFile:
             assert wrong_way(room, names) == set()
         elif room == "theory":
             assert foreign(names) <= {"numpy", "scipy"}
-            below = ("roughcontact.theory", "roughcontact.validation")
+            below = ("roughcontact.theory", "roughcontact.validation", "roughcontact.late")
             assert all(name.startswith(below) for name in names if "roughcontact" in name)
 
     def test_disk_and_screen_stay_at_the_rim(self, path):

@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact import threads as threads_module
-from roughcontact import transforms
+from roughcontact import threads as threads_module, transforms
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.control import Force, Status

@@ -4,12 +4,10 @@ import ctypes
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from regions import PRECISIONS, eighths
-from roughcontact.kernels import active_cells as region
-from roughcontact.kernels import loader, planes
+from roughcontact.kernels import active_cells as region, loader, planes
 from roughcontact.kernels.active_cells import (
     ActiveCells,
     add_blocks,

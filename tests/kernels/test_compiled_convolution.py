@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 import scipy.fft
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
-from roughcontact.kernels import buffers as room
-from roughcontact.kernels import loader
+from roughcontact.kernels import buffers as room, loader
 from roughcontact.kernels.compiled_convolution import LARGE, CompiledConvolution, _plan, fits
 from roughcontact.kernels.constants import HALF
 from roughcontact.threads import limit_threads

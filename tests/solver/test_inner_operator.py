@@ -9,8 +9,7 @@ import roughcontact as rc
 from roughcontact.halfspace.sums import particle_mesh as patches
 from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh, TileOperator
 from roughcontact.kernels import loader
-from roughcontact.solver import inner_operator as drivers
-from roughcontact.solver import tuning
+from roughcontact.solver import inner_operator as drivers, tuning
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
 from roughcontact.solver.inner_operator import FullGrid, InnerOperator, SingleFullGrid, inner_operator_on

@@ -3,8 +3,7 @@ import json
 import numpy as np
 import pytest
 import xarray
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from hypothesis.extra import numpy as hnp
 
 from roughcontact.study.record import decode, encode, require_record, residual_of

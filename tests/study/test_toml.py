@@ -2,8 +2,7 @@ import math
 import tomllib
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from roughcontact.study.toml import toml_of
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1, gamma
 
-from roughcontact.theory import cosine, gaussian_heights
-from roughcontact.theory import height_distribution as heights
+from roughcontact.theory import cosine, gaussian_heights, height_distribution as heights
 from roughcontact.theory.beat_wave import beat_wave
 
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import hertz, pohrt_popov, rough_sphere
-from roughcontact.theory import power_law_indenter as indenter
+from roughcontact.theory import hertz, pohrt_popov, power_law_indenter as indenter, rough_sphere
 
 FIGURE_37 = {"radius": 0.5, "hurst": 0.7, "rms": 9e-3, "length": 1.0, "modulus": 1.0}
 

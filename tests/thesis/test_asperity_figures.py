@@ -7,9 +7,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import roughcontact as rc
 from roughcontact.study.study import Study
 from roughcontact.theory import greenwood_williamson
-from roughcontact.thesis import fig31_asperities_smooth as fig31
-from roughcontact.thesis import fig32_asperities_rough as fig32
-from roughcontact.thesis import fig33_asperity_exponents as fig33
+from roughcontact.thesis import (
+    fig31_asperities_smooth as fig31,
+    fig32_asperities_rough as fig32,
+    fig33_asperity_exponents as fig33,
+)
 from roughcontact.thesis.asperity_ensembles import (
     HURST,
     asperity_averages,

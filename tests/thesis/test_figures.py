@@ -6,12 +6,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.thesis import fig4_midpoint_line as fig4
-from roughcontact.thesis import fig5_midpoint_surface as fig5
-from roughcontact.thesis import fig6_lines_by_hurst as fig6
-from roughcontact.thesis import fig7_surfaces_by_hurst as fig7
-from roughcontact.thesis import fig14_merged_spectrum as fig14
-from roughcontact.thesis import fig34_rolloff_and_cutoff as fig34
+from roughcontact.thesis import (
+    fig4_midpoint_line as fig4,
+    fig5_midpoint_surface as fig5,
+    fig6_lines_by_hurst as fig6,
+    fig7_surfaces_by_hurst as fig7,
+    fig14_merged_spectrum as fig14,
+    fig34_rolloff_and_cutoff as fig34,
+)
 from roughcontact.thesis.figures import FIGURES, figure, module
 
 

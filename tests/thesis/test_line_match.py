@@ -7,8 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.mdr.calibration import calibrated_lambda
 from roughcontact.solver.control import Status
-from roughcontact.thesis import fig29_spectrum_factor as fig29
-from roughcontact.thesis import fig30_crossover as fig30
+from roughcontact.thesis import fig29_spectrum_factor as fig29, fig30_crossover as fig30
 from roughcontact.thesis.figures import drawn, verdicts
 from roughcontact.thesis.line_match import Ensemble, match
 

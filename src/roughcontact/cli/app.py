@@ -7,14 +7,16 @@ from typing import Annotated
 import typer
 
 from roughcontact import __version__
-from roughcontact.cli import conductance_command as conductance
-from roughcontact.cli import curve_command as curve
-from roughcontact.cli import prepare_command as prepare
-from roughcontact.cli import press_command as press
-from roughcontact.cli import spectrum_command as spectrum
-from roughcontact.cli import study_command as study
-from roughcontact.cli import surface_command as surface
-from roughcontact.cli import thesis_command as thesis
+from roughcontact.cli import (
+    conductance_command as conductance,
+    curve_command as curve,
+    prepare_command as prepare,
+    press_command as press,
+    spectrum_command as spectrum,
+    study_command as study,
+    surface_command as surface,
+    thesis_command as thesis,
+)
 from roughcontact.cli.option_groups import grouped
 
 __all__ = ["app"]

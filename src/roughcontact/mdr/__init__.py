@@ -2,60 +2,38 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-__all__ = [
-    "adhesion",
-    "adhesive_path",
-    "calibration",
-    "equivalent_line",
-    "foundation",
-    "indentation",
-    "indenter",
-    "lattice_sums",
-    "lee_radok",
-    "line_curves",
-    "line_scan",
-    "random_lines",
-    "rough_line",
-    "sliding_friction",
-    "slip_history",
-    "tangential",
-    "viscoelastic",
-    "viscoelastic_history",
-]
+from roughcontact.late import late_names, open_name
 
-if TYPE_CHECKING:  # type checkers and bundlers of programs read this
+_LATE = late_names(__spec__)
+if TYPE_CHECKING or _LATE is None:
     from roughcontact.mdr import (
-        adhesion,
-        adhesive_path,
-        calibration,
-        equivalent_line,
-        foundation,
-        indentation,
-        indenter,
-        lattice_sums,
-        lee_radok,
-        line_curves,
-        line_scan,
-        random_lines,
-        rough_line,
-        sliding_friction,
-        slip_history,
-        tangential,
-        viscoelastic,
-        viscoelastic_history,
+        adhesion as adhesion,
+        adhesive_path as adhesive_path,
+        calibration as calibration,
+        equivalent_line as equivalent_line,
+        foundation as foundation,
+        indentation as indentation,
+        indenter as indenter,
+        lattice_sums as lattice_sums,
+        lee_radok as lee_radok,
+        line_curves as line_curves,
+        line_scan as line_scan,
+        random_lines as random_lines,
+        rough_line as rough_line,
+        sliding_friction as sliding_friction,
+        slip_history as slip_history,
+        tangential as tangential,
+        viscoelastic as viscoelastic,
+        viscoelastic_history as viscoelastic_history,
     )
 
+__all__ = [name for name in _LATE or globals() if not name.startswith("_")]
 
-def __getattr__(name: str) -> ModuleType:
-    if name not in __all__:
-        raise AttributeError(
-            f"module 'roughcontact.mdr' has no attribute {name!r}; it has {', '.join(__all__)}"
-        )
-    return import_module(f"{__name__}.{name}")
+
+def __getattr__(name: str) -> Any:
+    return open_name(globals(), _LATE, name)
 
 
 def __dir__() -> list[str]:

@@ -12,8 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.cached import cached_property
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
-from roughcontact.kernels import buffers as room
-from roughcontact.kernels import planes
+from roughcontact.kernels import buffers as room, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS

@@ -3,17 +3,20 @@
 from types import ModuleType as _Module
 
 from roughcontact.statistics.common_forces import on_common as on_common
-from roughcontact.statistics.fit import fit_power_laws as fit_power_laws
-from roughcontact.statistics.fit import law_at as law_at
-from roughcontact.statistics.fit_window import force_window as force_window
-from roughcontact.statistics.fit_window import resolved_window as resolved_window
-from roughcontact.statistics.samples import count as count
-from roughcontact.statistics.samples import geometric_mean as geometric_mean
-from roughcontact.statistics.samples import mean as mean
-from roughcontact.statistics.samples import scatter as scatter
-from roughcontact.statistics.samples import standard_deviation as standard_deviation
-from roughcontact.statistics.samples import standard_error as standard_error
-from roughcontact.statistics.samples import summary as summary
+from roughcontact.statistics.fit import fit_power_laws as fit_power_laws, law_at as law_at
+from roughcontact.statistics.fit_window import (
+    force_window as force_window,
+    resolved_window as resolved_window,
+)
+from roughcontact.statistics.samples import (
+    count as count,
+    geometric_mean as geometric_mean,
+    mean as mean,
+    scatter as scatter,
+    standard_deviation as standard_deviation,
+    standard_error as standard_error,
+    summary as summary,
+)
 
 __all__ = [
     name for name, each in globals().items() if not (name.startswith("_") or isinstance(each, _Module))

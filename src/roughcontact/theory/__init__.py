@@ -2,84 +2,50 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-__all__ = [
-    "asperities",
-    "beat_wave",
-    "bounds",
-    "bush_gibson_thomas",
-    "cattaneo",
-    "conductance",
-    "cosine",
-    "finite_size",
-    "gaussian_heights",
-    "greenwood_williamson",
-    "height_distribution",
-    "hertz",
-    "holm",
-    "interaction",
-    "jaeger",
-    "law",
-    "laws",
-    "mindlin",
-    "nayak",
-    "persson",
-    "persson_separation",
-    "plasticity",
-    "pohrt_popov",
-    "power_law_indenter",
-    "punch",
-    "rough_sphere",
-    "stepped",
-    "thermal",
-    "two_cosines",
-    "waves",
-]
+from roughcontact.late import late_names, open_name
 
-if TYPE_CHECKING:  # type checkers and bundlers of programs read this
+_LATE = late_names(__spec__)
+if TYPE_CHECKING or _LATE is None:
     from roughcontact.theory import (
-        asperities,
-        beat_wave,
-        bounds,
-        bush_gibson_thomas,
-        cattaneo,
-        conductance,
-        cosine,
-        finite_size,
-        gaussian_heights,
-        greenwood_williamson,
-        height_distribution,
-        hertz,
-        holm,
-        interaction,
-        jaeger,
-        law,
-        laws,
-        mindlin,
-        nayak,
-        persson,
-        persson_separation,
-        plasticity,
-        pohrt_popov,
-        power_law_indenter,
-        punch,
-        rough_sphere,
-        stepped,
-        thermal,
-        two_cosines,
-        waves,
+        asperities as asperities,
+        beat_wave as beat_wave,
+        bounds as bounds,
+        bush_gibson_thomas as bush_gibson_thomas,
+        cattaneo as cattaneo,
+        conductance as conductance,
+        cosine as cosine,
+        finite_size as finite_size,
+        gaussian_heights as gaussian_heights,
+        greenwood_williamson as greenwood_williamson,
+        height_distribution as height_distribution,
+        hertz as hertz,
+        holm as holm,
+        interaction as interaction,
+        jaeger as jaeger,
+        law as law,
+        laws as laws,
+        mindlin as mindlin,
+        nayak as nayak,
+        persson as persson,
+        persson_separation as persson_separation,
+        plasticity as plasticity,
+        pohrt_popov as pohrt_popov,
+        power_law_indenter as power_law_indenter,
+        punch as punch,
+        rough_sphere as rough_sphere,
+        stepped as stepped,
+        thermal as thermal,
+        two_cosines as two_cosines,
+        waves as waves,
     )
 
+__all__ = [name for name in _LATE or globals() if not name.startswith("_")]
 
-def __getattr__(name: str) -> ModuleType:
-    if name not in __all__:
-        raise AttributeError(
-            f"module 'roughcontact.theory' has no attribute {name!r}; it has {', '.join(__all__)}"
-        )
-    return import_module(f"{__name__}.{name}")
+
+def __getattr__(name: str) -> Any:
+    return open_name(globals(), _LATE, name)
 
 
 def __dir__() -> list[str]:

@@ -22,8 +22,7 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.theory import persson_separation as separation
-from roughcontact.theory import pohrt_popov
+from roughcontact.theory import persson_separation as separation, pohrt_popov
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.waves import Spectrum, Waves
 from roughcontact.validation import Array, moderate, numeric, positive, require, require_numbers

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import xarray
 
-from roughcontact.thesis.asperity_ensembles import CHOSEN as SHARED
 from roughcontact.thesis.asperity_ensembles import (
+    CHOSEN as SHARED,
     asperity_averages,
+    draw_realisations as draw,
     exponent_words,
     law_exponent,
     linear_model,
     studies,
 )
-from roughcontact.thesis.asperity_ensembles import draw_realisations as draw
 from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["CHOSEN", "averages", "draw", "studies", "verdicts"]

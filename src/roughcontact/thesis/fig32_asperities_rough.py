@@ -6,12 +6,12 @@ import xarray
 
 from roughcontact.thesis.asperity_ensembles import (
     asperity_averages,
+    draw_realisations as draw,
     exponent_words,
     law_exponent,
     linear_model,
     studies,
 )
-from roughcontact.thesis.asperity_ensembles import draw_realisations as draw
 from roughcontact.thesis.fig31_asperities_smooth import CHOSEN, SIZE
 from roughcontact.thesis.verdict import Verdict, Verdicts
 

@@ -7,8 +7,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from roughcontact.thesis import drawing
-from roughcontact.thesis.asperity_ensembles import CHOSEN as SHARED
-from roughcontact.thesis.asperity_ensembles import asperity_averages, law_exponent, studies
+from roughcontact.thesis.asperity_ensembles import CHOSEN as SHARED, asperity_averages, law_exponent, studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]

@@ -8,8 +8,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.cells_case import CASE, CellsParameters
-from roughcontact.study.cases.curve_case import CASE as CURVE
-from roughcontact.study.cases.curve_case import CurveParameters
+from roughcontact.study.cases.curve_case import CASE as CURVE, CurveParameters
 
 GIVEN = {"points": 32, "size": 2e-3, "modulus": 1e11, "hurst": 0.8, "rms": 1e-6, "loads": 3}
 

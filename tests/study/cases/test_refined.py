@@ -6,8 +6,7 @@ from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
-from roughcontact.study.cases.curve_case import CASE as CURVE
-from roughcontact.study.cases.curve_case import CurveParameters
+from roughcontact.study.cases.curve_case import CASE as CURVE, CurveParameters
 from roughcontact.study.cases.refined_case import CASE, RefinedParameters
 
 GIVEN = {

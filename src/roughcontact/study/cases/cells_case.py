@@ -10,8 +10,7 @@ import numpy as np
 
 from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
-from roughcontact.study.cases.curve_case import CurveParameters
-from roughcontact.study.cases.curve_case import run as loading_curve
+from roughcontact.study.cases.curve_case import CurveParameters, run as loading_curve
 
 if TYPE_CHECKING:
     import xarray
