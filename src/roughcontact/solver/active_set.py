@@ -1,4 +1,4 @@
-"""The primal-dual active set method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, A.6 to A.8).
+"""The primal-dual active set method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, eqs (A.6-8)).
 
 Labels A1 to A10 are the lines of the algorithm in docs/method.md.
 """
@@ -46,9 +46,9 @@ class ActiveSet:
 
     Free sets of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the tolerance is
     loose) are solved by a factorisation, larger ones by bound-constrained conjugate gradients in single precision, on
-    the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. For
-    the half-space the influence matrix is an inverse M-matrix and the method is finite; for other operators nothing
-    proves that, so that a run without progress is continued by Polonsky and Keer's method.
+    the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. The
+    influence matrix of the half-space is close to an inverse M-matrix, for which the method is finite at given depth;
+    nothing proves that for other operators, so that a run without progress is continued by Polonsky and Keer's method.
 
     Parameters
     ----------

@@ -191,14 +191,14 @@ def bound_constrained_cg(
             w_sum, last = (
                 vectors.constraint_direction() if conserve else 1.0,
                 vectors.inner_products(vectors.q),
-            )
-        rz, zq, z_sum, wq = vectors.precondition()  # B4, B5
+            )  # B4
+        rz, zq, z_sum, wq = vectors.precondition()  # B5
         if not rz >= 0:
             break
         sigma = wq / w_sum if conserve else 0.0  # Schur complement of the force: w.q / 1.w
         curvature = last.sq - sigma * last.s_sum
         beta = -(zq - sigma * z_sum) / curvature if curvature > 0 and last.sq > 0 else 0.0  # B6
-        mu = (z_sum + beta * last.s_sum) / w_sum
+        mu = (z_sum + beta * last.s_sum) / w_sum if conserve else 0.0
         lifted, area, force = vectors.project(beta, mu, estimate.trial)  # B7, B8
         bounds_matter = self_influence * lifted > tuning.LIFTED_RESIDUAL * r_max
         if conserve:
@@ -206,7 +206,7 @@ def bound_constrained_cg(
                 break
             if force:
                 vectors.redistribute(force)  # B9
-            w_sum = vectors.constraint_direction()
+            w_sum = vectors.constraint_direction()  # B4
         last = vectors.inner_products(inner.apply(vectors.s))  # B10, B11: the product of the step
         steps += 1
         if not last.sq > 0:  # the direction is but rounding

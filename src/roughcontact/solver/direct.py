@@ -34,7 +34,7 @@ class DirectSolution:
 
 
 def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> DirectSolution:
-    """Solve on `cells` alone and deactivate those with tensile pressure, until none has any (thesis, eqs A.6 to A.8).
+    """Solve on `cells` alone and deactivate those with tensile pressure, until none has any (thesis, (A.6-8)).
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
 
     Notes
     -----
-    With A a = 1 and A b = f on the cells the pressure is ``p = d a - b`` (A8); the force F fixes the depth
-    ``d = (F + 1.b) / 1.a``.
+    With A a = 1 and A b = f on the cells the pressure is ``p = d a - b`` (A8); the force P fixes the depth
+    ``d = (P + 1.b) / 1.a``.
     """
     weights = Measure(operator.weights).on(cells)
     heights = separation.ravel()[cells]

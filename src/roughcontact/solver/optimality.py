@@ -1,7 +1,7 @@
 """Optimality (KKT) conditions of contact: their residual, which certifies all solvers, and the active set.
 
-The conditions are ``g >= 0, p >= 0, p g = 0`` with the gap ``g = A p + f - d``; under a hardness H ``p <= H`` and
-``g <= 0`` where ``p = H``. See docs/method.md, "Optimality".
+The conditions are ``g >= 0, p >= 0, p g = 0`` without a hardness, with the gap ``g = A p + f - d``; under a hardness H
+``p <= H``, and ``g <= 0`` where ``p = H``. See docs/method.md, section 1.
 """
 
 from __future__ import annotations

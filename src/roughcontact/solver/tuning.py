@@ -17,8 +17,8 @@ INNER_TOLERANCE = 0.3  # of the tolerance: residual of an inner solve
 # --- bound_constrained_cg: counted, on 512 x 512 cells ---
 INNER_FORCING = 0.2  # forcing term, of the residual: for an inner solve on a set that may still change
 FREEING_ROUNDS = 20  # rounds of freeing cells between two exact products
-MEAN_RESIDUAL = 0.01  # of the tolerance: mean residual on F that is not subtracted
-BOUND_VIOLATION = 0.1  # of the tolerance: displacement of the largest pressure out of its bounds
+MEAN_RESIDUAL = 0.01  # of the target of a run: mean residual on F that is not subtracted
+BOUND_VIOLATION = 0.1  # of the target of a run: displacement of the largest pressure out of its bounds
 LIFTED_RESIDUAL = 0.1  # of the residual: displacement of newly active cells that may be neglected, in total
 TRIAL_STEP = 0.9  # of the step that is expected: length of the trial step
 SHORTEST_STEP, LONGEST_STEP = 0.5, 1.1  # of a trial step with newly active cells: safeguard of alpha
