@@ -305,13 +305,13 @@ def toroid() -> Iterator[Case]:
 HEAD = """# Accuracy
 
 How far each geometry is from the closed forms, and how that falls when the grid is refined: written by
-`python benchmarks/accuracy.py > docs/accuracy.md`, E* = 1. This is the error of the grid; a certificate speaks of the
-algebra, and is far smaller.
+`python benchmarks/accuracy.py > docs/accuracy.md`, E* = 1. This is the discretisation error; a certificate bounds the
+residual of the discrete problem, which is far smaller.
 
 Errors are relative. Where the contact finds its own edge they are root mean squares over sixteen contacts of slightly
 different sizes, since they jump with the place of the edge within a cell; the order is that from the first grid to
 the last, and the limit one step of Richardson's extrapolation of their mean. Flat regions that the grid is made to
-fit have a clean expansion in the cell: there the limit takes all terms that the four grids give.
+fit have an expansion in powers of the cell: there the limit takes all terms that the four grids give.
 
 | body | geometry | quantity | cells | errors | order | limit | exact |
 |---|---|---|---|---|---|---|---|"""
@@ -319,11 +319,12 @@ fit have a clean expansion in the cell: there the limit takes all terms that the
 OTHER = """
 ## Other ways to sum
 
-On a free surface `half_space(..., method=...)` sums the same displacements over the cells in four ways. Above it is
-by Fourier transforms. The others have the same order, limit and error, for they solve the same equations: here is the
-largest relative difference of the quantity to that by transforms (in brackets: cells a side), to be held against the
-tolerance of the solves, 1e-8, and of the flat regions, 1e-9. A multilevel sum is inexact by itself; what it says is
-corrected until the exact sum certifies it, and flat regions are left to the exact sum altogether.
+On a free surface `half_space(..., method=...)` sums the same displacements over the cells in four ways. The table
+above is by Fourier transforms. The others have the same order, limit and error, for they solve the same equations:
+here is the largest relative difference of the quantity to that by transforms (in brackets: cells a side; "none" is
+below 1e-15), to be compared with the tolerance of the solves, 1e-8, and of the flat regions, 1e-9. A multilevel sum
+is inexact by itself: its answer is corrected until the exact sum certifies it; flat regions are solved with the
+exact sum alone.
 
 | body | quantity | multilevel | moving grid | full matrix |
 |---|---|---|---|---|"""
@@ -334,8 +335,8 @@ TAIL = """
 * A smooth contact converges with the square of the cell in force and depth, a sharp one with the cell itself: half
   a cell along its edge is missing. Of the square about 0.345/n is missing.
 * The square's limit is 1.152298(1) E* L, and with it that of every full contact. The 1.1419 E* L that the thesis
-  takes for the largest stiffness (eq. 4.14, from a shape factor of 1.012) is 0.9 % too small: 64 cells a side pass it.
-* The equilateral triangle has no closed form; the value beside it is `roughcontact.theory.punch.TRIANGLE`, good to its
+  takes for the largest stiffness (eq. 4.14, from a shape factor of 1.012) is 0.9 % too small: 64 x 64 cells exceed it.
+* The equilateral triangle has no closed form; the value in its row is `roughcontact.theory.punch.TRIANGLE`, good to its
   fifth digit. Its cells are as high as to fit into the triangle.
 * On a surface discs are staircases; the area of their cells is not that of the disc, and jumps.
 * What the ways to sum cost in time and memory: `benchmarks/operators.py`.
