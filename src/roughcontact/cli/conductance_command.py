@@ -42,7 +42,7 @@ class Materials:
 
     PANEL: ClassVar = "The two bodies"
     resistivity: str | None = option(
-        "Electrical resistivity of both bodies, or of one and the other: adds the contact's resistance.",
+        "Electrical resistivity of both bodies, or of one and the other: gives the resistance of the contact.",
         "17nohm*m[,...]",
     )
     conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
@@ -102,7 +102,7 @@ def _read(path: Path) -> xarray.Dataset:
     except FileNotFoundError as error:
         raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
     except (OSError, ValueError) as error:
-        raise UsageError(f"{path} is not a curve.nc that the command curve wrote: {error}") from error
+        raise UsageError(f"{path} is not a curve.nc that the command curve wrote") from error
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:

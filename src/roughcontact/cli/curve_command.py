@@ -32,7 +32,7 @@ __all__ = ["EXAMPLES", "curve"]
 
 EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa
-roughcontact curve part.x3p --forces 1mN:1N:100 --modulus 110GPa --out result
+roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
@@ -49,7 +49,7 @@ class Loads:
     forces: str | None = option(
         "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
         "(default, if no loads are named: 30 forces from 1e-4 to 0.07 of E* h L).",
-        "1mN:1N:100",
+        "1N:100N:30",
     )
     pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
     depths: str | None = option("Indentation depths since first touch, likewise.", "1nm:1um:100")

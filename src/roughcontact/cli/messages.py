@@ -22,6 +22,7 @@ __all__ = ["UsageError", "as_typed", "note", "plain", "reported"]
 
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
+    (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
     (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),

@@ -167,7 +167,8 @@ class Curve:
             inside &= np.isfinite(self.stiffness)
         if inside.sum() < 3:
             raise ValueError(
-                f"a power law needs at least 3 resolved points, not {int(inside.sum())}: {self._remedy()}"
+                "a power law needs at least 3 resolved points in the range of forces that is fitted, not "
+                f"{int(inside.sum())}: {self._remedy()}"
             )
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale

@@ -127,12 +127,12 @@ def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
         zorder=4,
         label=label,
     )
-    for wavelength, name in zip(ends, ("roll-off", "cut-off", "short end"), strict=True):
+    for wavelength, name in zip(ends, ("roll-off", "long cut-off", "short cut-off"), strict=True):
         if wavelength is not None:
             text = f"{name} {wavelength * scales.length.factor:.3g} {scales.length.unit}"
             # Where the spectrum leaves room: below it at its long waves, above it at its short ones.
             place: tuple[float, Literal["top", "bottom"]] = (
-                (0.98, "top") if name == "short end" else (0.2, "bottom")
+                (0.98, "top") if name == "short cut-off" else (0.2, "bottom")
             )
             _mark(axes, 2 * math.pi / wavelength * scales.wavenumber, text, place)
 

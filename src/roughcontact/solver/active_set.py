@@ -1,4 +1,4 @@
-"""The primal-dual active set method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, eqs (A.6-8)).
+"""The primal-dual active set method (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, eqs (A.6-8)).
 
 Labels A1 to A10 are the lines of the algorithm in docs/method.md.
 """
