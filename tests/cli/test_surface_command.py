@@ -158,11 +158,11 @@ def test_info_looks_at_a_line_scan(invoke, tmp_path):
     assert (wrong.exit_code, "one length" in wrong.stderr) == (2, True)
 
 
-def test_a_line_scan_is_not_pressed_like_a_map(invoke, tmp_path):
+def test_a_profile_is_not_pressed_like_a_map(invoke, tmp_path):
     rc.write(rc.Surface(1e-6 * np.arange(9.0), rc.Grid(9, 2e-6)), tmp_path / "line.txt")
     answer = invoke("press", tmp_path / "line.txt", "--force", "1N", "--modulus", "1GPa")
     assert answer.exit_code == 2
-    assert "it is a line scan of 9 heights" in answer.stderr
+    assert "it is a profile of 9 heights" in answer.stderr
     assert "taken by 'surface info', 'surface spectrum' and 'surface prepare'" in answer.stderr
 
 

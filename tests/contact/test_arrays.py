@@ -166,7 +166,7 @@ def test_two_libraries_are_not_mixed(library, rough):
             _ = first + second
     region = library.put(np.eye(*rough.grid.shape), "bool")
     operator = rc.half_space(rough.grid, 1.0)
-    with pytest.raises(ValueError, match="the library that the region is of"):
+    with pytest.raises(ValueError, match="of the same library as the region"):
         rc.prescribed_displacement(region, np.ones(rough.grid.shape), operator=operator)
 
 

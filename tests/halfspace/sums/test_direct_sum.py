@@ -174,7 +174,7 @@ def test_threads_are_no_matter(monkeypatch, count, precision):
     operator, pressure = over(places, precision), load(places, share=0.3)
     with limit_threads(1):
         alone = operator.apply(pressure)
-    monkeypatch.setattr(direct_sum, "SEVERAL", 0)
+    monkeypatch.setattr(direct_sum, "PAIRS_FOR_THREADS", 0)
     for _ in range(5):
         with limit_threads(count):
             np.testing.assert_array_equal(operator.apply(pressure), alone)
