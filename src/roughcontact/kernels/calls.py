@@ -50,19 +50,25 @@ class Function:
         """Run it; that arrays are as large as the kernel asks for is not checked."""
         if len(arguments) != len(self._dtypes):
             raise TypeError(f"{self.name} takes {len(self._dtypes)} arguments, not {len(arguments)}")
-        given = []
-        for place, (argument, dtype) in enumerate(zip(arguments, self._dtypes, strict=True)):
-            if dtype is None:
-                given.append(argument)
-            elif not isinstance(argument, Operand | np.ndarray) or argument.dtype != dtype:
-                kind = getattr(argument, "dtype", type(argument).__name__)
-                raise TypeError(f"argument {place} of {self.name} must be an array of {dtype}, not {kind}")
-            else:
-                given.append(argument.pointer if isinstance(argument, Operand) else _pointer(argument))
+        # A solve makes some hundred calls: types of numbers are compared by identity first.
+        given = [
+            argument
+            if dtype is None
+            else argument.pointer
+            if type(argument) is Operand and argument.dtype is dtype
+            else self._checked(argument, dtype)
+            for argument, dtype in zip(arguments, self._dtypes, strict=True)
+        ]
         try:
             self._run(*given)
         except ctypes.ArgumentError as error:
             raise TypeError(f"{self.name}: {error}") from None
+
+    def _checked(self, argument: Any, dtype: np.dtype[Any]) -> Any:
+        if not isinstance(argument, (Operand, np.ndarray)) or argument.dtype != dtype:
+            kind = getattr(argument, "dtype", type(argument).__name__)
+            raise TypeError(f"an argument of {self.name} must be an array of {dtype}, not {kind}")
+        return argument.pointer if isinstance(argument, Operand) else _pointer(argument)
 
 
 def address(array: npt.NDArray[Any]) -> int:
