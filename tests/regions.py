@@ -35,6 +35,7 @@ class Bare:
 
     operator: Operator
     diagonal_correction: ClassVar[float] = 0.0
+    local_inverse: ClassVar[None] = None
 
     @property
     def weights(self):
@@ -55,6 +56,7 @@ class Seeing:
 
     weights = 0.25
     diagonal_correction = 0.0
+    local_inverse = None
     part = 1 / 256
 
     @classmethod

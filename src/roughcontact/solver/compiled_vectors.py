@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.kernels import buffers as room, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
@@ -193,7 +192,7 @@ class CompiledVectors:
 
     def _inverse(self, field: Operand) -> Operand:
         """Return M0^-1 of a field that is zero outside F and has margins, without the Schur correction."""
-        local: LocalInverse | None = getattr(self._inner, "local_inverse", None)
+        local = self._inner.local_inverse
         if local is None:
             return self._located(self._inner.approximate_inverse(field.field))
         return self._located(local.on(self._region, field.field))

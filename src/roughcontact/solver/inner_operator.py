@@ -7,14 +7,20 @@ where that costs less, residuals of the outer iteration in double precision on t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, over, times
-from roughcontact.halfspace.operators.operator import Linear, Operator, capabilities, self_influence
+from roughcontact.halfspace.operators.operator import (
+    Capabilities,
+    Linear,
+    Operator,
+    capabilities,
+    self_influence,
+)
 from roughcontact.halfspace.sums.local_inverse import DIAGONAL_CORRECTION, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.halfspace.sums.tiles import Tiles
@@ -49,6 +55,11 @@ class InnerOperator(Linear, Protocol):
         """theta: part of M0^-1 1 that is subtracted from the diagonal of M0^-1 (the Schur correction)."""
         ...
 
+    @property
+    def local_inverse(self) -> LocalInverse | None:
+        """M0^-1 in machine code on the free cells of a whole grid; None where `approximate_inverse` does it."""
+        ...
+
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return M0^-1 of a displacement [m]: a pressure [Pa] that would cause about this; symmetric and definite."""
         ...
@@ -72,6 +83,10 @@ class FullGrid:
 
     operator: Operator
     contraction: float = 0.0
+    _can: Capabilities = field(init=False, repr=False)  # asked for once: each step of a solve uses it
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_can", capabilities(self.operator))
 
     @property
     def weights(self) -> float | Array:
@@ -81,7 +96,7 @@ class FullGrid:
     @property
     def local_inverse(self) -> LocalInverse | None:
         """The truncated inverse that preconditions in machine code, if there is one."""
-        return capabilities(self.operator).local_inverse()
+        return self._can.local_inverse()
 
     @property
     def diagonal_correction(self) -> float:
@@ -110,7 +125,7 @@ class FullGrid:
         Of an operator without one that is the displacement, over about what all cells together do to one: a pressure in
         any unit, and no step along it is much too long.
         """
-        inverse = capabilities(self.operator).approximate_inverse
+        inverse = self._can.approximate_inverse
         if inverse is not None:
             return inverse(displacement)
         return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
@@ -128,7 +143,7 @@ class SingleFullGrid(FullGrid):
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        convolution = capabilities(self.operator).single_convolution
+        convolution = self._can.single_convolution
         return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
 
