@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,35 +40,36 @@ class Function:
         the kernel's or they do not lie one after the other, or a single number is none.
     """
 
-    __slots__ = ("_dtypes", "_run", "name")
+    __slots__ = ("_count", "_run", "name")
 
     def __init__(self, name: str, parameters: Sequence[Parameter], place: int) -> None:
-        self.name = name
-        self._dtypes = [np.dtype(p.dtype) if p.array else None for p in parameters]
-        self._run = ctypes.CFUNCTYPE(None, *(p.ctype for p in parameters))(place)
+        self.name, self._count = name, len(parameters)
+        types = [_ArrayOf(np.dtype(p.dtype)) if p.array else p.ctype for p in parameters]
+        self._run = ctypes.CFUNCTYPE(None, *types)(place)  # type: ignore[arg-type]
 
     def __call__(self, *arguments: Any) -> None:
         """Run it; that arrays are as large as the kernel asks for is not checked."""
-        if len(arguments) != len(self._dtypes):
-            raise TypeError(f"{self.name} takes {len(self._dtypes)} arguments, not {len(arguments)}")
-        # A solve makes some hundred calls: types of numbers are compared by identity first.
-        given = [
-            argument
-            if dtype is None
-            else argument.pointer
-            if type(argument) is Operand and argument.dtype is dtype
-            else self._checked(argument, dtype)
-            for argument, dtype in zip(arguments, self._dtypes, strict=True)
-        ]
+        if len(arguments) != self._count:
+            raise TypeError(f"{self.name} takes {self._count} arguments, not {len(arguments)}")
         try:
-            self._run(*given)
+            self._run(*arguments)
         except ctypes.ArgumentError as error:
             raise TypeError(f"{self.name}: {error}") from None
 
-    def _checked(self, argument: Any, dtype: np.dtype[Any]) -> Any:
-        if not isinstance(argument, (Operand, np.ndarray)) or argument.dtype != dtype:
-            kind = getattr(argument, "dtype", type(argument).__name__)
-            raise TypeError(f"an argument of {self.name} must be an array of {dtype}, not {kind}")
+
+@dataclass(frozen=True, slots=True)
+class _ArrayOf:
+    """A parameter of a kernel: arrays of one type of numbers, of which the call takes the address."""
+
+    dtype: np.dtype[Any]
+
+    def from_param(self, argument: Any) -> Any:
+        """Return what ctypes passes on; it asks so for each argument."""
+        if not isinstance(argument, (Operand, np.ndarray)):
+            raise TypeError(f"an array of {self.dtype} is needed, not {type(argument).__name__}")
+        # A solve makes some hundred calls: types of numbers are compared by identity first.
+        if argument.dtype is not self.dtype and argument.dtype != self.dtype:
+            raise TypeError(f"an array of {self.dtype} is needed, not one of {argument.dtype}")
         return argument.pointer if isinstance(argument, Operand) else _pointer(argument)
 
 
