@@ -7,6 +7,7 @@ import pytest
 
 import roughcontact as rc
 from libraries import Strict
+from roughcontact.arrays import namespace
 from roughcontact.solver import nested_iteration, tuning
 from roughcontact.solver.control import Depth, State, Status
 from roughcontact.solver.nested_iteration import (
@@ -156,7 +157,7 @@ def test_cells_have_the_pressure_of_their_block(shape, factors, share, elsewhere
     for missing in (0.0, 0.3):
         separation = np.where(rng.random(shape) < missing, np.inf, 1.0)
         given = [Strict.put(f) if elsewhere else f for f in (coarse, separation)]
-        found = nested_iteration._interpolated(given[0], factors, given[1])
+        found = nested_iteration._interpolated(given[0], factors, given[1], namespace(given[0]))
         np.testing.assert_array_equal(
             Strict.get(found) if elsewhere else found, blocks(coarse, factors, separation)
         )

@@ -1,6 +1,7 @@
 """What a pressure amounts to: machine code says what arrays of any library do, and what the definitions say."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,11 +10,12 @@ from hypothesis import given, settings, strategies as st
 
 import roughcontact as rc
 from libraries import Strict
+from roughcontact.arrays import namespace
 from roughcontact.kernels import loader, planes
 from roughcontact.solver import optimality
 from roughcontact.solver.control import Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Iterate, Optimality, predict_free_set
+from roughcontact.solver.optimality import Iterate, Optimality
 
 EPS = np.finfo(np.float64).eps
 FORCE, DEPTH = Terms(Force(1.0)), Terms(Depth(0.4))
@@ -29,7 +31,7 @@ PLANES = {periodic: plane(periodic=periodic) for periodic in (False, True)}
 
 
 def judged(operator, terms, p, u, s):
-    return Optimality.of(operator, terms).evaluate(Iterate(p, u, s))
+    return Optimality.of(operator, terms, namespace(p)).evaluate(Iterate(p, u, s))
 
 
 def generic(function, *given, **named):
@@ -109,11 +111,14 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
 @given(givens(), st.sampled_from([0.0, 0.1]), st.sampled_from([math.inf, None, 1e-3]))
 def test_both_guess_the_same_region(given_fields, allowed, own):
     operator, p, u, s = given_fields
-    own = Optimality.of(operator, FORCE).self_influence if own is None else own
-    one = predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=allowed, self_influence=own)
-    two = generic(predict_free_set, FORCE, Iterate(p, u, s), depth=0.4, allowed=allowed, self_influence=own)
+    conditions, projected = Optimality.of(operator, FORCE), own != math.inf
+    if own is not None:
+        conditions = replace(conditions, self_influence=own)
+    named = {"depth": 0.4, "allowed": allowed, "projected": projected}
+    one = conditions.predict_free_set(Iterate(p, u, s), **named)
+    two = generic(conditions.predict_free_set, Iterate(p, u, s), **named)
     gap = u + s - 0.4
-    wrong = (p * own < gap) if own < math.inf else np.zeros(p.shape, bool)
+    wrong = (p * conditions.self_influence < gap) if projected else np.zeros(p.shape, bool)
     asked = (p > 0) | (gap < -allowed)
     for guess in (one, two):
         np.testing.assert_array_equal(guess.free, asked & ~wrong)
@@ -181,9 +186,10 @@ def test_no_cell_in_contact_at_a_given_depth(depth):
         generic(judged, operator, terms, nothing, nothing, s),
     ):
         assert found[:3] == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
+    predict = Optimality.of(operator, terms).predict_free_set
     for guess in (
-        predict_free_set(terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
-        generic(predict_free_set, terms, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
+        predict(Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
+        generic(predict, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
     ):
         np.testing.assert_array_equal(guess.free, s < depth)
         assert guess.count == (s < depth).sum()
@@ -219,10 +225,11 @@ def test_a_hardness(control):
     p, s = np.minimum(rng.random((5, 7)), 0.5) * (rng.random((5, 7)) < 0.7), rng.random((5, 7))
     u = operator.apply(p)
     found = judged(operator, terms, p, u, s)
-    agrees(found, Optimality.of(operator, terms), Measure(operator.weights), terms, p, u, s)
+    conditions = Optimality.of(operator, terms)
+    agrees(found, conditions, Measure(operator.weights), terms, p, u, s)
     held, gap = p >= 0.5, u + s - found.depth
     assert held.any()
-    guess = predict_free_set(terms, Iterate(p, u, s), depth=found.depth, allowed=0.01)
+    guess = conditions.predict_free_set(Iterate(p, u, s), depth=found.depth, allowed=0.01)
     wanted = np.where(held, gap > 0.01, (p > 0) | (gap < -0.01))
     np.testing.assert_array_equal(guess.free, wanted)
     assert (guess.count, guess.dropped) == (wanted.sum(), 0)
@@ -249,7 +256,8 @@ def test_what_lies_otherwise(kind):
     # Levels, gaps and their ratio are rounded: numbers below three, of which the worst is above a third.
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
-    guess = predict_free_set(DEPTH, Iterate(*there), depth=0.4, allowed=0.1, self_influence=0.3)
+    conditions = replace(Optimality.of(operator, DEPTH, namespace(there[0])), self_influence=0.3)
+    guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, projected=True)
     assert (guess.count, guess.dropped) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
 
@@ -265,6 +273,7 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
         ),
     )
     monkeypatch.setattr(optimality, "planes", seen)
-    judged(plane((5, 7)), FORCE, p, u, s)
-    predict_free_set(FORCE, Iterate(p, u, s), depth=0.4, allowed=0.1)
+    conditions = Optimality.of(plane((5, 7)), FORCE)
+    conditions.evaluate(Iterate(p, u, s))
+    conditions.predict_free_set(Iterate(p, u, s), depth=0.4, allowed=0.1)
     assert asked == ["extremes", "predict_active"]

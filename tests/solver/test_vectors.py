@@ -6,6 +6,7 @@ import pytest
 import roughcontact as rc
 from libraries import Strict
 from regions import PRECISIONS, Bare, Seeing, both_of, close, eighths, generic, on, plane, region
+from roughcontact.arrays import namespace
 from roughcontact.kernels import loader
 from roughcontact.solver import tuning
 from roughcontact.solver.compiled_vectors import CompiledVectors
@@ -218,7 +219,7 @@ def test_what_has_no_machine_code():
     assert isinstance(hard, ArrayVectors)
     np.testing.assert_array_equal(hard.upper, held)
     there = [Strict.put(f) for f in (ones, ones)]
-    elsewhere = vectors_on(Seeing, Measure(0.25), there[0] > 0, *there)
+    elsewhere = vectors_on(Seeing, Measure(0.25, namespace(there[0])), there[0] > 0, *there)
     assert isinstance(elsewhere, ArrayVectors)
     assert all(Strict.is_there(f) for f in (elsewhere.free, elsewhere.correction, elsewhere.r, elsewhere.s))
     assert isinstance(on(Seeing, kept, ones), CompiledVectors)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
@@ -23,7 +22,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     problem, notes = solution.problem, []
     if not solution.status.converged:
         notes.append(f"Residual {solution.residual:.1e}: {solution.status.message}")
-    count = namespace(solution.pressure).count_nonzero
+    count = solution.problem.measure.xp.count_nonzero
     yielding, in_contact = int(count(solution.pressure >= problem.hardness)), int(count(solution.contact))
     if yielding:
         notes.append(
@@ -68,7 +67,7 @@ def _doubts(solution: Solution) -> tuple[str, ...]:
     """Return what an engineer would doubt in these numbers."""
     problem, doubts = solution.problem, []
     modulus, surface = problem.modulus, problem.surface
-    largest = float(namespace(solution.pressure).max(solution.pressure))
+    largest = float(solution.problem.measure.xp.max(solution.pressure))
     springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
     if largest > STRAINED * modulus and not springs:
         doubts.append(

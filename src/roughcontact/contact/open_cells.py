@@ -47,7 +47,8 @@ def mean_opening(operator: Operator, opening: Array, region: Mask, measured: Mas
     A pressure on the region displaces no other cell of a half-space by more than those of the region (the maximum
     principle). So what is left on the region bounds the error of the mean over the open cells.
     """
-    xp, measure = namespace(opening), Measure(operator.weights)
+    xp = namespace(opening)
+    measure = Measure(operator.weights, xp)
     outside = measured & ~region
     share = measure.total(outside) / measure.total(measured)
     if share == 0:

@@ -98,7 +98,7 @@ class ContactProblem:
         if not scalar(self.hardness, "hardness") > 0:
             raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
         if isinstance(self.control, Force) and self.hardness < math.inf:
-            strongest = self.hardness * self._measure.total(self.measured)
+            strongest = self.hardness * self.measure.total(self.measured)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
@@ -123,13 +123,12 @@ class ContactProblem:
     @property
     def measured(self) -> Mask:
         """Cells that hold a height."""
-        return namespace(self.separation).isfinite(self.separation)  # type: ignore[no-any-return]
+        return self.measure.xp.isfinite(self.separation)  # type: ignore[no-any-return]
 
     @property
     def missing(self) -> int:
         """Number of cells without a height."""
-        xp = namespace(self.separation)
-        return int(xp.count_nonzero(~self.measured))
+        return int(self.measure.xp.count_nonzero(~self.measured))
 
     @property
     def terms(self) -> Terms:
@@ -147,8 +146,9 @@ class ContactProblem:
         return is_semidefinite(self.operator)
 
     @property
-    def _measure(self) -> Measure:
-        return Measure(self.operator.weights)
+    def measure(self) -> Measure:
+        """Sums over its cells; they carry the array library of its fields."""
+        return self.once("measure", lambda: Measure(self.operator.weights, namespace(self.separation)))
 
     def under(self, control: Control) -> ContactProblem:
         """Return the same bodies under another control.
@@ -180,17 +180,17 @@ class ContactProblem:
         """
 
         def respond() -> Array:
-            xp = namespace(self.separation)
+            xp = self.measure.xp
             measured = xp.astype(self.measured, self.separation.dtype)
             # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
-            return exact_of(self.operator).apply(measured) / self._measure.total(measured)
+            return exact_of(self.operator).apply(measured) / self.measure.total(measured)
 
         return self.once("mean_response", respond)
 
     @property
     def mean_separation(self) -> float:
         """Mean undeformed gap of the measured cells [m]."""
-        return self.once("mean_separation", lambda: self._measure.mean(self.separation, self.measured))
+        return self.once("mean_separation", lambda: self.measure.mean(self.separation, self.measured))
 
     def once(self, name: str, compute: Callable[[], T]) -> T:
         """Return what depends on the bodies alone, computed once for all loads on them.

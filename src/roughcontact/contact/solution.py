@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, largest, namespace, on_host
+from roughcontact.arrays import is_numpy, largest, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
@@ -78,7 +78,7 @@ class Solution:
     def gap(self) -> Array:
         """Deformed gap [m]; NaN where nothing was measured."""
         gap = self.displacement + self.problem.separation - self.depth
-        return namespace(gap).where(self.problem.measured, gap, np.nan)  # type: ignore[no-any-return]
+        return self._measure.xp.where(self.problem.measured, gap, np.nan)  # type: ignore[no-any-return]
 
     @cached_property
     def contact(self) -> npt.NDArray[np.bool_]:
@@ -89,7 +89,7 @@ class Solution:
     @one_blas_thread()
     def force(self) -> float:
         """Normal force [N]; on a line [N/m]."""
-        if not is_numpy(self.pressure):
+        if not self._measure.on_host:
             return self._measure.total(self.pressure)
         cells = self._cells
         return float(self._measure.on(cells) @ self.pressure.ravel()[cells])
@@ -97,7 +97,7 @@ class Solution:
     @cached_property
     def contact_area(self) -> float:
         """Real contact area [m^2]; on a line [m]."""
-        if not is_numpy(self.pressure):
+        if not self._measure.on_host:
             return self._measure.total(self.contact)
         return float(self._measure.on(self._cells).sum())
 
@@ -162,7 +162,7 @@ class Solution:
         The force is a convex function of the depth, so that it is never below `stiffness`; the two differ at a knife
         edge alone.
         """
-        if not bool(namespace(self.touching).any(self.touching)):
+        if not bool(self._measure.xp.any(self.touching)):
             return self.stiffness
         region = elastic_contact(self.pressure, self.problem.hardness) | self.touching
         return frozen_contact(self.problem.operator, region).stiffness
@@ -187,14 +187,14 @@ class Solution:
     @cached_property
     def spots(self) -> Spots:
         """The connected parts of the contact (cells that share an edge)."""
-        if not is_numpy(self.pressure):
+        if not self._measure.on_host:
             raise ValueError("spots are labelled on the host: take them of solution.on_host()")
         return find_spots(self.contact, self.pressure, self.problem.grid, self._measure)
 
     @property
     def spot_count(self) -> int:
         """Number of contact spots, wherever the arrays live."""
-        if is_numpy(self.pressure):
+        if self._measure.on_host:
             return self.spots.count
         return count_spots(self.contact, self.problem.grid)
 
@@ -206,7 +206,7 @@ class Solution:
         Solution
             The same object if it is there already.
         """
-        if is_numpy(self.pressure):
+        if self._measure.on_host:
             return self
         problem = self.problem
         surface = problem.surface
@@ -228,7 +228,7 @@ class Solution:
         def rim(axis: int, end: int) -> Any:
             return self.contact[(slice(None),) * axis + (end, ...)]
 
-        xp = namespace(self.contact)
+        xp = self._measure.xp
         ends = self.problem.grid.ends
         return any(bool(xp.any(rim(axis, end))) for axis in range(len(ends)) for end in ends[axis])
 
@@ -260,7 +260,7 @@ class Solution:
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""
-        xp, unit = namespace(self.contact), unit_of("force", self.problem.geometry)
+        xp, unit = self._measure.xp, unit_of("force", self.problem.geometry)
         return (
             f"Solution({self.status.value}, force {self.force:.4g} {unit}, depth {self.depth:.4g} m, "
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
@@ -352,7 +352,7 @@ class Solution:
 
     @property
     def _measure(self) -> Measure:
-        return Measure(self.problem.operator.weights)
+        return self.problem.measure
 
     @property
     def _moves_no_mean(self) -> bool:
@@ -368,7 +368,7 @@ class Solution:
         """
         if capabilities(self.problem.operator).positive:
             return self.depth
-        return max(self.depth, float(namespace(self.pressure).max(self.problem.separation)))
+        return max(self.depth, float(self._measure.xp.max(self.problem.separation)))
 
     def _mean_opening(self, opening: Array) -> float:
         """Mean over the measured cells of a field that is about zero in contact, by the open cells alone."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import is_numpy
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.solver.active_set import ActiveSet
@@ -68,6 +68,6 @@ def lock(pressure: Array) -> None:
 def _untouched(problem: ContactProblem) -> tuple[State, Subdomain]:
     """At depth 0 the bodies touch and carry nothing."""
     shape = problem.grid.shape
-    zero = namespace(problem.separation).zeros_like(problem.separation)
+    zero = problem.measure.xp.zeros_like(problem.separation)
     whole = tuple(slice(0, n) for n in shape)
     return State(zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole

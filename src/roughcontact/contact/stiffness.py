@@ -71,7 +71,7 @@ def frozen_contact(
         )
     if tangent is not None and tangent.error <= tolerance:
         return FrozenContact(
-            Measure(operator.weights).total(tangent.pressure), tangent.error, tangent.pressure
+            Measure(operator.weights, xp).total(tangent.pressure), tangent.error, tangent.pressure
         )
     initial = None if tangent is None else xp.where(region, tangent.pressure, 0.0)
     answer = prescribe(operator, region, 1.0, tolerance, initial=initial)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
@@ -27,7 +27,7 @@ from roughcontact.solver.inner_operator import (
     inner_operator_on,
 )
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, predict_free_set
+from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
@@ -93,7 +93,7 @@ class ActiveSet:
         """
         if terms.hardness < math.inf:
             return self._run_plastic(operator, separation, terms, initial)
-        conditions = Optimality.of(operator, terms)
+        conditions = Optimality.of(operator, terms, namespace(separation))
         p = feasible_start(  # A1
             conditions.measure, separation, terms.control, initial, conditions.self_influence
         )
@@ -108,8 +108,9 @@ class ActiveSet:
 
         Where there is none at the depth that is prescribed, from the one at the largest depth.
         """
-        measure, xp = Measure(operator.weights), namespace(separation)
-        control = elastic_control(operator, separation, terms.control)
+        conditions = Optimality.of(operator, terms, namespace(separation))
+        measure, xp = conditions.measure, conditions.measure.xp
+        control = elastic_control(operator, separation, terms.control, xp)
         unlimited = replace(terms, control=control, hardness=math.inf)
         elastic = self.run(operator, separation, unlimited, initial)
         if control == terms.control and float(xp.max(elastic.pressure)) <= terms.hardness:
@@ -117,7 +118,7 @@ class ActiveSet:
         excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
         start, steps = project(measure, elastic.pressure, separation, terms), elastic.steps
         if measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
-            state = self._iterate(operator, separation, Optimality.of(operator, terms), start)
+            state = self._iterate(operator, separation, conditions, start)
             if state.status.converged:
                 return replace(state, steps=steps + state.steps)
             start, steps = state.pressure, steps + state.steps
@@ -126,11 +127,11 @@ class ActiveSet:
 
     def _iterate(self, operator: Operator, separation: Array, conditions: Optimality, p: Array) -> State:
         """Iterate A2 to A10 from a feasible pressure: converged, or stagnated."""
-        terms, a_ii = conditions.terms, conditions.self_influence
-        tolerance, hardness, xp = terms.tolerance, terms.hardness, namespace(separation)
+        terms, measure, xp = conditions.terms, conditions.measure, conditions.measure.xp
+        tolerance, hardness = terms.tolerance, terms.hardness
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         # Factorisations are made on the host, and know no hardness.
-        dense_limit = self.dense_limit if is_numpy(separation) and hardness == math.inf else 0
+        dense_limit = self.dense_limit if measure.on_host and hardness == math.inf else 0
         (u, exact), steps = first_product(operator, p), 1  # A2
         tangent: Tangent | None = None
         inner: InnerOperator | None = None
@@ -149,11 +150,9 @@ class ActiveSet:
                 return State(p, d, residual, steps, Status.STAGNATED)
             allowed = 0.5 * tolerance * scale
             # A6: from another grid or load, only cells on which a projected step leaves a pressure.
-            set_ = predict_free_set(
-                terms, iterate, depth=d, allowed=allowed, self_influence=a_ii if first else math.inf
-            )
+            set_ = conditions.predict_free_set(iterate, depth=d, allowed=allowed, projected=first)
             free, count = set_.free, set_.count
-            bad = first and _worth_screening(set_, conditions.measure)
+            bad = first and _worth_screening(set_, measure)
             if bad and factorisation_pays(operator, count, dense_limit, tolerance):
                 free = _screened(
                     operator, iterate, conditions, free, tuning.SCREENING_RESIDUAL * residual * scale
@@ -187,15 +186,14 @@ class ActiveSet:
                 p, done = inner_solve(
                     inner,
                     iterate,
-                    terms,
+                    conditions,
                     free,
-                    self_influence=a_ii,
                     limit=scale * max(tuning.INNER_TOLERANCE * tolerance, inner.contraction * residual),
                     max_steps=self.max_steps - steps,
                 )
                 tangent, steps = None, steps + done + 1
                 if hardness < math.inf:
-                    p = project(conditions.measure, p, u + separation, terms)
+                    p = project(measure, p, u + separation, terms)
             del u, iterate
             u, exact = operator.apply(p), True  # A10
 
@@ -218,9 +216,8 @@ def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free
     found = inner_solve(
         part,
         Iterate(p, part.apply(p), separation),
-        conditions.terms,
+        conditions,
         np.ones(len(cells), dtype=bool),
-        self_influence=conditions.self_influence,
         limit=limit,
         max_steps=50,
     )

@@ -14,12 +14,11 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.control import Force
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Iterate
+from roughcontact.solver.optimality import Iterate, Optimality
 from roughcontact.solver.vectors import Vectors, scaled_vectors
 
 __all__ = ["InnerSolution", "Minimised", "StepEstimate", "bound_constrained_cg", "inner_solve"]
@@ -76,10 +75,9 @@ class InnerSolution(NamedTuple):
 def inner_solve(
     inner: InnerOperator,
     iterate: Iterate,
-    terms: Terms,
+    conditions: Optimality,
     free: Mask,
     *,
-    self_influence: float,
     limit: float,
     max_steps: int,
 ) -> InnerSolution:
@@ -95,19 +93,18 @@ def inner_solve(
         error is one of the correction alone.
     iterate : Iterate
         Pressure [Pa] to start from, its displacement [m], and the separation [m].
-    terms : Terms
+    conditions : Optimality
+        Of the whole problem: its terms, and the displacement of a cell per unit pressure on itself.
     free : bool array
         The predicted free set, one cell at least, none of them missing. Of the others those at the hardness keep it,
         the rest goes to zero.
-    self_influence : float
-        A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     limit : float
         Largest residual on F [m].
     max_steps : int
         Largest number of products.
     """
-    pressure, displacement, separation = iterate
-    measure, hardness = Measure(inner.weights), terms.hardness
+    (pressure, displacement, separation), terms = iterate, conditions.terms
+    measure = Measure(inner.weights, conditions.measure.xp)
     start = inner.gather(pressure)
     # Cells that were not measured never touch, nor does what lies beyond the edge.
     part = Iterate(start, inner.gather(displacement), inner.gather(separation, math.inf))
@@ -120,7 +117,7 @@ def inner_solve(
             vectors,
             estimate,
             conserve=terms.depth is None,
-            self_influence=self_influence,
+            self_influence=conditions.self_influence,
             limit=target,
             max_steps=max_steps - steps,
         )
@@ -135,7 +132,7 @@ def inner_solve(
             break
     p = vectors.pressure(start, unit)
     if vectors.upper is not None:
-        p = namespace(p).where(vectors.upper, hardness, p)
+        p = measure.xp.where(vectors.upper, terms.hardness, p)
     elif isinstance(terms.control, Force):
         total = measure.total(p)
         if not total > 0:

@@ -14,7 +14,6 @@ of 3e-9 (tried by hand).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -22,11 +21,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import beside, largest, namespace, on_host
-from roughcontact.halfspace.operators.operator import Operator, self_influences
+from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
 from roughcontact.kernels import planes
-from roughcontact.solver.control import Force, State, Status, Terms
+from roughcontact.solver.control import Force, Solver, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
+from roughcontact.solver.refinement import defect_correction
 
 __all__ = ["SLIGHT", "resolve_contact", "weakly_active"]
 
@@ -80,28 +80,33 @@ def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
 
 
 def resolve_contact(
-    run: Callable[[Terms, Array], State],
-    operator: Operator,
-    separation: Array,
-    terms: Terms,
-    initial: Array,
+    solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
 ) -> State:
-    """Run a solver, and set pressures that are but rounding to zero.
+    """Run a solver, by defect correction where the sum is not exact, and set pressures that are but rounding to zero.
 
     Parameters
     ----------
-    run : callable
-        Solves on the terms it is given, from an initial pressure.
+    solver : Solver
     operator, separation, terms, initial
-        The problem, with the operator that certifies, and the pressure to begin with.
+        The problem, and the pressure to begin with, as `Solver.run` takes them.
     """
+    exact = exact_of(operator)
+    conditions = Optimality.of(exact, terms, namespace(separation))
+
+    def run(terms: Terms, initial: Array) -> State:
+        if exact is operator:
+            return solver.run(operator, separation, terms, initial)
+        return defect_correction(
+            solver, operator, exact, separation, replace(conditions, terms=terms), initial
+        )
+
     state = run(terms, initial)
     if state.status is not Status.CONVERGED:
         return replace(state, displacement=None)
     iterated = state.residual > FINEST and terms.tolerance <= LOOSE
     known = UNITS + (state.residual if iterated or state.residual <= FINEST else 0.0)
-    weak = _weak(operator, separation, state, known)
-    if weak is not None and iterated and _matter(operator, state, weak):
+    weak = _weak(exact, separation, state, known, conditions.measure.xp)
+    if weak is not None and iterated and _matter(exact, conditions.measure, state, weak):
         finer = run(replace(terms, tolerance=FINEST), state.pressure)
         steps = state.steps + finer.steps
         state = finer if finer.residual <= terms.tolerance else state
@@ -110,11 +115,11 @@ def resolve_contact(
     elif iterated:
         known = UNITS
     if weak is not None:
-        state = _floored(operator, separation, terms, state, known)
+        state = _floored(exact, separation, conditions, state, known)
     return replace(state, displacement=None, extremes=None)
 
 
-def _weak(operator: Operator, separation: Array, state: State, known: float) -> Mask | None:
+def _weak(operator: Operator, separation: Array, state: State, known: float, xp: Any) -> Mask | None:
     """Return the cells whose pressure or gap is known to nothing; None without any.
 
     Displacements are `known` to so much of the largest.
@@ -132,23 +137,25 @@ def _weak(operator: Operator, separation: Array, state: State, known: float) -> 
         return None
     allowed = known * largest(u)
     weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, own, allowed)
-    return weak if bool(namespace(p).any(weak)) else None
+    return weak if bool(xp.any(weak)) else None
 
 
-def _matter(operator: Operator, state: State, weak: Mask) -> bool:
+def _matter(operator: Operator, measure: Measure, state: State, weak: Mask) -> bool:
     """Whether some cells may change the stiffness by more than is slight.
 
     Force is a convex function of depth, so that the stiffness is at least the ratio of the two.
     """
     p = state.pressure
-    least = Measure(operator.weights).total(p) / state.depth if state.depth > 0 else math.inf
+    least = measure.total(p) / state.depth if state.depth > 0 else math.inf
     return added_stiffness(operator, (p > 0) & ~weak, weak) > SLIGHT * least
 
 
-def _floored(operator: Operator, separation: Array, terms: Terms, state: State, known: float) -> State:
+def _floored(
+    operator: Operator, separation: Array, conditions: Optimality, state: State, known: float
+) -> State:
     """Return the state without pressures whose own displacement is no more than is `known` of the largest."""
-    p, measure = state.pressure, Measure(operator.weights)
-    xp, allowed = namespace(p), known * largest(_displacement(operator, state))
+    p, terms, measure, xp = state.pressure, conditions.terms, conditions.measure, conditions.measure.xp
+    allowed = known * largest(_displacement(operator, state))
     weak = _pressed_by_rounding(p, _own(operator, p), allowed)
     if not bool(xp.any(weak)):
         return state
@@ -156,7 +163,7 @@ def _floored(operator: Operator, separation: Array, terms: Terms, state: State, 
     if isinstance(terms.control, Force) and terms.hardness == math.inf:
         p *= terms.control.value / measure.total(p)
     iterate = Iterate(p, operator.apply(p), separation)
-    depth, residual, *_ = Optimality.of(operator, terms).evaluate(iterate)
+    depth, residual, *_ = conditions.evaluate(iterate)
     if residual > terms.tolerance:  # which then is below the rounding floor
         return state
     return replace(state, pressure=p, depth=depth, residual=residual, steps=state.steps + 1, tangent=None)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, is_numpy, namespace
+from roughcontact.arrays import Placed
 
 __all__ = ["Measure", "Preconditioned", "Products", "Projected"]
 
@@ -18,39 +18,56 @@ Mask = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Measure:
-    """Sums over cells weighted by their area; operators are symmetric under this inner product."""
+    """Sums over cells weighted by their area; operators are symmetric under this inner product.
+
+    It is made once per solve, and carries the array library of the fields.
+
+    Parameters
+    ----------
+    weights : float or array
+        Of an operator [m^2], on the host.
+    xp : module
+        The functions for the fields, by the names of the array API standard.
+    """
 
     weights: float | Array
+    xp: Any = np
     _placed: Placed | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         placed = Placed(self.weights) if isinstance(self.weights, np.ndarray) else None
         object.__setattr__(self, "_placed", placed)
 
-    def total(self, field: Array | Mask) -> float:
-        """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
-        weights = self._beside(field)
-        return float(_sum(weights * _number(field))) if self.varies else float(weights * float(_sum(field)))
-
-    def dot(self, a: Array, b: Array) -> float:
-        """Return the weighted inner product of two fields."""
-        first = self._beside(a) * a if self.varies else a
-        product = float(np.vdot(first, b)) if is_numpy(a) else float(_sum(first * b))
-        return product if self.varies else float(self.weights * product)
-
-    def mean(self, field: Array, mask: Mask) -> float:
-        """Return the weighted mean of a field over the cells of `mask`."""
-        if not is_numpy(field):
-            weights = self._beside(field) * _number(mask)
-            return float(_sum(weights * namespace(field).where(mask, field, 0.0))) / float(_sum(weights))
-        if isinstance(self.weights, np.ndarray):
-            return float(np.average(field[mask], weights=self.weights[mask]))
-        return float(field[mask].mean())
+    @property
+    def on_host(self) -> bool:
+        """Whether the fields are NumPy's, which SciPy and machine code can work on."""
+        return self.xp is np
 
     @property
     def varies(self) -> bool:
         """Whether the cells have different weights."""
-        return isinstance(self.weights, np.ndarray)
+        return self._placed is not None
+
+    def total(self, field: Array | Mask) -> float:
+        """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
+        numbers = self._number(field)
+        if self._placed is not None:
+            return float(self.xp.sum(self._placed.beside(numbers) * numbers))
+        return float(self.weights * float(self.xp.sum(numbers)))
+
+    def dot(self, a: Array, b: Array) -> float:
+        """Return the weighted inner product of two fields."""
+        first = a if self._placed is None else self._placed.beside(a) * a
+        product = float(np.vdot(first, b)) if self.on_host else float(self.xp.sum(first * b))
+        return product if self.varies else float(self.weights * product)
+
+    def mean(self, field: Array, mask: Mask) -> float:
+        """Return the weighted mean of a field over the cells of `mask`."""
+        if not self.on_host:
+            return self.total(self.xp.where(mask, field, 0.0)) / self.total(mask)
+        if isinstance(self.weights, np.ndarray):
+            return float(np.average(field[mask], weights=self.weights[mask]))
+        return float(field[mask].mean())
 
     def on(self, cells: npt.NDArray[np.intp]) -> Array:
         """Return the weights of `cells`, one each."""
@@ -58,11 +75,11 @@ class Measure:
             return self.weights.ravel()[cells]
         return np.full(len(cells), self.weights)
 
-    def _beside(self, field: Any) -> Any:
-        """Return the weights where the field lives."""
-        return (
-            self.weights if self._placed is None or is_numpy(field) else self._placed.beside(_number(field))
-        )
+    def _number(self, field: Any) -> Any:
+        """Return truth values as numbers, which other libraries than NumPy do not sum."""
+        if self.on_host or not self.xp.isdtype(field.dtype, "bool"):
+            return field
+        return self.xp.astype(field, self.xp.float64)
 
 
 class Preconditioned(NamedTuple):
@@ -129,15 +146,3 @@ class Projected(NamedTuple):
     lifted: float
     area: float
     force: float
-
-
-def _number(field: Any) -> Any:
-    """Return truth values as numbers."""
-    if is_numpy(field):
-        return field
-    xp = namespace(field)
-    return xp.astype(field, xp.float64) if xp.isdtype(field.dtype, "bool") else field
-
-
-def _sum(field: Any) -> Any:
-    return field.sum() if is_numpy(field) else namespace(field).sum(_number(field))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import reduce
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
@@ -27,25 +28,25 @@ def nested_start(
 
     On the coarsest cells that is no pressure.
     """
-    coarser = coarse_operator(operator, separation.shape)
+    coarser, xp = coarse_operator(operator, separation.shape), namespace(separation)
     if coarser is None:
-        return namespace(separation).zeros_like(separation), 0.0
+        return xp.zeros_like(separation), 0.0
     part, factors = coarser
-    control = elastic_control(operator, separation, control)
+    control = elastic_control(operator, separation, control, xp)
     blocks = block_separation(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
-        control = _reachable(control, separation, blocks)
+        control = _reachable(control, separation, blocks, xp)
     start = nested_start(part, blocks, control, solver)
     terms = Terms(control, tuning.COARSE_TOLERANCE)
     state, subdomain = SubdomainSolver(part).solve(solver, blocks, terms, start)
-    return _interpolated(prolong(state.pressure, subdomain, blocks.shape), factors, separation), state.depth
+    coarse = prolong(state.pressure, subdomain, blocks.shape)
+    return _interpolated(coarse, factors, separation, xp), state.depth
 
 
-def _interpolated(coarse: Array, factors: tuple[int, ...], separation: Array) -> Array:
+def _interpolated(coarse: Array, factors: tuple[int, ...], separation: Array, xp: Any) -> Array:
     """Return the pressure of blocks on their cells, constant in each, zero where a cell is missing."""
-    xp = namespace(separation)
     # Only where there is some; elsewhere than on the host a box costs a transfer. Planes are large.
-    some = bounding_box(coarse > 0) if is_numpy(coarse) else None
+    some = bounding_box(coarse > 0) if xp is np else None
     blocks = tuple(slice(0, n) for n in coarse.shape) if some is None else some
     fine, there = coarse[blocks], []
     for axis, (part, factor, n) in enumerate(zip(blocks, factors, separation.shape, strict=True)):
@@ -70,12 +71,11 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
     return None if coarse is None else (coarse, factors)
 
 
-def _reachable(depth: Depth, fine: Array, coarse: Array) -> Depth:
+def _reachable(depth: Depth, fine: Array, coarse: Array, xp: Any) -> Depth:
     """Return a depth as far from full contact on the coarse cells as on the fine ones.
 
     Otherwise the coarse problem might have no solution: its highest cells stand higher above its mean.
     """
-    xp = namespace(fine)
     if bool(xp.any(xp.isinf(fine))) or not bool(xp.any(fine != 0)):
         return depth
     return Depth(depth.value * min(1.0, float(xp.mean(coarse) / xp.mean(fine))))

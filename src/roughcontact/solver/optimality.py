@@ -8,19 +8,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.operator import Operator, self_influence
 from roughcontact.kernels import loader, planes
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 
-__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "predict_free_set"]
+__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -109,6 +109,7 @@ class Optimality:
     ----------
     terms : Terms
     measure : Measure
+        It carries the array library.
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     """
@@ -118,9 +119,9 @@ class Optimality:
     self_influence: float
 
     @classmethod
-    def of(cls, operator: Operator, terms: Terms) -> Optimality:
-        """Return the conditions for an operator and what is asked."""
-        return cls(terms, Measure(operator.weights), self_influence(operator))
+    def of(cls, operator: Operator, terms: Terms, xp: Any = np) -> Optimality:
+        """Return the conditions for an operator and what is asked, on fields of an array library."""
+        return cls(terms, Measure(operator.weights, xp), self_influence(operator))
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
@@ -142,7 +143,7 @@ class Optimality:
         is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It speaks of the algebra,
         not of the grid.
         """
-        xp, hardness = namespace(pressure), self.terms.hardness
+        xp, hardness = self.measure.xp, self.terms.hardness
         # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
         strongest = float(xp.max(pressure))
         if not (float(xp.min(pressure)) >= 0 and strongest <= hardness and strongest < math.inf):
@@ -166,6 +167,30 @@ class Optimality:
         floor = UNITS * self.self_influence * strongest if isinstance(self.terms.control, Force) else 0.0
         return min(relative, UNITS) if violation <= floor else relative
 
+    def predict_free_set(
+        self, iterate: Iterate, *, depth: float, allowed: float, projected: bool = False
+    ) -> PredictedSet:
+        """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
+
+        If `projected`, those with ``A_ii p < g`` are left out: one projected step of the cell alone leaves no pressure
+        on them. Cells at the hardness are free where their gap is more than is allowed.
+        """
+        (pressure, displacement, separation), terms = iterate, self.terms
+        own = self.self_influence if projected else math.inf
+        if iterate.fits_machine_code(terms.hardness):
+            free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=own)
+            return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
+        xp, carrying = self.measure.xp, pressure > 0
+        gap = displacement + separation - depth
+        free, dropped = carrying | (gap < -allowed), 0
+        if terms.hardness < math.inf:
+            upper = pressure >= terms.hardness
+            free = (free & ~upper) | (upper & (gap > allowed))
+        if projected:
+            tensile = free & (pressure * own < gap)
+            free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
+        return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)
+
     def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
         seen, depth = planes.extremes(*iterate), self.terms.depth
         if seen is None or (not seen.count and depth is None):
@@ -177,29 +202,3 @@ class Optimality:
             violation = max(depth - seen.lowest, seen.highest - depth)
             residual = self.relative(violation, seen.displacement, seen.strongest)
         return Evaluation(depth, residual, seen.displacement, seen)
-
-
-def predict_free_set(
-    terms: Terms, iterate: Iterate, *, depth: float, allowed: float, self_influence: float = math.inf
-) -> PredictedSet:
-    """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
-
-    With a finite self-influence A_ii [m/Pa] those with ``A_ii p < g`` are left out: one projected step of the cell
-    alone leaves no pressure on them. Cells at the hardness are free where their gap is more than is allowed.
-    """
-    pressure, displacement, separation = iterate
-    if iterate.fits_machine_code(terms.hardness):
-        free, count, dropped = planes.predict_active(
-            *iterate, depth=depth, least=-allowed, own=self_influence
-        )
-        return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
-    xp, carrying = namespace(pressure), pressure > 0
-    gap = displacement + separation - depth
-    free, dropped = carrying | (gap < -allowed), 0
-    if terms.hardness < math.inf:
-        upper = pressure >= terms.hardness
-        free = (free & ~upper) | (upper & (gap > allowed))
-    if self_influence < math.inf:
-        tensile = free & (pressure * self_influence < gap)
-        free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
-    return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)

@@ -37,8 +37,9 @@ def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Ar
 
 def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: PolonskyKeer) -> tuple[Array, int]:
     """Return a pressure whose force is nearly the one prescribed, and the products that it took."""
-    measure, force = Measure(operator.weights), terms.control.value
-    pressure, steps = namespace(separation).zeros_like(separation), 0
+    conditions = Optimality.of(operator, terms, namespace(separation))
+    measure, force = conditions.measure, terms.control.value
+    pressure, steps = measure.xp.zeros_like(separation), 0
 
     def excess(depth: float) -> float:
         nonlocal pressure, steps
@@ -47,8 +48,8 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         return measure.total(pressure) / force - 1
 
     # At least what the hardness does to a single cell: a flat body bears at depth zero, which cannot be doubled.
-    own = Optimality.of(operator, terms).self_influence
-    low, high = 0.0, max(_bearing_depth(measure, separation, force / terms.hardness), own * terms.hardness)
+    bearing, own = _bearing_depth(measure, separation, force / terms.hardness), conditions.self_influence
+    low, high = 0.0, max(bearing, own * terms.hardness)
     below, above = -1.0, excess(high)
     for _ in range(tuning.DEPTH_TRIALS):
         if above >= 0:
@@ -73,7 +74,7 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
 
 def _bearing_depth(measure: Measure, separation: Array, area: float) -> float:
     """Return the depth at which the undeformed surface would bear on an area [m]."""
-    xp = namespace(separation)
+    xp = measure.xp
     low, high = 0.0, float(xp.max(xp.where(xp.isfinite(separation), separation, 0.0)))
     for _ in range(60):  # by bisection: cells are many, bisections are few
         middle = (low + high) / 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +12,6 @@ from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.control import State, Status, Terms
-from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
 from roughcontact.validation import require_numbers
@@ -70,10 +70,10 @@ class PolonskyKeer:
         State
             Pressure, depth, status, residual and number of products.
         """
-        measure = Measure(operator.weights)
-        optimality = Optimality.of(operator, terms)
-        self_influence, hardness, given = optimality.self_influence, terms.hardness, terms.depth
         xp = namespace(separation)
+        optimality = Optimality.of(operator, terms, xp)
+        measure = optimality.measure
+        self_influence, hardness, given = optimality.self_influence, terms.hardness, terms.depth
         if hardness == np.inf:
             p = feasible_start(measure, separation, terms.control, initial, self_influence)
         else:  # projected, not scaled: cells at the hardness stay there
@@ -94,7 +94,7 @@ class PolonskyKeer:
                 g -= shift
                 d += shift
             elif singular and bool(xp.all(free)):
-                p = _to_bound(p, hardness, float(xp.mean(g)))
+                p = _to_bound(p, hardness, float(xp.mean(g)), xp)
                 free = (p > 0) & (p < hardness)
             r = optimality.residual(p, u, g)
             idle = 0 if r < best else idle + 1
@@ -135,13 +135,12 @@ class PolonskyKeer:
                 p = project(measure, p, g, terms)
 
 
-def _to_bound(pressure: Array, hardness: float, gap: float) -> Array:
+def _to_bound(pressure: Array, hardness: float, gap: float, xp: Any) -> Array:
     """Return a pressure off its bounds, with a constant added that takes one cell to zero or to the hardness.
 
     At a given depth a periodic body in full contact has no equilibrium between the bounds: its mean `gap` is what the
     depth leaves, whatever the pressure, and a constant pressure moves nothing.
     """
-    xp = namespace(pressure)
     if gap > 0 or hardness == np.inf:
         return pressure - xp.min(pressure)  # type: ignore[no-any-return]
     strongest = xp.max(pressure)

@@ -161,11 +161,13 @@ def prescribe(
         inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
         start = None if start is None else restrict(start, subdomain)
     with one_blas_thread():
-        pressure, residual, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps)
+        pressure, residual, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps, xp)
         # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
-        work = Measure(part.weights).dot(pressure, wanted + residual)
+        work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
-    return Prescribed(whole, Measure(operator.weights).total(whole), work, largest(residual) / size, steps)
+    return Prescribed(
+        whole, Measure(operator.weights, xp).total(whole), work, largest(residual) / size, steps
+    )
 
 
 def _subdomain(operator: Operator, region: Mask) -> Subdomain | None:
@@ -207,10 +209,16 @@ def _check(name: str, given: Any, region: Mask) -> None:
 
 
 def _solve(
-    operator: Operator, region: Mask, wanted: Array, start: Array | None, limit: float, max_steps: int
+    operator: Operator,
+    region: Mask,
+    wanted: Array,
+    start: Array | None,
+    limit: float,
+    max_steps: int,
+    xp: Any,
 ) -> tuple[Array, Array, int]:
     """Return pressure, residual by an exact product [m], and number of products: iterative refinement (D1 to D5)."""
-    xp, before = namespace(wanted), math.inf
+    before = math.inf
     inner: InnerOperator | None = None
     pressure, u, exact, steps = xp.zeros_like(wanted), xp.zeros_like(wanted), True, 0
     if start is not None:
@@ -237,8 +245,9 @@ def _solve(
             inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
         part = inner.scaled(inner.gather(r) / error)  # so that single precision holds all numbers
-        measure, base = Measure(inner.weights), namespace(part).zeros_like(part)
-        vectors = vectors_on(inner, measure, inner.gather(region), part, base)
+        vectors = vectors_on(
+            inner, Measure(inner.weights, xp), inner.gather(region), part, xp.zeros_like(part)
+        )
         _, done = conjugate_gradients(  # D3
             inner,
             vectors,

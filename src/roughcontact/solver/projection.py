@@ -5,10 +5,11 @@ The projection onto the simplex of given force is that of Michelot (J. Optim. Th
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
@@ -28,20 +29,19 @@ def force_multiplier(measure: Measure, level: Array, pressure: Array, free: Mask
     That is the mean of the `level` u + f over them (Polonsky and Keer 1999). Without any it is the smallest depth at
     which the gap is not positive under the hardness.
     """
-    xp = namespace(level)
+    xp = measure.xp
     if bool(xp.any(free)):
         return measure.mean(level, free)
     return float(xp.max(xp.where(pressure > 0, level, -np.inf)))
 
 
-def elastic_control(operator: Operator, separation: Array, control: Control) -> Control:
+def elastic_control(operator: Operator, separation: Array, control: Control, xp: Any) -> Control:
     """Return what is prescribed, or the largest depth of an elastic body if that is less.
 
     A periodic one without missing cells goes no deeper than its mean separation, where contact is full.
     """
     if isinstance(control, Force) or not is_semidefinite(operator):
         return control
-    xp = namespace(separation)
     mean = float(xp.mean(separation))  # infinite with missing cells, which may bulge
     return control if control.value <= mean else Depth(mean)
 
@@ -54,7 +54,7 @@ def feasible_start(
     Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
     them alone by the depth.
     """
-    xp = namespace(separation)
+    xp = measure.xp
     p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
     if not bool(xp.any(p > 0)):
         lowest = separation == xp.min(separation)
@@ -69,7 +69,7 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
 
     Where cells without pressure have to carry some, those of the smallest `gap` do.
     """
-    hardness, xp = terms.hardness, namespace(pressure)
+    hardness, xp = terms.hardness, measure.xp
     if not isinstance(terms.control, Force):
         return xp.clip(pressure, 0.0, hardness)  # type: ignore[no-any-return]
     force = terms.control.value
@@ -91,7 +91,7 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
 
 def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask:
     """Return the cells without pressure of the smallest gap, as many as have twice the `area`."""
-    xp = namespace(gap)
+    xp = measure.xp
     free = (pressure == 0) & xp.isfinite(gap)
     # The gap up to which the cells are enough, by bisection: cells are many, bisections are few.
     low, high = float(xp.min(xp.where(free, gap, np.inf))), float(xp.max(xp.where(free, gap, -np.inf)))
@@ -110,7 +110,7 @@ def _project_onto_simplex(measure: Measure, pressure: Array, force: float) -> Ar
     The nearest is ``max(pressure - shift, 0)``; each pass finds the shift for the cells that are left.
     """
     if measure.total(pressure) > force:
-        xp = namespace(pressure)
+        xp = measure.xp
         left = pressure > 0
         while True:
             shift = (measure.total(xp.where(left, pressure, 0.0)) - force) / measure.total(left)

@@ -8,37 +8,40 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import namespace
-from roughcontact.halfspace.operators.operator import Operator, exact_of
-from roughcontact.solver.complementarity import resolve_contact
-from roughcontact.solver.control import Solver, State, Status, Terms
+from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.solver.control import Solver, State, Status
 from roughcontact.solver.optimality import Iterate, Optimality
 
-__all__ = ["solve_refined"]
+__all__ = ["defect_correction"]
 
 Array = npt.NDArray[np.float64]
 
 
-def solve_refined(
-    solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
+def defect_correction(
+    solver: Solver,
+    operator: Operator,
+    exact: Operator,
+    separation: Array,
+    conditions: Optimality,
+    initial: Array,
 ) -> State:
-    """Run a solver with the operator or, where its sum is not exact, by defect correction (D1 to D5)."""
-    exact = exact_of(operator)
+    """Run a solver with an inexact sum until the residual with the exact one is small (D1 to D5).
 
-    def run(terms: Terms, initial: Array) -> State:
-        if exact is operator:
-            return solver.run(operator, separation, terms, initial)
-        return _corrected(solver, operator, separation, terms, initial)
-
-    return resolve_contact(run, exact, separation, terms, initial)
-
-
-def _corrected(solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-    """Add the defect of the inexact sum to the separation and solve again, until the exact residual is small."""
-    exact = exact_of(operator)
-    conditions = Optimality.of(exact, terms)
+    Parameters
+    ----------
+    solver : Solver
+    operator, exact : Operator
+        The body with the inexact sum, and with the exact one.
+    separation : array
+        Undeformed gap [m].
+    conditions : Optimality
+        Of the problem with the exact sum.
+    initial : array
+        Pressure to begin with [Pa].
+    """
+    terms = conditions.terms
     inner = replace(terms, tolerance=terms.tolerance / 2)
-    defect, pressure, steps, best = namespace(separation).zeros_like(separation), initial, 0, math.inf
+    defect, pressure, steps, best = conditions.measure.xp.zeros_like(separation), initial, 0, math.inf
     while True:
         # D1: the inexact problem, on which the defect acts as a part of the separation
         state = solver.run(operator, separation + defect, inner, pressure)

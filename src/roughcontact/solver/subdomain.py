@@ -16,9 +16,9 @@ from roughcontact.arrays import is_numpy
 from roughcontact.halfspace.operators.operator import Capabilities, Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
+from roughcontact.solver.complementarity import resolve_contact
 from roughcontact.solver.control import Solver, State, Terms
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.refinement import solve_refined
 
 __all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict"]
 
@@ -88,7 +88,7 @@ class SubdomainSolver:
         if not (self._can.positive and is_numpy(separation)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
-            return solve_refined(solver, self.operator, separation, terms, pressure), whole
+            return resolve_contact(solver, self.operator, separation, terms, pressure), whole
         candidates = (separation < depth) | (pressure > 0)
         if not candidates.any():
             candidates = separation == separation.min()
@@ -98,7 +98,7 @@ class SubdomainSolver:
         while True:
             subdomain = self._subdomain(candidates)
             part = self.operator_on(subdomain)
-            state = solve_refined(
+            state = resolve_contact(
                 solver, part, restrict(separation, subdomain), terms, restrict(pressure, subdomain)
             )
             steps += state.steps

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import largest
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
 from roughcontact.kernels.constants import NEVER, ROUNDINGS
@@ -64,7 +64,7 @@ class ArrayVectors:
         upper: Mask | None = None,
         bound: float = math.inf,
     ) -> None:
-        xp = self._xp = namespace(residual)
+        xp = self._xp = measure.xp
         self.free, self.r = xp.astype(free, residual.dtype), residual
         self.correction, self.s, self.q = xp.zeros_like(residual), xp.zeros_like(residual), residual
         self._inner, self._measure, self._base, self._bound = inner, measure, base, bound
@@ -253,7 +253,7 @@ def scaled_vectors(
     if _has_machine_code(separation, measure, bound):
         area = float(measure.weights)
         return CompiledVectors.scaled(inner, area, free, iterate, depth=terms.depth, otherwise=otherwise)
-    xp = namespace(separation)
+    xp = measure.xp
     level = separation + displacement
     depth = measure.mean(level, free) if terms.depth is None else terms.depth
     unit = largest((depth - level)[free]) or otherwise or 1.0
