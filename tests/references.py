@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import roughcontact as rc
+from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.solve import solve
 
 STORE = Path(__file__).with_name("references.npz")
 COUNT = 200

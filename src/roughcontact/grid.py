@@ -130,7 +130,30 @@ class Grid:
             Cells of the same size, free along every axis.
         """
         shape = tuple(len(range(*part.indices(n))) for part, n in zip(slices, self.shape, strict=True))
-        return Grid(shape, self.spacing, periodic=False)
+        return self._of_cells(shape, self.spacing)
+
+    def listed(self, count: int) -> Grid:
+        """Return the line whose cells are some of these, each as long as a cell is large.
+
+        Parameters
+        ----------
+        count : int
+            How many, at least one.
+
+        Returns
+        -------
+        Grid
+            Of one axis; the spacing is the area of a cell [m^2].
+        """
+        return self._of_cells((count,), (self.cell_area,))
+
+    @classmethod
+    def _of_cells(cls, shape: tuple[int, ...], spacing: tuple[float, ...]) -> Grid:
+        """Return a free grid of cells that have been checked: a solve makes some."""
+        grid = object.__new__(cls)
+        for name, value in (("shape", shape), ("spacing", spacing), ("periodic", (False,) * len(shape))):
+            object.__setattr__(grid, name, value)
+        return grid
 
 
 @dataclass(frozen=True, slots=True, eq=False)

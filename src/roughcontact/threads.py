@@ -85,7 +85,7 @@ def limit_threads(count: int) -> Iterator[None]:
 def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> None:
     """Do some work on all items, on several threads if there are any, and at least so many items.
 
-    What is done to one item must not hang on what is done to another: so it does not hang on the number of threads.
+    What is done to one item must not depend on what is done to another; then nothing depends on the number of threads.
     If this is interrupted, others may still be at work: `work` must hold what they look at.
     """
     count = min(threads(), len(items))

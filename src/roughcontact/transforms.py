@@ -76,7 +76,7 @@ class Convolution:
 
     def _kernel(self) -> Array:
         """Return the multiplier, from what was made of it in double precision if that is all there is."""
-        multiplier = self._multiplier  # another thread may let go of it meanwhile
+        multiplier = self._multiplier  # another thread may drop it meanwhile
         if multiplier is not None:
             return multiplier
         found: Array = next(

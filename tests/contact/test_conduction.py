@@ -93,11 +93,11 @@ def test_a_curve_under_a_hardness_does_not_know():
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)
-    with pytest.raises(ValueError, match="the cells that give way conduct"):
+    with pytest.raises(ValueError, match="the plastic cells conduct"):
         rc.conductance(curve, resistivities=(1e-8, 1e-8))
     dataset = curve.to_dataset()
     assert dataset.hardness == 1e10
-    with pytest.raises(ValueError, match="the cells that give way conduct"):
+    with pytest.raises(ValueError, match="the plastic cells conduct"):
         with_conductance(dataset, Conductors((1e-8, 1e-8)))
     with pytest.raises(ValueError, match="of must be"):
         with_conductance(dataset, Conductors((1e-8, 1e-8)), of="depth")

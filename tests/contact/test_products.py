@@ -6,8 +6,8 @@ import pytest
 import products
 import roughcontact as rc
 from products import CASES, LOADS, PROJECTED, Task, count
+from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
-from roughcontact.contact.solve import solve
 
 # Between kernels of BLAS, and processors that machine code is made for, rounding moved no count by more than one or
 # 1.6 %. A wrong start costs more, in some of the cases.

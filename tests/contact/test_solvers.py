@@ -7,8 +7,7 @@ import oracles
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.press import make_problem
-from roughcontact.contact.solve import solve
+from roughcontact.contact.press import make_problem, solve
 
 SOLVERS = {
     "active set": rc.ActiveSet(),

@@ -10,8 +10,8 @@ import pytest
 
 import roughcontact as rc
 from libraries import LIBRARIES
+from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.solve import solve
 from roughcontact.solver.complementarity import FINEST
 
 MODULUS = 3e9

@@ -219,7 +219,7 @@ def test_varying_weights(control):
 @pytest.mark.usefixtures("without_machine_code")
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_hardness(control):
-    """Cells that give way are free where their gap is more than is allowed, and tell no depth."""
+    """Plastic cells are free where their gap is more than is allowed, and tell no depth."""
     operator, rng = plane((5, 7)), np.random.default_rng(4)
     terms = Terms(CONTROLS[control].control, hardness=0.5)
     p, s = np.minimum(rng.random((5, 7)), 0.5) * (rng.random((5, 7)) < 0.7), rng.random((5, 7))

@@ -117,7 +117,7 @@ def conductance(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
         )
     if isinstance(contact, Solution) and contact.problem.hardness < math.inf:
-        # What gives way conducts as well: the stiffness of the whole region, as if it were elastic.
+        # Plastic cells conduct as well: the stiffness of the whole region, as if it were elastic.
         elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
@@ -140,7 +140,7 @@ def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = 
     Raises
     ------
     ValueError
-        If the dataset is not that of a curve, or that of a line contact or of a body that gives way.
+        If the dataset is not that of a curve, or that of a line contact or of a plastic body.
     """
     stiffness = _stiffness_for(of)
     missing = [name for name in ("force", stiffness, "modulus") if name not in dataset]
@@ -160,13 +160,13 @@ def _stiffness_for(of: str) -> str:
 
 
 def _require_conducting(geometry: Geometry, yielding: bool) -> None:
-    """Refuse a curve that does not say what its contact conducts: that of a line, or of a body that gives way."""
+    """Refuse a curve that does not say what its contact conducts: that of a line, or of a plastic body."""
     if geometry is Geometry.LINE:
         raise ValueError(
             "a line contact has no conductance of its own: it depends on how far away the bodies end"
         )
     if yielding:
         raise ValueError(
-            "under a hardness the cells that give way conduct, but the stiffness of a curve leaves them out: take "
+            "under a hardness the plastic cells conduct, but the stiffness of a curve leaves them out: take "
             "the conductance of each solution of loading_path"
         )

@@ -9,10 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import SUGGESTED, SUGGESTED_ON_LINES, Curve, collect, length_scale
-from roughcontact.contact.press import control_of, grid_of, make_problem
+from roughcontact.contact.press import control_of, grid_of, lock, make_problem, solve_state
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.solve import lock, solve_state
 from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry

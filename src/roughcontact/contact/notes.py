@@ -26,7 +26,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     yielding, in_contact = int(count(solution.pressure >= problem.hardness)), int(count(solution.contact))
     if yielding:
         notes.append(
-            f"{yielding} of {in_contact} cells in contact are under the hardness: they give way, and the "
+            f"{yielding} of {in_contact} cells in contact are at the hardness: they are plastic, and the "
             "stiffness is that of the others."
         )
     if solution.missing:

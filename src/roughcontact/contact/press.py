@@ -1,23 +1,34 @@
-"""The front door: press a surface at one load."""
+"""One load: from a surface to a problem, and from a problem to its solution."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.solve import solve
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid, as_modulus
-from roughcontact.solver.control import Control, Depth, Force, Solver
+from roughcontact.solver.active_set import ActiveSet
+from roughcontact.solver.control import Control, Depth, Force, Solver, State, Status
+from roughcontact.solver.nested_iteration import nested_start
+from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
+from roughcontact.threads import one_blas_thread
 from roughcontact.validation import scalar
 
-__all__ = ["press"]
+__all__ = ["lock", "press", "solve", "solve_state"]
+
+Array = npt.NDArray[np.float64]
+
+_DEFAULT = ActiveSet()
 
 
 def press(
@@ -129,3 +140,57 @@ def control_of(
     if not (math.isfinite(pressure) and pressure > 0):
         raise ValueError(f"the pressure must be positive and finite [Pa], not {pressure}")
     return Force(pressure * grid.area)
+
+
+def solve(
+    problem: ContactProblem,
+    *,
+    solver: Solver | None = None,
+    initial: tuple[Array, float] | None = None,
+    subdomains: SubdomainSolver | None = None,
+) -> Solution:
+    """Return the solution of a contact problem; its status says whether the tolerance was met.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+    solver : Solver, optional
+        Settings of the method; the active set without.
+    initial : tuple of array and float, optional
+        Pressure [Pa] on the whole grid and depth [m] to start from; without, coarser grids are solved first.
+    subdomains : SubdomainSolver, optional
+        Keeps restricted operators from one load to the next.
+    """
+    state, subdomain = solve_state(
+        problem, solver or _DEFAULT, initial, subdomains or SubdomainSolver(problem.operator)
+    )
+    pressure = prolong(state.pressure, subdomain, problem.grid.shape)
+    lock(pressure)
+    return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps)
+
+
+def solve_state(
+    problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, subdomains: SubdomainSolver
+) -> tuple[State, Subdomain]:
+    """Return the solver's last state on its window, and where that lies."""
+    if isinstance(solver, type) or not hasattr(solver, "run"):
+        raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
+    if isinstance(problem.control, Depth) and problem.control.value == 0:
+        return _untouched(problem)
+    with one_blas_thread():
+        guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)
+        return subdomains.solve(solver, problem.separation, problem.terms, guess)
+
+
+def lock(pressure: Array) -> None:
+    """Make an answer read-only, where its library can."""
+    if is_numpy(pressure):
+        pressure.flags.writeable = False
+
+
+def _untouched(problem: ContactProblem) -> tuple[State, Subdomain]:
+    """At depth 0 the bodies touch and carry nothing."""
+    shape = problem.grid.shape
+    zero = problem.measure.xp.zeros_like(problem.separation)
+    whole = tuple(slice(0, n) for n in shape)
+    return State(zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole

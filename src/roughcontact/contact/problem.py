@@ -62,7 +62,7 @@ class ContactProblem:
     modulus : float
         Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
     hardness : float
-        Pressure that no cell exceeds [Pa]: there the body gives way, and the flat may stand below its surface.
+        Pressure that no cell exceeds [Pa]: there the body is perfectly plastic; the flat may stand below its surface.
 
     Raises
     ------
@@ -107,7 +107,7 @@ class ContactProblem:
         if not (isinstance(self.control, Depth) and self.semidefinite) or self.missing:
             return  # missing cells never touch and may bulge: contact is never full
         if self.hardness < math.inf:
-            return  # a body that gives way can be pressed to any depth
+            return  # a plastic body can be pressed to any depth
         mean = self.mean_separation
         if self.control.value > mean * (1 + ROUNDING):
             raise ValueError(

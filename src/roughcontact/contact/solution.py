@@ -108,7 +108,7 @@ class Solution:
 
     @cached_property
     def mean_gap(self) -> float:
-        """Mean of the deformed gap over the measured cells [m], at this depth; cells that give way count below zero."""
+        """Mean of the deformed gap over the measured cells [m], at this depth; plastic cells count below zero."""
         undeformed = self.problem.mean_separation
         mean = self._mean_displacement(self.pressure) + undeformed - self.depth
         if self._moves_no_mean:

@@ -91,7 +91,7 @@ class Terms:
     tolerance : float
         Largest residual of a solution, see `roughcontact.solver.optimality`.
     hardness : float
-        Pressure that no cell exceeds [Pa]; a cell that reaches it gives way instead.
+        Pressure that no cell exceeds [Pa]; a cell that reaches it is perfectly plastic.
     """
 
     control: Control

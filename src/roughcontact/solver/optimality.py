@@ -140,8 +140,8 @@ class Optimality:
         """Return the largest violation of the conditions, relative to the largest displacement.
 
         That is the largest of ``|g|`` where ``0 < p < H``, of ``-g`` where ``p = 0``, and of ``g`` where ``p = H``. It
-        is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It speaks of the algebra,
-        not of the grid.
+        is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It measures the error of
+        the algebra, not that of the grid.
         """
         xp, hardness = self.measure.xp, self.terms.hardness
         # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.

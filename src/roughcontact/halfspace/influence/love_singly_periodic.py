@@ -110,7 +110,7 @@ def repeated_love(
     period : float
         Distance of the images [m], at least the cell's side along the row.
     reference_length : float
-        Distance from the row at which its displacement vanishes on the mean [m].
+        Distance from the row at which its mean displacement along the row vanishes [m].
 
     Notes
     -----
@@ -217,7 +217,7 @@ def _mean_powers(x: Array, side: float, period: float) -> Array:
 
 
 def _waves(x: Array, y: Array, cell: tuple[float, float], period: float) -> Array:
-    """Return -2 ln(x) on the mean along the row, and the waves along it, each of which decays as K0.
+    """Return -2 ln(x), the mean along the row, and the waves along it, each of which decays as K0.
 
     K0(z) is the integral of exp(-z cosh t) over t > 0, and so its integral over any side is one of exponentials.
     """

@@ -1,4 +1,4 @@
-"""How far a uniformly loaded ring displaces another on the mean, for rings of any widths."""
+"""Mean displacement of a ring under a uniform pressure on another, for rings of any widths."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def ring_matrix(edges: Array) -> Array:
     Returns
     -------
     array, shape (n, n)
-        Entry (j, i): a pressure p on ring i displaces ring j by ``p/(pi E*)`` times it on the mean.
+        Entry (j, i): a pressure p on ring i gives ring j a mean displacement of ``p/(pi E*)`` times it.
 
     Notes
     -----

@@ -10,8 +10,7 @@ from roughcontact.halfspace.influence.love_singly_periodic import SinglyPeriodic
 from roughcontact.halfspace.influence.ring_influence import ring_matrix
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
-from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
-from roughcontact.halfspace.operators.methods import Sum, summed
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.material import Solid, as_modulus
 from roughcontact.validation import numeric
@@ -77,7 +76,7 @@ def half_space(
         operator = InfluenceOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
     if method == "dense":
         return DenseOperator(grid, operator.as_matrix(), operator.positive, value)
-    return summed(operator, method)
+    return operator.summed(method)
 
 
 @numeric

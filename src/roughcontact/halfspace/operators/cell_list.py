@@ -61,7 +61,7 @@ class CellsOperator:
         """Return the operator between `cells` (flat indices; all without) of a grid of two axes."""
         flat = np.arange(grid.size) if cells is None else cells
         rows, columns = np.divmod(flat, grid.shape[1])
-        return cls(Grid(max(1, len(flat)), grid.cell_area), influence, rows, columns, positive, plane)
+        return cls(grid.listed(max(1, len(flat))), influence, rows, columns, positive, plane)
 
     @cached_property
     def _particle_mesh(self) -> ListParticleMesh | None:
@@ -90,21 +90,22 @@ class CellsOperator:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
         pairs = len(loaded) * len(pressure)
-        table = 0.0 if self.influence.has(self._reach) else PAIRS_PER_ENTRY * math.prod(self._reach)
+        reach = spans(self.rows, self.columns)  # shape of the table that would hold every offset
+        table = 0.0 if self.influence.has(reach) else PAIRS_PER_ENTRY * math.prod(reach)
         if pairs < max(PAIRS_FOR_TILES, table) or not loader.is_available():
-            return self._by_cells(pressure, loaded)
+            return self._by_cells(pressure, loaded, reach)
         sums = (len(loaded) + len(self._tiles)) * len(self._tiles)  # a tile without load is looked at too
         if self.plane is not None and sums > TILE_SUMS_PER_CELL * math.prod(self.plane.grid.shape):
             return self._by_the_plane(pressure, loaded)
         return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
 
-    def _by_cells(self, pressure: Array, loaded: Cells) -> Array:
+    def _by_cells(self, pressure: Array, loaded: Cells, reach: tuple[int, int]) -> Array:
         p = pressure[loaded]
         displacement = np.empty(len(pressure))
         for part in blocks(len(self.rows), len(loaded)):
             down = self.rows[part, None] - self.rows[loaded]
             across = self.columns[part, None] - self.columns[loaded]
-            displacement[part] = self.influence.at(down, across, self._reach) @ p
+            displacement[part] = self.influence.at(down, across, reach) @ p
         return displacement
 
     def _by_the_plane(self, pressure: Array, loaded: Cells) -> Array:
@@ -124,7 +125,7 @@ class CellsOperator:
 
     def submatrix(self, cells: Cells) -> CellsOperator:
         """Return the map between some cells of the list."""
-        grid = Grid(max(1, len(cells)), self.grid.spacing)
+        grid = self.grid.listed(max(1, len(cells)))
         rows, columns = self.rows[cells], self.columns[cells]
         return CellsOperator(grid, self.influence, rows, columns, self.positive, self.plane)
 
@@ -136,8 +137,3 @@ class CellsOperator:
     @cached_property
     def _sum(self) -> DirectSum:
         return DirectSum.over(self._tiles, self.influence, "float64")
-
-    @cached_property
-    def _reach(self) -> tuple[int, int]:
-        """Shape of the table that would hold every offset of the list."""
-        return spans(self.rows, self.columns)

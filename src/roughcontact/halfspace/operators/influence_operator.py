@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -18,13 +18,15 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.halfspace.sums.fourier_sum import fourier_sum, inverse_sum
 from roughcontact.halfspace.sums.local_inverse import LocalInverse, local_inverse
+from roughcontact.halfspace.sums.moving_grid import MovingGrid
 from roughcontact.halfspace.sums.multilevel import Multilevel
 from roughcontact.halfspace.sums.particle_mesh import ParticleMesh, particle_mesh_on
 
-__all__ = ["InfluenceOperator"]
+__all__ = ["InfluenceOperator", "Sum"]
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
+Sum = Literal["fft", "moving-grid", "multilevel"]
 
 
 class CellSum(Protocol):
@@ -59,6 +61,23 @@ class InfluenceOperator:
     positive: bool = True
     constant: float = 0.0
     summation: Callable[[Any, Grid], CellSum] = fourier_sum
+
+    def summed(self, method: str) -> InfluenceOperator:
+        """Return the same body with its sum done by another method: "fft", "moving-grid" or "multilevel".
+
+        Raises
+        ------
+        ValueError
+            If there is no such method, or the body is periodic and the method needs a free one.
+        """
+        if method not in get_args(Sum):
+            names = ", ".join(map(repr, get_args(Sum)))
+            raise ValueError(f"method must be one of {names}, or 'dense' on a plane, not {method!r}")
+        if method == "fft":
+            return self
+        if any(self.grid.periodic):
+            raise ValueError(f"the method {method!r} is for free grids; a periodic one is summed by 'fft'")
+        return replace(self, summation=MovingGrid if method == "moving-grid" else Multilevel())
 
     @property
     def exact(self) -> InfluenceOperator | None:

@@ -12,8 +12,7 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
-from roughcontact.halfspace.operators.methods import Sum, summed
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.material import Solid, as_modulus
 from roughcontact.validation import numeric
@@ -158,7 +157,7 @@ def line(
             )
         kernel = Strip(plane.spacing, value, reference)
     body = InfluenceOperator(plane, Tables(kernel, plane.shape), positive=isinstance(kernel, Strip))
-    return LineOperator(summed(body, method))
+    return LineOperator(body.summed(method))
 
 
 def _plane(grid: Grid) -> Grid:

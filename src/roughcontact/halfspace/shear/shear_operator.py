@@ -15,8 +15,7 @@ from roughcontact.halfspace.influence.shear_influence import (
     TensorTables,
 )
 from roughcontact.halfspace.operators.dense import DenseOperator
-from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
-from roughcontact.halfspace.operators.methods import Sum, summed
+from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.material import Bodies, Solid, pair_of, reduced_modulus
 
 __all__ = ["ShearOperator", "dense_shear", "dundurs_parameter", "shear_compliance", "shear_half_space"]
@@ -143,7 +142,7 @@ def shear_half_space(
     operator = InfluenceOperator(grid, TensorTables(tensor), positive=False)
     if method == "dense":
         return dense_shear(grid, operator.as_matrix())
-    return summed(operator, method)
+    return operator.summed(method)
 
 
 def dense_shear(grid: Grid, matrix: Array) -> ShearOperator:
