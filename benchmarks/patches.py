@@ -16,7 +16,7 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
-from roughcontact.solver.inner_operator import InnerOperator, SingleFullGrid
+from roughcontact.solver.inner_operator import FullGrid, InnerOperator
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
@@ -69,7 +69,8 @@ def main() -> None:
             operator = rc.half_space(grid, 1.0)
             rough = rc.self_affine(grid, 0.8, 1.0, np.random.default_rng(0)).heights
             regions = [summits(rough, part) for part in PARTS]
-            row = [least(lambda: operator.apply(rough)), step(SingleFullGrid(operator), regions[-1], rough)]  # noqa: B023
+            row = [least(lambda: operator.apply(rough))]  # noqa: B023
+            row += [step(FullGrid(operator, single=True), regions[-1], rough)]
             row += [step(operator.particle_mesh.on(Tiles.of(region)), region, rough) for region in regions]
             kind = "periodic" if periodic else "free"
             print(f"| {n}^2 | {kind} | " + " | ".join(f"{t:.2f}" for t in row) + " |", flush=True)

@@ -21,7 +21,7 @@ ESTIMATES = (
     StepEstimate(3.0, known=True),
 )
 both_kinds = pytest.mark.parametrize("make", KINDS.values(), ids=KINDS)
-both_controls = pytest.mark.parametrize("conserve", [False, True], ids=["depth", "force"])
+both_controls = pytest.mark.parametrize("force_given", [False, True], ids=["depth", "force"])
 both_planes = pytest.mark.parametrize("periodic", [False, True], ids=["free", "periodic"])
 
 
@@ -75,11 +75,11 @@ class Start:
     kept: np.ndarray
     base: np.ndarray
     lacking: np.ndarray
-    conserve: bool
+    force_given: bool
     gap: np.ndarray  # in that unit, too
 
     @classmethod
-    def near(cls, seed, periodic, conserve, *, noise=0.2, rim=0.1, strays=0.05):
+    def near(cls, seed, periodic, force_given, *, noise=0.2, rim=0.1, strays=0.05):
         """Return a start from the right pressure, with noise: other cells are free too, and others carry some."""
         gap, depth, p = touching(seed, periodic)
         rng = np.random.default_rng(seed)
@@ -87,9 +87,9 @@ class Start:
         kept = ((p > 0) | (rng.random(SHAPE) < rim)) & ~astray
         p = p * np.maximum(1 + noise * rng.standard_normal(SHAPE), 0.0) + 0.2 * p.max() * astray
         level = gap + (matrix_of(periodic) @ p.ravel()).reshape(SHAPE)
-        lacking = (level[kept].mean() if conserve else depth) - level
+        lacking = (level[kept].mean() if force_given else depth) - level
         unit = np.abs(lacking[kept]).max()
-        return cls(FullGrid(plane(SHAPE, periodic)), kept, p / unit, lacking / unit, conserve, gap / unit)
+        return cls(FullGrid(plane(SHAPE, periodic)), kept, p / unit, lacking / unit, force_given, gap / unit)
 
     @property
     def own(self):
@@ -105,7 +105,7 @@ class Start:
             driver,
             fields,
             estimate,
-            conserve=self.conserve,
+            force_given=self.force_given,
             self_influence=self.own,
             limit=limit,
             max_steps=max_steps,
@@ -120,7 +120,7 @@ class Start:
     def left(self, fields):
         """Return what is lacking in truth; of what is alike in the region nothing where the force is kept."""
         left = self.lacking - self.driver.operator.apply(fields.correction.astype(np.float64))
-        return left - left[fields.free > 0].mean() if self.conserve else left
+        return left - left[fields.free > 0].mean() if self.force_given else left
 
 
 def within_bounds(start, fields, limit):

@@ -23,7 +23,7 @@ from descents import (
 from regions import close, generic, plane, region
 from roughcontact.kernels import loader
 from roughcontact.solver import tuning
-from roughcontact.solver.bound_constrained_cg import Minimised, StepEstimate
+from roughcontact.solver.bound_constrained_cg import CGResult, StepEstimate
 from roughcontact.solver.inner_operator import FullGrid
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
@@ -33,11 +33,11 @@ pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine co
 @both_planes
 @both_controls
 @pytest.mark.parametrize("estimate", ESTIMATES, ids=str)
-def test_conditions_hold_where_it_ends(make, periodic, conserve, estimate):
+def test_conditions_hold_where_it_ends(make, periodic, force_given, estimate):
     """Some cells pull, and others have some pressure that is to go."""
     limit = 0.03
     for seed in (2, 5):
-        start = Start.near(seed, periodic, conserve)
+        start = Start.near(seed, periodic, force_given)
         fields = start.fields(make)
         found = start.bound_constrained_cg(fields, estimate, limit=limit)
         assert 0 < found.steps < 20
@@ -52,9 +52,9 @@ def test_conditions_hold_where_it_ends(make, periodic, conserve, estimate):
 
 @both_kinds
 @both_controls
-def test_it_goes_as_far_as_is_asked(make, conserve):
+def test_it_goes_as_far_as_is_asked(make, force_given):
     for seed in range(8):
-        start = Start.near(seed, False, conserve)
+        start = Start.near(seed, False, force_given)
         fields = start.fields(make)
         found = start.bound_constrained_cg(fields, limit=1e-6)
         assert found.residual == np.abs(fields.r * fields.free).max() <= 1e-6
@@ -66,9 +66,9 @@ def test_it_goes_as_far_as_is_asked(make, conserve):
 def test_hardly_a_cell_is_let_go_of_that_should_stay(periodic):
     """From about the right pressure on the right cells: no more than a fifth of them, in thirty products."""
     for seed in range(8):
-        for make, conserve in product(KINDS.values(), (False, True)):
+        for make, force_given in product(KINDS.values(), (False, True)):
             for estimate in ESTIMATES[:3]:
-                start = Start.near(seed, periodic, conserve, noise=0.1, rim=0.0, strays=0.0)
+                start = Start.near(seed, periodic, force_given, noise=0.1, rim=0.0, strays=0.0)
                 fields = start.fields(make)
                 assert start.bound_constrained_cg(fields, estimate, limit=1e-6).steps < 30
                 assert fields.free.sum() > 0.8 * start.kept.sum()
@@ -78,12 +78,12 @@ def test_hardly_a_cell_is_let_go_of_that_should_stay(periodic):
 @both_planes
 @both_controls
 @pytest.mark.parametrize("estimate", ESTIMATES[:3], ids=str)
-def test_by_turns_with_taking_in_it_comes_to_the_contact(make, periodic, conserve, estimate):
+def test_by_turns_with_taking_in_it_comes_to_the_contact(make, periodic, force_given, estimate):
     """From about the right pressure, to the only one that meets the conditions at the depth that there is then."""
     limit, matrix = 1e-6, matrix_of(periodic)
     for seed in range(1, 5):
-        start = Start.near(seed, periodic, conserve, noise=0.1, rim=0.0, strays=0.0)
-        fields, worst, found = start.fields(make), math.inf, Minimised(math.inf, 0, estimate)
+        start = Start.near(seed, periodic, force_given, noise=0.1, rim=0.0, strays=0.0)
+        fields, worst, found = start.fields(make), math.inf, CGResult(math.inf, 0, estimate)
         for _ in range(5):
             found = start.bound_constrained_cg(fields, found.estimate, limit=limit)
             worst = fields.free_violated(0.5 * limit)
@@ -95,7 +95,7 @@ def test_by_turns_with_taking_in_it_comes_to_the_contact(make, periodic, conserv
         level = start.gap + start.driver.apply(p)
         depth = (
             level[free].mean()
-            if conserve
+            if force_given
             else (start.lacking + start.gap + start.driver.apply(start.base))[0, 0]
         )
         left = depth - level
@@ -132,15 +132,15 @@ def test_the_force_is_kept(make, periodic):
 @both_kinds
 @both_controls
 @pytest.mark.parametrize("estimate", ESTIMATES[:3], ids=str)
-def test_pressure_outside_goes_most_of_the_way_at_once(make, conserve, estimate):
+def test_pressure_outside_goes_most_of_the_way_at_once(make, force_given, estimate):
     """Even where that is uphill, and no further than it should; where the force is kept others have it."""
     gap, depth, p = touching(3, False)
     kept, unit = p > 0, 0.2
     astray = ~kept & region(SHAPE, 6, 0.1)
     lacking = depth - gap - (matrix_of(False) @ (p + 0.1 * astray).ravel()).reshape(SHAPE)
-    lacking -= lacking[kept].mean() * conserve
+    lacking -= lacking[kept].mean() * force_given
     start = Start(
-        FullGrid(plane(SHAPE)), kept, (p + 0.1 * astray) / unit, lacking / unit, conserve, gap / unit
+        FullGrid(plane(SHAPE)), kept, (p + 0.1 * astray) / unit, lacking / unit, force_given, gap / unit
     )
     fields = start.fields(make)
     before = fields.bound_violation()
@@ -151,7 +151,7 @@ def test_pressure_outside_goes_most_of_the_way_at_once(make, conserve, estimate)
     np.testing.assert_allclose(left, left[0], rtol=1e-12)
     others = ~kept & ~astray
     np.testing.assert_array_equal(fields.correction[others], 0.0)
-    if conserve:
+    if force_given:
         close(fields.correction.sum(), 0.0, np.abs(fields.correction).sum(), "float64")
     else:
         assert fields.correction.sum() < 0
@@ -159,16 +159,16 @@ def test_pressure_outside_goes_most_of_the_way_at_once(make, conserve, estimate)
 
 @pytest.mark.parametrize("seed", range(4))
 @both_controls
-def test_cells_reach_the_hardness_and_keep_it(seed, conserve):
+def test_cells_reach_the_hardness_and_keep_it(seed, force_given):
     limit = 0.1
-    start = Start.near(seed, False, conserve)
+    start = Start.near(seed, False, force_given)
     ceiling = 0.6 * start.base.max()
     held = (touching(seed, False)[2] > 0) & (start.base > 0.9 * ceiling)
     base = np.where(held, ceiling, np.minimum(start.base, ceiling))
-    start = Start(start.driver, start.kept & ~held, base, start.lacking, conserve, start.gap)
+    start = Start(start.driver, start.kept & ~held, base, start.lacking, force_given, start.gap)
     fields = generic(start.driver, start.kept, start.lacking, base, held, ceiling)
     books = Watched(fields, start.driver.weights)
-    found = start.bound_constrained_cg(books if conserve else fields, StepEstimate(0.3), limit=limit)
+    found = start.bound_constrained_cg(books if force_given else fields, StepEstimate(0.3), limit=limit)
     assert 0 < found.steps < 20
     assert found.residual <= limit
     p, free, least = base + fields.correction, fields.free > 0, tuning.BOUND_VIOLATION * limit / start.own
@@ -181,7 +181,7 @@ def test_cells_reach_the_hardness_and_keep_it(seed, conserve):
     assert p.min() >= -least
     assert np.abs(p[~free & ~fields.upper]).max() <= least
     assert np.abs(start.left(fields)[free]).max() < 1.01 * limit
-    if conserve:
+    if force_given:
         close(fields.correction.sum(), 0.0, books.moved + base.sum(), "float64")
 
 

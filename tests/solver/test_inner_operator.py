@@ -12,7 +12,7 @@ from roughcontact.kernels import loader
 from roughcontact.solver import inner_operator as drivers, tuning
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
-from roughcontact.solver.inner_operator import FullGrid, InnerOperator, SingleFullGrid, inner_operator_on
+from roughcontact.solver.inner_operator import FullGrid, InnerOperator, inner_operator_on
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.vectors import vectors_on
 
@@ -57,21 +57,21 @@ def rough(request):
 TILES = pytest.param(TileOperator, marks=needs_machine_code)
 
 
-@pytest.fixture(params=[TILES, SingleFullGrid])
+@pytest.fixture(params=[TILES, FullGrid])
 def used(request, monkeypatch):
     """Let one kind of driver stand in wherever it can, and count its products."""
     kind = request.param
     for part in ("cover", "filled"):
         monkeypatch.setattr(ParticleMesh, part, 2.0 if kind is TileOperator else 0.0)
     monkeypatch.setattr(patches, "LEAST_PLANE", 0)
-    if kind is SingleFullGrid:
+    if kind is FullGrid:
         monkeypatch.setattr(ListParticleMesh, "tiles", lambda *_: None)
         monkeypatch.setattr(tuning, "LIST_FILLING", 0.0)  # planes, not lists
     counts = [0]
     apply = kind.apply
 
     def counted(self, pressure):
-        counts[0] += isinstance(self, kind)
+        counts[0] += kind is TileOperator or self.single
         return apply(self, pressure)
 
     monkeypatch.setattr(kind, "apply", counted)
@@ -163,16 +163,18 @@ def test_wrong_drivers_cost_time_and_no_more(monkeypatch, used, factor):
 
 @needs_machine_code
 def test_who_drives():
-    def kind(operator, region, previous=None):
-        return type(inner_operator_on(operator, region, previous))
+    def single(operator, region):
+        inner = inner_operator_on(operator, region)
+        assert isinstance(inner, FullGrid)
+        return inner.single
 
     tiny = rc.half_space(rc.Grid((32, 32), 1.0), 1.0)
-    assert kind(tiny, np.eye(32, dtype=bool)) is FullGrid
+    assert not single(tiny, np.eye(32, dtype=bool))
     small = rc.half_space(rc.Grid((64, 64), 1.0), 1.0)
-    assert kind(small, np.eye(64, dtype=bool)) is SingleFullGrid
-    assert kind(plain(small), np.eye(64, dtype=bool)) is FullGrid
+    assert single(small, np.eye(64, dtype=bool))
+    assert not single(plain(small), np.eye(64, dtype=bool))
     large = rc.half_space(rc.Grid((512, 512), 1.0), 1.0)
-    assert kind(large, np.ones((512, 512), dtype=bool)) is SingleFullGrid
+    assert single(large, np.ones((512, 512), dtype=bool))
     few = np.zeros((512, 512), dtype=bool)
     few[40:60, 100:130] = True
     tiles = inner_operator_on(large, few)
@@ -187,7 +189,7 @@ def test_one_driver_takes_off_what_it_says(rough):
     operator = rc.half_space(rough.grid, 1e9)
     region = rough.heights > np.quantile(rough.heights, 0.8)
     patch = operator.particle_mesh.on(drivers.Tiles.of(region))
-    for driver in (SingleFullGrid(operator), patch):
+    for driver in (FullGrid(operator, single=True), patch):
         lacking = np.where(region, rough.heights, 0.0)
         unit = float(np.abs(lacking).max())
         part = driver.scaled(driver.gather(lacking / unit))

@@ -48,9 +48,9 @@ class Given:
 
     def found(self):
         """Return what there is to know of the step, once it is bounded."""
-        lifted = self.bounded[~self.stays].astype(np.float64)
+        bound_correction = self.bounded[~self.stays].astype(np.float64)
         force = (self.bounded.astype(np.float64) - self.step).sum()
-        return Projected(np.abs(lifted).sum(), 0.25 * self.stays.sum(), 0.25 * force)
+        return Projected(np.abs(bound_correction).sum(), 0.25 * self.stays.sum(), 0.25 * force)
 
     def both(self):
         """Return both kinds of fields so far, about to take the step."""
@@ -166,7 +166,7 @@ def test_steps_are_taken_again_and_again(start):
         wanted = np.where(rest, step, np.where(stays, -p, 0))
         np.testing.assert_array_equal(fields.s, wanted)
         assert second.area == 0.25 * rest.sum() <= first.area
-        assert second.lifted == p[stays & ~rest].sum(dtype=np.float64)
+        assert second.bound_correction == p[stays & ~rest].sum(dtype=np.float64)
         is_on(fields, rest)
 
 
@@ -236,7 +236,7 @@ def test_pressure_that_is_but_rounding_is_none(precision):
             fields.restart()
             fields.precondition()
             fields.s[...] = -1.0
-            assert fields.project(1.0, 0.0, 1.0).lifted == np.abs(left).sum()
+            assert fields.project(1.0, 0.0, 1.0).bound_correction == np.abs(left).sum()
             np.testing.assert_array_equal(fields.s, -left)
             assert not fields.free.any()
 

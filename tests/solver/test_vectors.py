@@ -11,7 +11,7 @@ from roughcontact.kernels import loader
 from roughcontact.solver import tuning
 from roughcontact.solver.compiled_vectors import CompiledVectors
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
-from roughcontact.solver.inner_operator import FullGrid, SingleFullGrid
+from roughcontact.solver.inner_operator import FullGrid
 from roughcontact.solver.inner_product import Measure, Products, Projected
 from roughcontact.solver.vectors import ArrayVectors, vectors_on
 
@@ -20,8 +20,8 @@ pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine co
 
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("begun", [False, True], ids=["from nothing", "from a direction"])
-@pytest.mark.parametrize("conserve", [False, True])
-def test_sums_and_fields_are_the_same(precision, begun, conserve):
+@pytest.mark.parametrize("force_given", [False, True])
+def test_sums_and_fields_are_the_same(precision, begun, force_given):
     """Step by step; sums may differ by the rounding of each of their terms, of which there are some 300."""
     driver, rng = Bare(plane()), np.random.default_rng(1)
     kept = region((21, 34))
@@ -43,12 +43,12 @@ def test_sums_and_fields_are_the_same(precision, begun, conserve):
             fields.inner_products(v.copy())
     # Where there is no direction yet, v is what is lacking, of which all may cancel.
     same(one.inner_products(one.q), two.inner_products(two.q), driver.weights * np.abs(r).sum())
-    if conserve:
+    if force_given:
         same(one.constraint_direction(), two.constraint_direction())
     for beta, shift, step, alpha, mean in ((0.0, 0.5, 0.75, 0.25, 0.0), (0.75, -0.25, 1.5, 0.5, 0.125)):
         a, b = one.precondition(), two.precondition()
         same(a[:3], b[:3])
-        if conserve:
+        if force_given:
             same(
                 a.wq,
                 b.wq,
@@ -85,15 +85,15 @@ def test_what_is_measured(compiled, precision):
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
-@pytest.mark.parametrize("conserve", [False, True])
-def test_relief_is_taken_off_the_diagonal(precision, conserve):
+@pytest.mark.parametrize("force_given", [False, True])
+def test_relief_is_taken_off_the_diagonal(precision, force_given):
     """Of what the inverse answers, by what it answers to a constant; sums go over some 300 terms."""
     driver = FullGrid(plane())
     kept = region((21, 34))
     r = np.random.default_rng(3).standard_normal((21, 34)).astype(precision)
     fields = on(driver, kept, r)
     fields.residual_max()
-    if conserve:
+    if force_given:
         fields.constraint_direction()
     cells = np.flatnonzero(kept)
     near, w = np.zeros((len(cells), len(cells))), driver.local_inverse.near
@@ -255,7 +255,7 @@ def test_both_solve_the_same_system_to_the_same_limit(periodic, seed):
 def test_both_solve_in_single_precision():
     operator, kept = plane((40, 50)), region((40, 50), 3, 0.5)
     lacking = np.random.default_rng(3).standard_normal((40, 50)).astype(np.float32)
-    driver = SingleFullGrid(operator)
+    driver = FullGrid(operator, single=True)
     for fields in both_of(driver, kept, lacking):
         largest, _ = conjugate_gradients(driver, fields, limit=1e-3, max_steps=100)
         assert largest <= 1e-3

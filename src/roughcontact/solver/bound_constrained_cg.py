@@ -21,7 +21,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
 from roughcontact.solver.vectors import Vectors, scaled_vectors
 
-__all__ = ["InnerSolution", "Minimised", "StepEstimate", "bound_constrained_cg", "inner_solve"]
+__all__ = ["CGResult", "InnerSolution", "StepEstimate", "bound_constrained_cg", "inner_solve"]
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -47,7 +47,7 @@ class StepEstimate:
         return StepEstimate(best, known=True)
 
 
-class Minimised(NamedTuple):
+class CGResult(NamedTuple):
     """The end of one run of bound-constrained conjugate gradients.
 
     Attributes
@@ -116,7 +116,7 @@ def inner_solve(
             inner,
             vectors,
             estimate,
-            conserve=terms.depth is None,
+            force_given=terms.depth is None,
             self_influence=conditions.self_influence,
             limit=target,
             max_steps=max_steps - steps,
@@ -146,11 +146,11 @@ def bound_constrained_cg(
     vectors: Vectors,
     estimate: StepEstimate,
     *,
-    conserve: bool,
+    force_given: bool,
     self_influence: float,
     limit: float,
     max_steps: int,
-) -> Minimised:
+) -> CGResult:
     """Correct the pressure until the residual on F is small; deactivate cells whose pressure leaves its bounds.
 
     Parameters
@@ -160,7 +160,7 @@ def bound_constrained_cg(
         Of the solve. F only shrinks here.
     estimate : StepEstimate
         From the last run.
-    conserve : bool
+    force_given : bool
         Whether the force is prescribed: then corrections have no resultant, and a constant residual is none.
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
@@ -175,30 +175,30 @@ def bound_constrained_cg(
     for it.
     """
     area, steps = vectors.restart(), 0
-    if conserve:
+    if force_given:
         vectors.remove_mean(tuning.MEAN_RESIDUAL * limit)  # B2
     r_max = vectors.residual_max()
-    if conserve and not area > 0:  # no cell to carry the force
-        return Minimised(r_max, steps, estimate)
+    if force_given and not area > 0:  # no cell to carry the force
+        return CGResult(r_max, steps, estimate)
     last, w_sum = None, 1.0
     while steps < max_steps and (  # B3
         r_max > limit or self_influence * vectors.bound_violation() > tuning.BOUND_VIOLATION * limit
     ):
         if last is None:
             w_sum, last = (
-                vectors.constraint_direction() if conserve else 1.0,
+                vectors.constraint_direction() if force_given else 1.0,
                 vectors.inner_products(vectors.q),
             )  # B4
         rz, zq, z_sum, wq = vectors.precondition()  # B5
         if not rz >= 0:
             break
-        sigma = wq / w_sum if conserve else 0.0  # Schur complement of the force: w.q / 1.w
+        sigma = wq / w_sum if force_given else 0.0  # Schur complement of the force: w.q / 1.w
         curvature = last.sq - sigma * last.s_sum
         beta = -(zq - sigma * z_sum) / curvature if curvature > 0 and last.sq > 0 else 0.0  # B6
-        mu = (z_sum + beta * last.s_sum) / w_sum if conserve else 0.0
-        lifted, area, force = vectors.project(beta, mu, estimate.trial)  # B7, B8
-        bounds_matter = self_influence * lifted > tuning.LIFTED_RESIDUAL * r_max
-        if conserve:
+        mu = (z_sum + beta * last.s_sum) / w_sum if force_given else 0.0
+        bound_correction, area, force = vectors.project(beta, mu, estimate.trial)  # B7, B8
+        bounds_matter = self_influence * bound_correction > tuning.LIFTED_RESIDUAL * r_max
+        if force_given:
             if not area > 0:
                 break
             if force:
@@ -213,18 +213,18 @@ def bound_constrained_cg(
         # step would only increase that part.
         dominate = abs(last.rs - last.rs_free) > abs(last.rs_free)
         bounds_matter = bounds_matter or (
-            lifted > 0 and dominate and last.rs_free < tuning.SHORTEST_STEP * last.sq
+            bound_correction > 0 and dominate and last.rs_free < tuning.SHORTEST_STEP * last.sq
         )
         alpha = (last.rs if bounds_matter else last.rs_free) / last.sq  # B12
         if alpha > 0:
             estimate = estimate.after(alpha * estimate.trial, bounds_matter=bounds_matter)  # B13
-        elif lifted:  # no direction to continue with
+        elif bound_correction:  # no direction to continue with
             last, bounds_matter = last._replace(sq=0.0), True
         else:
             r_max = vectors.residual_max()
             break
         if bounds_matter:
             alpha = min(max(alpha, tuning.SHORTEST_STEP), tuning.LONGEST_STEP)
-        mean = (last.q_sum - last.r_sum / alpha) / area if conserve else 0.0
+        mean = (last.q_sum - last.r_sum / alpha) / area if force_given else 0.0
         r_max = vectors.advance(alpha, mean)  # B14: with it the residual on F has no mean
-    return Minimised(r_max, steps, estimate)
+    return CGResult(r_max, steps, estimate)

@@ -118,14 +118,14 @@ class CompiledVectors:
         """Make s the step along z + beta s - mu w, projected onto the bounds."""
         w, mu = (self._inverse_of_one, mu) if self._uses_w else (self._z, 0.0)
         fields = self._base, self._correction, self._free, self._s, self._z, w
-        lost, lifted, force, w_lost = self._region.run("project_step", 4, *fields, beta, mu, step)
+        lost, bound_correction, force, w_lost = self._region.run("project_step", 4, *fields, beta, mu, step)
         self._lost, self._count = self._lost + lost, self._count - lost
         if self._lost > tuning.STALE_CONSTRAINT_DIRECTION * self._count:
             self._forget_inverse_of_one()
         elif lost:  # where w is not used, its sum over the lost cells was not made
             known = self._w_sum if self._uses_w else None
             self._w_sum = None if known is None else known - self._weight * w_lost
-        return Projected(lifted, self._weight * self._count, self._weight * force)
+        return Projected(bound_correction, self._weight * self._count, self._weight * force)
 
     def redistribute(self, force: float) -> None:
         """Subtract a force from s on F, in proportion to the pressure."""

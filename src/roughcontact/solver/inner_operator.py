@@ -29,7 +29,6 @@ from roughcontact.solver import tuning
 __all__ = [
     "FullGrid",
     "InnerOperator",
-    "SingleFullGrid",
     "factorisation_pays",
     "first_product",
     "inner_operator_on",
@@ -79,14 +78,19 @@ class InnerOperator(Linear, Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FullGrid:
-    """All cells of an operator, in double precision."""
+    """All cells of an operator, in double precision or, if `single`, in single precision."""
 
     operator: Operator
-    contraction: float = 0.0
+    single: bool = False
     _can: Capabilities = field(init=False, repr=False)  # asked for once: each step of a solve uses it
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_can", capabilities(self.operator))
+
+    @property
+    def contraction(self) -> float:
+        """Of seven digits a product loses one or two."""
+        return 1e-4 if self.single else 0.0
 
     @property
     def weights(self) -> float | Array:
@@ -112,12 +116,15 @@ class FullGrid:
         return values
 
     def scaled(self, values: Any, unit: float = 1.0) -> Any:
-        """Return the field over a unit."""
+        """Return the field over a unit, in the precision of the products."""
+        if self.single:
+            return over(values, unit, "float32")
         return values if unit == 1 else over(values, unit, "float64")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        return self.operator.apply(pressure)
+        convolution = self._can.single_convolution if self.single else None
+        return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m].
@@ -129,22 +136,6 @@ class FullGrid:
         if inverse is not None:
             return inverse(displacement)
         return displacement / (math.prod(displacement.shape) * self_influence(self.operator))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SingleFullGrid(FullGrid):
-    """All cells of an operator, in single precision."""
-
-    contraction: float = 1e-4  # seven digits, of which a product loses one or two
-
-    def scaled(self, values: Any, unit: float = 1.0) -> Any:
-        """Return the field over a unit, in single precision."""
-        return over(values, unit, "float32")
-
-    def apply(self, pressure: Array) -> Array:
-        """Return the displacement [m] under `pressure` [Pa]."""
-        convolution = self._can.single_convolution
-        return self.operator.apply(pressure) if convolution is None else convolution(pressure)
 
 
 def inner_operator_on(
@@ -204,4 +195,4 @@ def _fits_single(operator: Operator) -> bool:
 def _full_grid(operator: Operator) -> FullGrid:
     large = math.prod(operator.grid.shape) >= tuning.SINGLE_CELLS
     single = large and capabilities(operator).single_precision and _fits_single(operator)
-    return SingleFullGrid(operator) if single else FullGrid(operator)
+    return FullGrid(operator, single)

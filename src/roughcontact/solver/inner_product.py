@@ -135,7 +135,7 @@ class Projected(NamedTuple):
 
     Attributes
     ----------
-    lifted : float
+    bound_correction : float
         Sum of the sizes by which pressures are taken to their bounds [Pa].
     area : float
         Of the free set that is left.
@@ -143,6 +143,6 @@ class Projected(NamedTuple):
         What the projection has added to 1.s.
     """
 
-    lifted: float
+    bound_correction: float
     area: float
     force: float

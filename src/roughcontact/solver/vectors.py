@@ -131,10 +131,10 @@ class ArrayVectors:
         low, high = free & (p + self.s < 0), free & (p + self.s > self._bound)
         if bool(xp.any(low | high)):
             self._set_free(free & ~(low | high), self._upper | high)
-        lifted = xp.where(self._free, 0.0, -self._out_of_bounds())
-        projected, total = self.s * self.free + lifted, self._measure.total
+        bound_correction = xp.where(self._free, 0.0, -self._out_of_bounds())
+        projected, total = self.s * self.free + bound_correction, self._measure.total
         force, self.s = total(projected - self.s), projected
-        return Projected(float(xp.sum(xp.abs(lifted), dtype=xp.float64)), total(self.free), force)
+        return Projected(float(xp.sum(xp.abs(bound_correction), dtype=xp.float64)), total(self.free), force)
 
     def redistribute(self, force: float) -> None:
         """Subtract a force from s on F, in proportion to the pressure (B9)."""
