@@ -20,7 +20,7 @@ import numpy as np
 from cases import CASES
 
 import roughcontact as rc
-from roughcontact.halfspace.sums.particle_mesh import PatchOperator
+from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.solver import active_set
 from roughcontact.solver.inner_operator import FullGrid
 
@@ -31,7 +31,7 @@ SHOWN = ("fractal-0.8-0.046", "flat-free", "flat-periodic")
 def counted() -> Iterator[dict[str, list[int]]]:
     """Note the cells of each inner product and of each evaluated iterate, on all grids."""
     found: dict[str, list[int]] = {"inner": [], "outer": []}
-    kept = [(kind, kind.apply) for kind in (FullGrid, PatchOperator)]
+    kept = [(kind, kind.apply) for kind in (FullGrid, TileOperator)]
     evaluate = active_set.Optimality.evaluate
 
     def noting(apply: Any) -> Any:
