@@ -1,10 +1,12 @@
-"""What an idea saves that is too small for one run to show: processes with and without it, in turn.
+"""What an idea or a tuning constant saves that one run is too coarse to show: processes with and without it, in turn.
 
     python benchmarks/pairs.py [rounds [cases]]
+    python benchmarks/pairs.py --tuning NAME[,NAME] [rounds [cases]]
 
 Each row is a case: the least seconds with all ideas, and for each idea how much longer it takes without: the median of
 the ratios of neighbours, and the ratio of the least. Processes take turns every case, so that what disturbs the machine
-disturbs all of them; each has two threads.
+disturbs all of them; each has two threads. With `--tuning` the columns are some constants of `TUNED`, or all that begin
+with a NAME, halved and doubled: above 1 the change costs time.
 """
 
 from __future__ import annotations
@@ -23,13 +25,34 @@ import numpy as np
 from cases import CASES
 
 import roughcontact as rc
-from roughcontact.kernels import buffers
+from roughcontact.halfspace.influence import tables
+from roughcontact.halfspace.sums import particle_mesh
+from roughcontact.kernels import active_cells, buffers, compiled_convolution
+from roughcontact.solver import tuning
 from roughcontact.solver.optimality import Iterate
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {
     "memory that is kept": (buffers, "SMALL", buffers.LARGE),
     "judging in one pass": (Iterate, "fits_machine_code", lambda *_: False),
+}
+# Constants that decide which way costs least: no answer and hardly a product depends on them.
+TUNED = {
+    tuning: (
+        *("DIRECT_CELLS", "DIRECT_BESIDE_TILES", "DIRECT_ROUGHLY", "DOWNDATED", "SINGLE_CELLS", "LOOKUPS"),
+        *("LIST_FILLING", "LARGE_BOX", "KEPT_BOX", "SMALLER_BOX", "COARSEST", "FACTOR_FOUR"),
+        *("COARSE_TOLERANCE", "SUMMITS", "SLAB"),
+    ),
+    active_cells: ("FEW",),
+    compiled_convolution: ("LARGE",),
+    particle_mesh: ("LEAST_PLANE", "MOST_DIRECT_TILES"),
+    tables: ("SMALL_TABLE",),
+}
+CHANGED: dict[str, tuple[Any, str, Any]] = {
+    f"{name} x {factor:g}": (module, name, type(getattr(module, name))(factor * getattr(module, name)))
+    for module, names in TUNED.items()
+    for name in names
+    for factor in (0.5, 2)
 }
 
 
@@ -77,14 +100,14 @@ SHOWN: dict[str, Callable[[], None]] = {
 
 def answer(idea: str) -> None:
     """Time the cases that come in, without an idea."""
-    with without(*IDEAS[idea]) if idea else without(sys, "flags", sys.flags):
+    with without(*(IDEAS | CHANGED)[idea]) if idea else without(sys, "flags", sys.flags):
         for line in sys.stdin:
             start = time.perf_counter()
             SHOWN[line.rstrip()]()
             print(time.perf_counter() - start, flush=True)
 
 
-def main(rounds: int, cases: tuple[str, ...]) -> None:
+def main(ideas: list[str], rounds: int, cases: tuple[str, ...]) -> None:
     workers = [
         subprocess.Popen(
             [sys.executable, __file__, "--without", idea],
@@ -93,7 +116,7 @@ def main(rounds: int, cases: tuple[str, ...]) -> None:
             text=True,
             env={**os.environ, "OMP_NUM_THREADS": "2"},
         )
-        for idea in ("", *IDEAS)
+        for idea in ("", *ideas)
     ]
 
     def seconds(k: int, name: str) -> float:
@@ -104,8 +127,9 @@ def main(rounds: int, cases: tuple[str, ...]) -> None:
         worker.stdin.flush()
         return float(worker.stdout.readline())
 
-    print(f"| {rounds} rounds | with all | " + " | ".join(f"without {name}" for name in IDEAS) + " |")
-    print("|---" * (2 + len(IDEAS)) + "|")
+    labels = (f"without {idea}" if idea in IDEAS else idea for idea in ideas)
+    print(f"| {rounds} rounds | as it is | " + " | ".join(labels) + " |")
+    print("|---" * (2 + len(ideas)) + "|")
     for name in (name for name in SHOWN if name.startswith(cases)):
         times = np.empty((rounds + 1, len(workers)))
         for k in range(rounds + 1):  # the first is not counted
@@ -125,4 +149,8 @@ if __name__ == "__main__":
     if sys.argv[1:2] == ["--without"]:
         answer(sys.argv[2])
     else:
-        main(int(sys.argv[1]) if sys.argv[1:] else 15, tuple(sys.argv[2:]) or ("",))
+        given, chosen = sys.argv[1:], list(IDEAS)
+        if given[:1] == ["--tuning"]:
+            starts = tuple(given[1].split(","))
+            given, chosen = given[2:], [name for name in CHANGED if name.startswith(starts)]
+        main(chosen, int(given[0]) if given else 15, tuple(given[1:]) or ("",))

@@ -214,7 +214,7 @@ def _available() -> int:
 class _Crew:
     """Threads that wait for calls, of which nobody asks what became of them.
 
-    A pool, which could tell, takes more than ten times as long to call one (tried by hand).
+    A pool, which could tell, takes longer to call one.
     """
 
     def __init__(self) -> None:

@@ -20,7 +20,7 @@ __all__ = ["CompiledConvolution", "fits"]
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
-LARGE = 600_000  # bytes of rows as padded from which on a second thread comes in time (tried by hand)
+LARGE = 600_000  # bytes of rows as padded from which on a second thread comes in time (timed by benchmarks/pairs.py)
 PARTS = 4  # of the work for each thread, since not all are equally fast
 
 

@@ -97,8 +97,8 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 
     Where long waves carry the contact that is the mean, whatever the slope. Where the cells of a block are rough their
     summits touch, and the block is raised above the plane through them by twice as far as they stand out of
-    it, never above its highest cell. Half as much misleads on surfaces without long waves, H < 0 (tried by hand); the
-    highest cell itself costs smooth ones up to twice the steps (`benchmarks/ideas.py`).
+    it, never above its highest cell. Half as much misleads on surfaces without long waves, H < 0; the highest cell
+    itself costs smooth ones up to twice the steps (`benchmarks/ideas.py`).
 
     Parameters
     ----------

@@ -1,11 +1,12 @@
 """Numbers that decide how many products a solve takes, and which way is the cheapest.
 
 A certified answer depends on none of them beyond its tolerance. Accuracies and rounding floors stand where they are
-derived. "Counted" numbers come from `benchmarks/steps.py`, which counts products with each of them changed; what was
-"tried by hand" has no command; of the others no measurement is kept.
+derived. "Counted" numbers come from `benchmarks/steps.py`, which counts products with each of them changed. "Timed"
+ones come from `benchmarks/pairs.py --tuning NAME`, which times loads with each of them halved and doubled, in turn. The
+others are safeguards: they act on rare problems alone, which `benchmarks/robust.py` poses.
 """
 
-# --- active_set: outer iteration ---
+# --- active_set: outer iteration, safeguards but for INNER_TOLERANCE ---
 SCREENING_RESIDUAL = 0.2  # of the residual of a predicted set: how far it is solved to be screened
 SCREENING_CELLS = 300  # cells: a factorisation of fewer costs no more than some products
 PLASTIC_FORCE = 0.5  # of the force: beyond the hardness, from which on hardly a cell is between the bounds
@@ -26,34 +27,33 @@ ESTIMATE_AT_BOUNDS = 0.7, 1.1  # of the last estimate: safeguard of the next aft
 ESTIMATE_FREE = 0.5, 1.5  # of the last estimate: after any other step
 STALE_CONSTRAINT_DIRECTION = 0.03  # of the cells of F: lost ones after which M^-1 1 is made anew
 
-# --- direct, inner_operator: which way to solve ---
+# --- direct, inner_operator: which way to solve, timed ---
 DIRECT_CELLS = 2000  # cells: a matrix of 32 MB; time grows with the third power beyond
-DIRECT_BESIDE_TILES = 1200  # cells, where some thirty products on few tiles compete (tried by hand)
+DIRECT_BESIDE_TILES = 1200  # cells, where some thirty products on few tiles compete
 DIRECT_ROUGHLY = 300  # cells, where the answer is but the start of another, against a few products
 ROUGH_TOLERANCE = 1e-5  # tolerance of such an answer
 # Of the unknowns: to deactivate one costs two triangular solves, a new factorisation a sixth of the cells as many.
 DOWNDATED = 1 / 8
 SINGLE_CELLS = 4_000  # cells from which on single precision halves the work: fewer bytes
 
-# --- subdomain, prescribed: on which cells ---
+# --- subdomain, prescribed: on which cells, timed ---
 # A direct sum between the cells of a list is worth it while a quarter of their square (a typical contact
 # is a quarter of the overlap) costs less than a transform of the padded box: in look-ups of the influence table a cell
-# of the padded box. Transforms cost 0.3 to 0.7 (benchmarks/transforms.py), but a new box takes a kernel too: with
-# 0.6, tried by hand, a curve at 256 x 256 took a third longer.
+# of the padded box. Transforms cost 0.3 to 0.7 (benchmarks/transforms.py), but a new box takes a kernel too.
 LOOKUPS = 1.5
-LIST_FILLING = 0.2  # of a box, up to which a list of cells is worth it where there are tiles (tried by hand)
-LARGE_BOX = 2**21  # cells of a box from which on each pass over it is worth sparing (tried by hand)
+LIST_FILLING = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
+LARGE_BOX = 2**21  # cells of a box from which on each pass over it is worth sparing
 KEPT_BOX = 1.3  # times the cells of a new box, up to which the last box is kept: its kernel is at hand
 SMALLER_BOX = 0.5  # of the padded cells: a box that is worth a kernel of its own
 
-# --- nested_iteration: tried by hand, and `benchmarks/ideas.py` ---
+# --- nested_iteration: timed, and `benchmarks/ideas.py` ---
 COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
 FACTOR_FOUR = 512  # cells along it up to which a level more costs more than the steps that it saves
 COARSE_TOLERANCE = 1e-3  # no coarser answer deserves more: its grid is further from the fine one than that
 SUMMITS = 2.0  # times as far as its cells stand out of its plane a block is raised above it
 SLAB = 128  # rows of cells that are worked on at once, even
 
-# --- polonsky_keer, plastic ---
+# --- polonsky_keer, plastic: safeguards ---
 LEAP = 4.0  # times the smallest residual so far: a step that was too long
 CYCLING = 10  # iterations without a smaller residual, after which cells of the wrong sign may cycle
 PATIENCE = 500  # iterations without a smaller residual, after which the method has stagnated

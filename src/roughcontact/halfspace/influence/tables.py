@@ -16,7 +16,7 @@ from roughcontact.halfspace.influence.love import love, love_table, strip, wave_
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
-# Cells to the side of a table up to which it is made of the waves one by one (tried by hand).
+# Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
 SMALL_TABLE = 64
 MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that their offsets stay in cache
 # Cells to the side of the first table: single values cost much within, and a short series beyond.
@@ -316,7 +316,7 @@ def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
 def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
-    return np.asarray(np.sqrt(qy[:, None] ** 2 + qx**2))  # hypot takes ten times as long (tried by hand)
+    return np.asarray(np.sqrt(qy[:, None] ** 2 + qx**2))  # hypot takes several times as long
 
 
 def definite(wavenumber: Array) -> Array:

@@ -39,7 +39,7 @@ Pair = tuple[int, int]
 Split = FreeSplit | PeriodicSplit
 
 LEAST_PLANE = 60_000  # cells of a plane from which on tiles may cost less (benchmarks/patches.py)
-# Tiles up to which a direct sum over their cells costs less than one by nodes (tried by hand).
+# Tiles up to which a direct sum over their cells costs less than one by nodes (benchmarks/pairs.py --tuning MOST).
 MOST_DIRECT_TILES = 120
 SHORT_RANGE = 3  # tiles to which the short-range part of the influence goes
 TILES_PER_TASK = 512  # tiles whose sums one thread adds up at a time
