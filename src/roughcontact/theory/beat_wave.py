@@ -89,8 +89,7 @@ def _moment(u: Array, n: int, order: int) -> Array:
     values[~near] = _fourier(mirrored[~near], n, order)
     below = depth > n
     values = np.where(below, depth - n + values if order == 2 else 1 - values, values)
-    plain: Array = values[()]
-    return plain
+    return values[()]
 
 
 def _near_peak(u: Array, n: int, order: int) -> Array:

@@ -53,8 +53,7 @@ def force(
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     t = _angle(d / (2 * h0))
-    value: Array = scale * (h0 / np.pi * _bracket(t) + np.maximum(d - 2 * h0, 0.0))
-    return value
+    return scale * (h0 / np.pi * _bracket(t) + np.maximum(d - 2 * h0, 0.0))
 
 
 @numeric
@@ -149,8 +148,7 @@ def small_force(
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force", d)
-    value: Array = 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
-    return value
+    return 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
 
 
 @numeric
@@ -200,11 +198,9 @@ def _given(
 
 def _angle(s: Array) -> Array:
     """Return t = 2 asin(sqrt s): the phase of a wave that is in contact, pi where all is."""
-    value: Array = 2 * np.arcsin(np.sqrt(np.minimum(s, 1.0)))
-    return value
+    return 2 * np.arcsin(np.sqrt(np.minimum(s, 1.0)))
 
 
 def _bracket(t: Array) -> Array:
     """Return sin t - t cos t, twice the bracket of eq. 4.33, as t^2 j1(t): no cancellation at small t."""
-    value: Array = t**2 * spherical_jn(1, t)
-    return value
+    return t**2 * spherical_jn(1, t)

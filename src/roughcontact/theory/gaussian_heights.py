@@ -111,8 +111,7 @@ def exponent(
     """
     positive(force, "force [N]")
     t = _level(force, rms, length, modulus)
-    value: Array = _force(t) * _density(t) / ndtr(-t) ** 2
-    return value
+    return _force(t) * _density(t) / ndtr(-t) ** 2
 
 
 @numeric
@@ -148,8 +147,7 @@ def law(rms: float, length: float, modulus: float) -> LoadingLaw:
 def _force(t: Array) -> Array:
     """Return F/(E* h L)."""
     t = np.minimum(t, BEYOND)
-    value: Array = _density(t) - t * ndtr(-t)
-    return value
+    return _density(t) - t * ndtr(-t)
 
 
 def _density(t: Array) -> Array:
@@ -162,8 +160,7 @@ def _level(force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modu
     scale = _scale(length, modulus) * positive(rms, "rms [m]")
     f = positive(force, "force [N]", zero=True) / scale
     # phi - t Q falls with t and is nowhere below -t.
-    value: Array = -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
-    return value
+    return -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
 
 
 def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:

@@ -127,8 +127,7 @@ class HeightDistribution:
         while (short := loaded & (self.excess(high) < wanted)).any():
             low, high = np.where(short, high, low), np.where(short, 2 * high, high)
             require(high < FARTHEST, "no depth gives this force: the density has no heights near the peak")
-        value: Array = np.where(loaded, bisect(lambda u: self.excess(u) > wanted, low, high), 0.0)[()]
-        return value
+        return np.where(loaded, bisect(lambda u: self.excess(u) > wanted, low, high), 0.0)[()]
 
     @numeric
     def law(self, length: float, modulus: float) -> LoadingLaw:
@@ -258,8 +257,7 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     """
     beta = finite(density_exponent, "density_exponent")
     require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
-    value: Array = (beta + 1) / (beta + 2)
-    return value
+    return (beta + 1) / (beta + 2)
 
 
 @numeric
@@ -287,8 +285,7 @@ def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
         (alpha > 0) & (alpha < 1),
         "stiffness_exponent must lie between 0 and 1; at 1 there is no highest peak",
     )
-    value: Array = (2 * alpha - 1) / (1 - alpha)
-    return value
+    return (2 * alpha - 1) / (1 - alpha)
 
 
 def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
@@ -315,8 +312,7 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
     """
     n = positive(modes, "modes")
     require(n >= 1, "modes must be at least 1", n)
-    value: Array = (np.log2(n) - 1) / 2
-    return value
+    return (np.log2(n) - 1) / 2
 
 
 def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
@@ -354,8 +350,7 @@ def _stiffness(heights: HeightDistribution, length: float, modulus: float, force
 
 
 def _sampled_fraction(once: PPoly, u: Array) -> Array:
-    value: Array = once(np.clip(u, once.x[0], once.x[-1]))
-    return value
+    return once(np.clip(u, once.x[0], once.x[-1]))
 
 
 def _sampled_excess(once: PPoly, twice: PPoly, u: Array) -> Array:

@@ -37,12 +37,10 @@ class ElasticSolid(Protocol):
     @property
     def shear_modulus(self) -> float:
         """Shear modulus G [Pa]; infinite of a rigid body."""
-        ...
 
     @property
     def poisson_ratio(self) -> float:
         """Poisson's ratio [-]."""
-        ...
 
 
 def ratio(poisson_ratio: float) -> float:

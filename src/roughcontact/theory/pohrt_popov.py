@@ -171,8 +171,7 @@ def force(
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     k = _below_full_contact(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
-    value: Array = force_scale * (k / zeta) ** (1 / alpha)
-    return value
+    return force_scale * (k / zeta) ** (1 / alpha)
 
 
 @numeric
@@ -206,8 +205,7 @@ def depth(
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
     _below_full_contact(zeta * f**alpha)
-    value: Array = force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
-    return value
+    return force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
 
 
 @numeric
@@ -270,8 +268,7 @@ def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Ar
     1.0
     """
     h, size = positive(rms, "rms [m]"), positive(length, "length [m]")
-    value: Array = h * size ** -_hurst(hurst)
-    return value
+    return h * size ** -_hurst(hurst)
 
 
 @numeric
@@ -316,8 +313,7 @@ def scale_free_stiffness(
         "hurst must not exceed 2: one smooth crest carries the load, whose stiffness depends on the size",
         hurst,
     )
-    value: Array = e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
-    return value
+    return e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
 
 
 @numeric

@@ -103,8 +103,7 @@ class PowerLawContact:
         # (E*/pi) int_r^a g'(x)/sqrt(x^2 - r^2) dx with g = kappa Q x^n (thesis, eq. A.63).
         t = np.maximum(a**2 - r**2, 0.0) / np.maximum(a**2, TINY)
         slope = kappa(n) * n * self.coefficient * np.maximum(a, TINY) ** (n - 1)
-        value: Array = self.modulus / np.pi * slope * np.sqrt(t) * hyp2f1(1, 1 - n / 2, 3 / 2, t)
-        return value
+        return self.modulus / np.pi * slope * np.sqrt(t) * hyp2f1(1, 1 - n / 2, 3 / 2, t)
 
     def displacement(self, distance: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
@@ -124,8 +123,7 @@ class PowerLawContact:
         e = a / np.maximum(np.maximum(r, a), TINY)
         profile = e / (n + 1) * hyp2f1(1 / 2, (n + 1) / 2, (n + 3) / 2, e**2)
         outside = 2 / np.pi * self.depth * (np.arcsin(e) - profile)
-        value: Array = np.where(r <= a, self.depth - self.coefficient * r**n, outside)[()]
-        return value
+        return np.where(r <= a, self.depth - self.coefficient * r**n, outside)[()]
 
 
 @numeric

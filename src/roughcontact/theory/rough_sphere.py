@@ -63,8 +63,7 @@ def coefficient(
     """
     h, zeta = _roughness(hurst, prefactor)
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
-    value: Array = (2 / (zeta * size)) ** (h + 1) * (h + 1) * size * height / (2 * h * kappa(h))
-    return value
+    return (2 / (zeta * size)) ** (h + 1) * (h + 1) * size * height / (2 * h * kappa(h))
 
 
 @numeric
@@ -118,8 +117,7 @@ def force(
     """
     e, sphere, rough, h = _terms(radius, hurst, rms, length, modulus, prefactor)
     x = positive(stiffness, "stiffness [N/m]", zero=True) / e
-    value: Array = e * (sphere * x**3 + rough * x ** (h + 1))
-    return value
+    return e * (sphere * x**3 + rough * x ** (h + 1))
 
 
 @numeric
@@ -165,8 +163,7 @@ def stiffness(
     for _ in range(STEPS):
         slope = np.where(loaded, 3 * sphere * x**2 + (h + 1) * rough * x**h, 1.0)
         x = x - (sphere * x**3 + rough * x ** (h + 1) - f) / slope
-    value: Array = e * x
-    return value
+    return e * x
 
 
 @numeric
@@ -213,8 +210,7 @@ def crossover_force(
     r, e = positive(radius, "radius [m]"), positive(modulus, "modulus [Pa]")
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
     inside = zeta ** (3 * h + 3) * height**-3 * size ** (3 * h) * (6 * r) ** -(h + 1)
-    value: Array = e * inside ** (1 / (h - 2))
-    return value
+    return e * inside ** (1 / (h - 2))
 
 
 Terms = tuple[tuple[float, float], ...]  # powers of a radius, and their coefficients

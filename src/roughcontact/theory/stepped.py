@@ -80,8 +80,7 @@ class SteppedIndenter:
         array
             r_n [m], shape (count,).
         """
-        value: Array = self.radius * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
-        return value
+        return self.radius * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
 
     def heights(self, count: int) -> Array:
         """Return h_n of the first `count` discs [m] (thesis, eq. 4.21).
@@ -96,10 +95,8 @@ class SteppedIndenter:
         array
             h_n [m], shape (count,).
         """
-        value: Array = self.height * self.ratio ** (
-            self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
-        )
-        return value
+        order = np.arange(whole(count, "count"), dtype=np.float64)
+        return self.height * self.ratio ** (self.hurst * order)
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
         """Return forces [N] and stiffnesses [N/m] just before disc n + 1 touches, for n below `count`.
@@ -142,5 +139,4 @@ class SteppedIndenter:
         """
         forces, k = self.corners(count, modulus)
         reached = np.searchsorted(forces, positive(force, "force [N]", zero=True), side="right")
-        value: Array = k[np.minimum(reached, count - 1)]
-        return value
+        return k[np.minimum(reached, count - 1)]

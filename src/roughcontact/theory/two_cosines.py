@@ -66,8 +66,7 @@ def force(
     1.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
-    value: Array = 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
-    return value
+    return 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
 
 
 @numeric
@@ -103,8 +102,7 @@ def stiffness(
     8.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
-    value: Array = 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
-    return value
+    return 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
 
 
 @numeric
@@ -208,10 +206,8 @@ class Hierarchy:
         array
             h_n [m], shape (count,).
         """
-        value: Array = self.amplitude * self.ratio ** (
-            -self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
-        )
-        return value
+        order = np.arange(whole(count, "count"), dtype=np.float64)
+        return self.amplitude * self.ratio ** (-self.hurst * order)
 
     def wavenumbers(self, count: int) -> Array:
         """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43).
@@ -226,8 +222,7 @@ class Hierarchy:
         array
             q_n [rad/m], shape (count,).
         """
-        value: Array = self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
-        return value
+        return self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
 
     def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
         """Return force [N] and stiffness [N/m] where wave n + 1 is flat on wave n, for n below `count`.

@@ -25,16 +25,13 @@ class ContinuousSpectrum(Protocol):
     @property
     def q_min(self) -> float:
         """Smallest wavenumber [rad/m]."""
-        ...
 
     @property
     def q_max(self) -> float:
         """Largest wavenumber [rad/m]."""
-        ...
 
     def __call__(self, wavenumber: Array, /) -> Array:
         """Return C2D [m^4] at the wavenumbers [rad/m]."""
-        ...
 
 
 class MeasuredSpectrum(Protocol):
@@ -43,27 +40,22 @@ class MeasuredSpectrum(Protocol):
     @property
     def wavenumber(self) -> Array:
         """Wavenumbers of the bins [rad/m], increasing."""
-        ...
 
     @property
     def density(self) -> Array:
         """C2D of the bins [m^4]."""
-        ...
 
     @property
     def kind(self) -> str:
         """``"C2D"`` of a surface or ``"C1D"`` of its profiles."""
-        ...
 
     @property
     def q_min(self) -> float:
         """Lower end of the band that is to be relied upon [rad/m]."""
-        ...
 
     @property
     def q_max(self) -> float:
         """Upper end of that band [rad/m]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -77,8 +77,7 @@ class EllipticContact:
         """
         a, b = self.semi_axes
         u, v = number(x, "x [m]") / a, number(y, "y [m]") / b
-        value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
-        return value
+        return self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
 
     @numeric
     def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
@@ -196,5 +195,4 @@ def _aspect(ratio: Array) -> Array:
     for _ in range(STEPS):
         aa, bb = np.exp(t), np.exp(-t)
         t = t + (wanted - np.log(elliprd(0.0, aa, bb) / elliprd(0.0, bb, aa))) / SLOPE
-    aspect: Array = np.exp(t)
-    return aspect
+    return np.exp(t)

@@ -79,8 +79,7 @@ class LineContact:
         """
         x = np.asarray(position, dtype=np.float64)
         half_chord = np.sqrt(np.maximum(self.half_width**2 - x**2, 0.0))
-        value: Array = self.modulus / (2 * self.radius) * half_chord
-        return value
+        return self.modulus / (2 * self.radius) * half_chord
 
     @numeric
     def displacement(self, position: npt.ArrayLike) -> Array:
@@ -100,8 +99,7 @@ class LineContact:
         theta = np.arccosh(np.maximum(x / self.half_width, 1.0))
         sagitta = self.half_width**2 / (4 * self.radius)
         outside = sagitta * (2 * self._logarithm() - 2 * theta - np.exp(-2 * theta))
-        value: Array = np.where(x <= self.half_width, self.depth - x**2 / (2 * self.radius), outside)[()]
-        return value
+        return np.where(x <= self.half_width, self.depth - x**2 / (2 * self.radius), outside)[()]
 
     def _logarithm(self) -> Array:
         """Return ln(2L/a)."""
@@ -110,8 +108,7 @@ class LineContact:
                 "the depth of a line contact grows with the size of the body: give a reference_length [m], "
                 "the distance at which the displacement is zero"
             )
-        value: Array = np.log(2 * self.reference_length / self.half_width)
-        return value
+        return np.log(2 * self.reference_length / self.half_width)
 
 
 def line(

@@ -83,8 +83,7 @@ class PointContact:
         """
         r = positive(distance, "distance [m]", zero=True)
         half_chord = np.sqrt(np.maximum(self.contact_radius**2 - r**2, 0.0))
-        value: Array = 2 * self.modulus / (np.pi * self.radius) * half_chord
-        return value
+        return 2 * self.modulus / (np.pi * self.radius) * half_chord
 
     def displacement(self, distance: npt.ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
@@ -105,8 +104,7 @@ class PointContact:
         # t = 2 asin(a/r) and the spherical Bessel function j1 it is (a^2/pi R) (t^2/2) j1(t) / sin^2(t/2).
         t = 2 * np.arcsin(a / np.maximum(np.maximum(r, a), TINY))
         outside = 2 * self.depth / np.pi * spherical_jn(1, t) / np.sinc(t / (2 * np.pi)) ** 2
-        value: Array = np.where(r <= a, self.depth - r**2 / (2 * self.radius), outside)[()]
-        return value
+        return np.where(r <= a, self.depth - r**2 / (2 * self.radius), outside)[()]
 
 
 def point(

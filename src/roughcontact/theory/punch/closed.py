@@ -102,8 +102,7 @@ def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt
     0.3333
     """
     r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
-    value: Array = 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
-    return value
+    return 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
 
 
 def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLike]) -> Array:
@@ -132,8 +131,7 @@ def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLik
     1.0
     """
     a, b = pair(semi_axes, "semi_axes [m]")
-    value: Array = np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
-    return value
+    return np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
 
 
 @numeric
@@ -245,5 +243,4 @@ def _edged(scale: Array, inside: Array) -> Array:
     """Return scale/sqrt(inside); infinite where `inside` is 0, 0 where it is negative."""
     with np.errstate(divide="ignore"):
         root = 1 / np.sqrt(np.maximum(inside, 0.0))
-    value: Array = np.where(inside < 0, 0.0, scale * np.where(scale > 0, root, 0.0))[()]
-    return value
+    return np.where(inside < 0, 0.0, scale * np.where(scale > 0, root, 0.0))[()]

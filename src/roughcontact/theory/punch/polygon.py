@@ -118,5 +118,4 @@ def shape_factor(stiffness: npt.ArrayLike, modulus: npt.ArrayLike, area: npt.Arr
     1.0212
     """
     k, a = positive(stiffness, "stiffness [N/m]"), positive(area, "area [m^2]")
-    value: Array = k / (2 * positive(modulus, "modulus [Pa]") * np.sqrt(a / np.pi))
-    return value
+    return k / (2 * positive(modulus, "modulus [Pa]") * np.sqrt(a / np.pi))

@@ -23,17 +23,14 @@ class ComputedCurve(Protocol):
     @property
     def force(self) -> Array:
         """Normal forces [N], shape (n,), increasing."""
-        ...
 
     @property
     def depth(self) -> Array:
         """Indentation depths [m], shape (n,)."""
-        ...
 
     @property
     def stiffness(self) -> Array:
         """Contact stiffnesses [N/m], shape (n,)."""
-        ...
 
 
 def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:

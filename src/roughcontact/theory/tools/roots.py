@@ -43,8 +43,7 @@ def bisect(beyond: Callable[[Array], npt.NDArray[np.bool_]], low: Array, high: A
         over = beyond(middle)
         high = np.where(over, middle, high)
         low = np.where(over, low, middle)
-    root: Array = low[()]
-    return root
+    return low[()]
 
 
 def last_below(value: Callable[[Array], Array], target: Array, low: float, high: float) -> Array:
