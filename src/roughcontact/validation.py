@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 __all__ = [
     "Array",
+    "exactly_one",
     "finite",
     "fitting",
     "moderate",
@@ -173,6 +174,21 @@ def shown(value: object) -> str:
     text = repr(value)
     short = len(text) <= LONGEST and "\n" not in text
     return text if short else f"a {type(value).__name__}"
+
+
+def exactly_one(**given: Any) -> tuple[str, Any]:
+    """Return the name and the value of the one argument that is given; None is not.
+
+    Raises
+    ------
+    ValueError
+        If none is given, or more than one, with the names of both kinds.
+    """
+    stated = {name: value for name, value in given.items() if value is not None}
+    *others, last = given
+    wanted, found = f"{', '.join(others)} and {last}", " and ".join(stated) or "none"
+    require(len(stated) == 1, f"give exactly one of {wanted}, not {found}")
+    return stated.popitem()
 
 
 def numeric(function: Callable[P, R]) -> Callable[P, R]:

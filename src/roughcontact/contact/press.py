@@ -15,7 +15,7 @@ from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import Control, Depth, Force, Solver
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import scalar
+from roughcontact.validation import exactly_one, scalar
 
 __all__ = ["press"]
 
@@ -114,13 +114,7 @@ def control_of(
     grid: AnyGrid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
 ) -> Control:
     """Return the control that exactly one of the three numbers states."""
-    given = [
-        name for name, v in (("force", force), ("depth", depth), ("pressure", pressure)) if v is not None
-    ]
-    if len(given) != 1:
-        raise ValueError(
-            f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
-        )
+    exactly_one(force=force, depth=depth, pressure=pressure)
     if force is not None:
         return Force(scalar(force, "force"))
     if depth is not None:

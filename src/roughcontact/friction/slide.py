@@ -27,7 +27,7 @@ from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, number, numeric
+from roughcontact.validation import Array, exactly_one, number, numeric
 
 __all__ = ["Loads", "advance", "load_cycle", "slide", "slide_path"]
 
@@ -169,18 +169,10 @@ def slide_path(
     (10, True)
     """
     problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
-    if (forces is None) == (displacements is None):
-        raise ValueError("give exactly one of forces and displacements")
-    given = forces if forces is not None else displacements
-    assert given is not None
+    name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
         raise ValueError(f"a path needs at least one load, in a row, not {given}")
-    loads = [
-        load_of(problem.along, force=value)
-        if displacements is None
-        else load_of(problem.along, displacement=value)
-        for value in given
-    ]
+    loads = [load_of(problem.along, **{name.removesuffix("s"): value}) for value in given]
     for load in loads:
         problem.check(load)
     return _follow(problem, loads)

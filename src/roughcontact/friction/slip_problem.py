@@ -16,7 +16,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.validation import Array, number, positive_scalar
+from roughcontact.validation import Array, exactly_one, number, positive_scalar, require
 
 __all__ = [
     "Load",
@@ -182,17 +182,14 @@ def load_of(
     along: tuple[float, float] | None, *, force: Load | None = None, displacement: Load | None = None
 ) -> Pull | Shift:
     """Return the load that exactly one of the two states."""
-    if (force is None) == (displacement is None):
-        raise ValueError("give exactly one of force and displacement")
-    given = force if force is not None else displacement
-    assert given is not None
+    name, given = exactly_one(force=force, displacement=displacement)
     value = np.asarray(number(given, "a tangential load"))
     if value.ndim == 0:
         value = value * np.asarray(along or (1.0, 0.0))
     if value.shape != (2,) or not np.isfinite(value).all():
         raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
     x, y = (float(v) for v in value)
-    return Pull(x, y) if force is not None else Shift(x, y)
+    return Pull(x, y) if name == "force" else Shift(x, y)
 
 
 def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = None) -> ShearOperator:
@@ -205,15 +202,13 @@ def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = N
     """
     if operator is None:
         return shear_half_space(grid, bodies)
-    if operator.grid != grid:
-        raise ValueError(f"the operator's grid {operator.grid} is not the contact's {grid}")
+    require(operator.grid == grid, f"the operator's grid {operator.grid} is not the contact's {grid}")
     return operator
 
 
 def _unit(along: Sequence[float]) -> tuple[float, float]:
     direction = np.asarray(number(along, "along"))
     size = float(np.hypot(*direction)) if direction.shape == (2,) else math.nan
-    if not (math.isfinite(size) and size > 0):
-        raise ValueError(f"`along` is a direction (x, y), not {along}")
+    require(math.isfinite(size) and size > 0, f"`along` is a direction (x, y), not {along}")
     x, y = direction / size
     return float(x), float(y)

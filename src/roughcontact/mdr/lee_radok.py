@@ -18,7 +18,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.validation import Array, number, shown
+from roughcontact.validation import Array, exactly_one, number, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -112,8 +112,7 @@ def transfer(
     >>> round(float(creep.elastic_force[1] / creep.elastic_force[0]), 4)  # ten times softer in the end
     9.9996
     """
-    if (forces is None) == (depths is None):
-        raise ValueError("give exactly one of forces and depths")
+    _, loads = exactly_one(forces=forces, depths=depths)
     checked_material(material)
     missing = [name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)]
     if missing:
@@ -122,13 +121,12 @@ def transfer(
             f"{shown(curve)} without {', '.join(missing)}"
         )
     t = np.asarray(number(times, "times [s]"))
-    given = np.asarray(number(depths if forces is None else forces, "loads"))
+    given = np.asarray(number(loads, "loads"))
     load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
     if t.ndim != 1 or not len(t) or t.shape != load.shape:
         raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
     ordered(t, load)
-    if (load < 0).any():
-        raise ValueError(f"loads must not be negative, but the least is {load.min():g}")
+    require(load >= 0, f"loads must not be negative, but the least is {load.min():g}")
     table = _CurveTable.of(curve)
     if forces is None:
         _growing(t, load, "depth")
