@@ -18,7 +18,6 @@ from roughcontact.friction.slip_problem import (
     Shift,
     SlipProblem,
     continued,
-    load_of,
     make_problem,
 )
 from roughcontact.friction.slip_solution import TangentialSolution
@@ -108,9 +107,7 @@ def slide(
     """
     make = make_problem if initial is None else partial(continued, initial.problem)
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
-    load = load_of(problem.along, force=force, displacement=displacement)
-    problem.check(load)
-    answer = advance(problem, load, initial)
+    answer = advance(problem, problem.load(force=force, displacement=displacement), initial)
     if not answer.status.converged:
         raise ConvergenceError(answer)  # type: ignore[arg-type]  # it has all that the error tells
     return answer
@@ -172,10 +169,7 @@ def slide_path(
     name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
         raise ValueError(f"a path needs at least one load, in a row, not {given}")
-    loads = [load_of(problem.along, **{name.removesuffix("s"): value}) for value in given]
-    for load in loads:
-        problem.check(load)
-    return _follow(problem, loads)
+    return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
 
 
 def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:

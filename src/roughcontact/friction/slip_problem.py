@@ -24,7 +24,6 @@ __all__ = [
     "Shift",
     "SlipProblem",
     "continued",
-    "load_of",
     "make_problem",
     "shear_body",
 ]
@@ -101,8 +100,15 @@ class SlipProblem:
         """Whether a force is all that friction can hold."""
         return isinstance(load, Pull) and math.hypot(load.x, load.y) >= self.capacity * (1 - SLIDING)
 
-    def check(self, load: Pull | Shift) -> None:
-        """Raise a ValueError for a load that this contact cannot take."""
+    def load(self, *, force: Load | None = None, displacement: Load | None = None) -> Pull | Shift:
+        """Return the load that exactly one of the two states, or raise a ValueError if this contact cannot take it."""
+        name, given = exactly_one(force=force, displacement=displacement)
+        value = np.asarray(number(given, "a tangential load"))
+        if value.ndim == 0:
+            value = value * np.asarray(self.along or (1.0, 0.0))
+        if value.shape != (2,) or not np.isfinite(value).all():
+            raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
+        load = (Pull if name == "force" else Shift)(*value.tolist())
         size = math.hypot(load.x, load.y)
         if self.along is not None:
             ex, ey = self.along
@@ -119,6 +125,7 @@ class SlipProblem:
             raise ValueError(
                 "all cells of a periodic grid are in contact: no traction displaces their mean; give a force"
             )
+        return load
 
 
 def make_problem(
@@ -176,20 +183,6 @@ def continued(
             "the initial state was found with another operator: go on with the same, or name none"
         )
     return replace(earlier, tolerance=tolerance)
-
-
-def load_of(
-    along: tuple[float, float] | None, *, force: Load | None = None, displacement: Load | None = None
-) -> Pull | Shift:
-    """Return the load that exactly one of the two states."""
-    name, given = exactly_one(force=force, displacement=displacement)
-    value = np.asarray(number(given, "a tangential load"))
-    if value.ndim == 0:
-        value = value * np.asarray(along or (1.0, 0.0))
-    if value.shape != (2,) or not np.isfinite(value).all():
-        raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
-    x, y = (float(v) for v in value)
-    return Pull(x, y) if name == "force" else Shift(x, y)
 
 
 def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = None) -> ShearOperator:

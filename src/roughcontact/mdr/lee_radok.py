@@ -17,8 +17,8 @@ from typing import Protocol
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.validation import Array, exactly_one, number, require, shown
+from roughcontact.mdr.viscoelastic import Viscoelastic, checked_history, checked_material
+from roughcontact.validation import Array, exactly_one, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -114,18 +114,14 @@ def transfer(
     """
     _, loads = exactly_one(forces=forces, depths=depths)
     checked_material(material)
-    missing = [name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)]
-    if missing:
+    if missing := [
+        name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)
+    ]:
         raise ValueError(
             "an elastic loading curve is wanted, such as rc.loading_curve and indentation_curve return, not "
             f"{shown(curve)} without {', '.join(missing)}"
         )
-    t = np.asarray(number(times, "times [s]"))
-    given = np.asarray(number(loads, "loads"))
-    load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
-    if t.ndim != 1 or not len(t) or t.shape != load.shape:
-        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
-    ordered(t, load)
+    t, load = checked_history(times, np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads)
     require(load >= 0, f"loads must not be negative, but the least is {load.min():g}")
     table = _CurveTable.of(curve)
     if forces is None:

@@ -194,7 +194,7 @@ def _displacement(
     reach = 2.5 * mu * float(np.maximum(np.abs(before), np.abs(now)).max()) / G
 
     def beyond(place: Array) -> npt.NDArray[np.bool_]:
-        after, _ = _step(tau, before, now, G * (float(place[0]) - start), mu)
-        return np.array([2 * width * float(after.sum()) > force])
+        after, _ = _step(tau, before, now, G * (float(place) - start), mu)
+        return np.asarray(2 * width * float(after.sum()) > force)
 
-    return float(bisect(beyond, np.array([start - reach]), np.array([start + reach]))[0])
+    return float(bisect(beyond, np.asarray(start - reach), np.asarray(start + reach)))
