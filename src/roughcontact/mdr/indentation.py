@@ -253,8 +253,7 @@ def indentation_curve(
     loads = number(values, name)
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
-    falls = np.nonzero(np.diff(loads) <= 0)[0]
-    if len(falls):
+    if len(falls := np.nonzero(np.diff(loads) <= 0)[0]):
         raise ValueError(
             f"loads must increase strictly: {name} goes from {loads[falls[0]]:g} to {loads[falls[0] + 1]:g}"
         )
@@ -323,8 +322,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
 
 
 def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
-    wrong = radii[(radii < profile.flat) | (radii > profile.radius)]
-    if len(wrong):
+    if len(wrong := radii[(radii < profile.flat) | (radii > profile.radius)]):
         raise ValueError(
             f"the contact radius of this body lies between {profile.flat:g} m and {profile.radius:g} m, "
             f"not {wrong[0]:g}"

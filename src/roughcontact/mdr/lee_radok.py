@@ -187,8 +187,7 @@ def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
 
 def _growing(t: Array, value: Array, what: str) -> None:
     """Refuse a history in which the contact shrinks."""
-    fall = np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]
-    if len(fall):
+    if len(fall := np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]):
         raise ValueError(
             f"the {what} falls from t = {t[fall[0]]:g} s on: the transfer holds only while no point leaves the contact "
             "(Lee & Radok); for a body of revolution depth_history and force_history go on"
@@ -216,8 +215,7 @@ class _CurveTable:
         out = np.zeros_like(value)
         asked = value > 0
         low, high = at[0] * (1 - ROUNDING), at[-1] * (1 + ROUNDING)
-        outside = value[asked & ((value < low) | (value > high))]
-        if len(outside):
+        if len(outside := value[asked & ((value < low) | (value > high))]):
             raise ValueError(
                 f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
                 f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"

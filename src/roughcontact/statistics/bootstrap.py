@@ -9,10 +9,9 @@ import numpy.typing as npt
 from scipy.special import ndtr, stdtrit
 
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
+from roughcontact.validation import Array
 
 __all__ = ["counts_of", "interval", "resampled_laws"]
-
-Array = npt.NDArray[np.float64]
 
 
 def counts_of(uniform: Array, there: npt.NDArray[np.bool_]) -> Array:

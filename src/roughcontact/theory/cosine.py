@@ -6,14 +6,13 @@ note of each other, so only the distribution of heights matters, not the wavenum
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import spherical_jn
 
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, composed
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, positive, require
 
@@ -178,14 +177,10 @@ def law(amplitude: float, length: float, modulus: float) -> LoadingLaw:
         "One cosine on springs",
         "thesis, eq. 4.33, corrected",
         {
-            "stiffness": partial(_stiffness, wave),
+            "stiffness": composed(partial(stiffness, **wave), partial(depth, **wave)),
             "depth": partial(depth, **wave),
         },
     )
-
-
-def _stiffness(wave: Mapping[str, float], force: Array) -> Array:
-    return stiffness(depth(force, **wave), **wave)
 
 
 def _given(

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, composed
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, finite, numeric, positive, require
 
@@ -147,12 +147,13 @@ class HeightDistribution:
         """
         # A wrong body is refused now, not at the first force.
         _scale(length, modulus)
+        line = {"length": length, "modulus": modulus}
         return LoadingLaw(
             self.name,
             self.source,
             {
-                "stiffness": partial(_stiffness, self, length, modulus),
-                "depth": partial(self.depth, length=length, modulus=modulus),
+                "stiffness": composed(partial(self.stiffness, **line), partial(self.depth, **line)),
+                "depth": partial(self.depth, **line),
             },
         )
 
@@ -343,10 +344,6 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
 def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
     """Return E* L [N/m]."""
     return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
-
-
-def _stiffness(heights: HeightDistribution, length: float, modulus: float, force: Array) -> Array:
-    return heights.stiffness(heights.depth(force, length, modulus), length, modulus)
 
 
 def _sampled_fraction(once: PPoly, u: Array) -> Array:

@@ -46,8 +46,7 @@ def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
     """
     if isinstance(loading, LoadingLaw):
         return loading
-    missing = [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]
-    if missing:
+    if missing := [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]:
         raise ValueError(
             "a LoadingLaw, or a computed curve with force, depth and stiffness, is wanted, not "
             f"{shown(loading)} without {', '.join(missing)}"
