@@ -128,8 +128,7 @@ class Profile:
         """Return the body stretched along its axis."""
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
-        if not math.isfinite(factor):
-            raise ValueError(f"a body can be stretched by a finite factor, not by {factor}")
+        require(math.isfinite(factor), f"a body can be stretched by a finite factor, not by {factor}")
         terms = tuple((float(factor) * c, term) for c, term in self.terms)
         return replace(self, terms=terms, rises=self.rises and factor >= 0)
 

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_history, checked_material
+from roughcontact.theory.tools.computed import LogCubic
 from roughcontact.validation import Array, exactly_one, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
@@ -123,19 +123,19 @@ def transfer(
         )
     t, load = checked_history(times, np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads)
     require(load >= 0, f"loads must not be negative, but the least is {load.min():g}")
-    table = _CurveTable.of(curve)
+    points = _points(curve)
     if forces is None:
         _growing(t, load, "depth")
-        phi = table.look_up(table.depth, table.force, load, "depth") / curve.modulus
+        phi = _look_up(points[1], points[0], load, "depth") / curve.modulus
         force = _resisting(material, t, phi)
         depth = load
     else:
         force = load
         phi = _creeping(material, t, load)
         _growing(t, phi, "contact")
-        depth = table.look_up(table.force, table.depth, phi * curve.modulus, "elastic force")
+        depth = _look_up(points[0], points[1], phi * curve.modulus, "elastic force")
     elastic = phi * curve.modulus
-    area = table.look_up(table.force, table.area, elastic, "elastic force")
+    area = _look_up(points[0], points[2], elastic, "elastic force")
     return Transfer(t, force, depth, area, elastic)
 
 
@@ -194,32 +194,21 @@ def _growing(t: Array, value: Array, what: str) -> None:
         )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _CurveTable:
-    """Points of an elastic curve, all positive and increasing."""
+def _points(curve: ElasticCurve) -> Array:
+    """Return force, depth and contact area of the points of a curve at which all are positive, one a row."""
+    rows = np.array([curve.force, curve.depth, curve.contact_area])
+    rows = rows[:, (rows > 0).all(axis=0)]
+    if rows.shape[1] < 2 or (np.diff(rows[:2], axis=1) <= 0).any():
+        raise ValueError("the elastic curve must have at least two points of increasing force and depth")
+    return rows
 
-    force: Array
-    depth: Array
-    area: Array
 
-    @classmethod
-    def of(cls, curve: ElasticCurve) -> _CurveTable:
-        columns = np.array([curve.force, curve.depth, curve.contact_area])
-        columns = columns[:, (columns > 0).all(axis=0)]
-        if columns.shape[1] < 2 or (np.diff(columns[:2], axis=1) <= 0).any():
-            raise ValueError("the elastic curve must have at least two points of increasing force and depth")
-        return cls(*columns)
-
-    def look_up(self, at: Array, of: Array, value: Array, what: str) -> Array:
-        """Return one column where another has the value; 0 at 0."""
-        out = np.zeros_like(value)
-        asked = value > 0
-        low, high = at[0] * (1 - ROUNDING), at[-1] * (1 + ROUNDING)
-        if len(outside := value[asked & ((value < low) | (value > high))]):
-            raise ValueError(
-                f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
-                f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
-            )
-        inner = np.log(np.clip(value[asked], at[0], at[-1]))
-        out[asked] = np.exp(PchipInterpolator(np.log(at), np.log(of))(inner))
-        return out
+def _look_up(at: Array, of: Array, value: Array, what: str) -> Array:
+    """Return one column of a curve where another has the value; 0 at 0."""
+    found = np.where(value > 0, LogCubic.of(at, of)(value), 0.0)
+    if len(outside := value[np.isnan(found)]):
+        raise ValueError(
+            f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
+            f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
+        )
+    return found

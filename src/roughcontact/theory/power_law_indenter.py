@@ -179,14 +179,7 @@ def contact(
         "force": Product((1, 1, n + 1), 2 * n / (n + 1) * factor, unit="N"),
         "stiffness": Product((1, 0, 1), 2.0, unit="N/m"),
     }
-    given = {
-        "modulus": modulus,
-        "coefficient": coefficient,
-        "contact_radius": contact_radius,
-        "depth": depth,
-        "force": force,
-        "stiffness": stiffness,
-    }
+    given = (modulus, coefficient, contact_radius, depth, force, stiffness)
     known = checked(quantities, given, body=("modulus", "coefficient"))
     return PowerLawContact(exponent=n, **solve(quantities, known))
 

@@ -267,8 +267,7 @@ class Waves:
         power[:, 1 : (nx + 1) // 2] *= 2
         q = 2 * np.pi * np.hypot(scipy.fft.fftfreq(ny, dy)[:, None], scipy.fft.rfftfreq(nx, dx))
         waves = (q > 0) & (power > 0)
-        if not waves.any():
-            raise ValueError("the heights are flat: contact is full at any load")
+        require(waves.any(), "the heights are flat: contact is full at any load")
         q, power = q[waves], power[waves]
         band = np.rint(np.log(q / q.min()) / MERGED).astype(np.int64)
         sums, squares = np.bincount(band, power).astype(float), np.bincount(band, power * q**2).astype(float)

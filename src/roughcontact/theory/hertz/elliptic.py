@@ -171,20 +171,14 @@ def elliptic(
         "max_pressure": Product((1, -1, 1), 1 / curved, unit="Pa"),
         "stiffness": Product((1, 0, 1), np.pi / flat, unit="N/m"),
     }
-    given = {
-        "modulus": modulus,
-        "force": force,
-        "depth": depth,
-        "max_pressure": max_pressure,
-        "stiffness": stiffness,
-    }
     radius = np.sqrt(rx * ry)
-    found = solve(quantities, {"radii": radius, **checked(quantities, given)})
+    others = checked(quantities, (modulus, None, force, depth, max_pressure, stiffness))
+    found = solve(quantities, {"radii": radius, **others})
     size = np.sqrt(found["depth"] * radius * curved / flat)
     return EllipticContact(
         radii=(rx, ry),
         semi_axes=(size * np.sqrt(aa), size * np.sqrt(bb)),
-        **{name: found[name] for name in given},
+        **{name: value for name, value in found.items() if name != "radii"},
     )
 
 

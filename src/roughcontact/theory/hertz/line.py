@@ -152,14 +152,7 @@ def line(
     >>> round(float(roller.half_width) * 1e6, 2), round(float(roller.max_pressure) / 1e9, 4)  # [um], [GPa]
     (112.84, 0.5642)
     """
-    given = {
-        "modulus": modulus,
-        "radius": radius,
-        "half_width": half_width,
-        "force": force,
-        "max_pressure": max_pressure,
-    }
-    known = checked(QUANTITIES, given)
+    known = checked(QUANTITIES, (modulus, radius, half_width, force, max_pressure))
     if reference_length is not None:
         reference_length = float(positive(reference_length, "reference_length [m]"))
     if depth is not None:

@@ -147,15 +147,7 @@ def point(
     >>> round(float(ball.contact_radius) * 1e6, 2), round(float(ball.depth) * 1e9, 1)  # [um], [nm]
     (42.17, 177.8)
     """
-    given = {
-        "modulus": modulus,
-        "radius": radius,
-        "contact_radius": contact_radius,
-        "depth": depth,
-        "force": force,
-        "max_pressure": max_pressure,
-        "stiffness": stiffness,
-    }
+    given = (modulus, radius, contact_radius, depth, force, max_pressure, stiffness)
     known = checked(QUANTITIES, given, body=("modulus", "radius"))
     return PointContact(**solve(QUANTITIES, known))
 

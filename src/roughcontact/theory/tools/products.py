@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,7 +37,7 @@ class Product:
 
 def checked(
     products: Mapping[str, Product],
-    given: Mapping[str, npt.ArrayLike | None],
+    values: Sequence[npt.ArrayLike | None],
     *,
     body: Collection[str] = (),
 ) -> dict[str, Array]:
@@ -46,9 +46,9 @@ def checked(
     Parameters
     ----------
     products : mapping of str to Product
-        At least the quantities that may be given.
-    given : mapping of str to (array_like or None)
-        Values.
+        The quantities that may be given.
+    values : sequence of (array_like or None)
+        Their values, in the order of the products.
     body : collection of str
         Quantities that describe the unloaded body. Where they are all given, the others may be 0.
 
@@ -57,6 +57,7 @@ def checked(
     ValueError
         If a value is not positive and finite.
     """
+    given = dict(zip(products, values, strict=True))
     unloaded = bool(body) and all(given[name] is not None for name in body)
     return {
         name: positive(value, f"{name} [{products[name].unit}]", zero=unloaded and name not in body)
