@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 __all__ = [
     "Array",
+    "Mask",
     "exactly_one",
     "finite",
     "fitting",
@@ -32,6 +33,7 @@ __all__ = [
 P = ParamSpec("P")
 R = TypeVar("R")
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
 LONGEST = 60  # text of a value in a message
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.

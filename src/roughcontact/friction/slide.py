@@ -12,14 +12,7 @@ from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
-from roughcontact.friction.slip_problem import (
-    Load,
-    Pull,
-    Shift,
-    SlipProblem,
-    continued,
-    make_problem,
-)
+from roughcontact.friction.slip_problem import Load, Pull, Shift, SlipProblem, continued, make_problem
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
-from roughcontact.validation import Array, number, numeric, require, shown
+from roughcontact.validation import Array, Mask, number, numeric, require, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
 
@@ -41,7 +40,7 @@ class AdhesivePath:
     dissipated: Array
 
     @property
-    def released(self) -> npt.NDArray[np.bool_]:
+    def released(self) -> Mask:
         """Whether the body is off after it had been on, shape (n,): where it has separated."""
         on = self.contact_radius > 0
         return np.logical_or.accumulate(on) & ~on

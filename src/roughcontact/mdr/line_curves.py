@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
-from roughcontact.validation import Array, pair, require
+from roughcontact.validation import Array, Mask, pair, require
 
 __all__ = ["LineCurves", "Mean"]
 
@@ -154,7 +154,7 @@ class LineCurves:
                 springs = np.exp(np.log(self.springs).mean(axis=0))
         return np.asarray(self.modulus * self.spacing * springs)
 
-    def resolved(self, mean: Mean = "arithmetic") -> npt.NDArray[np.bool_]:
+    def resolved(self, mean: Mean = "arithmetic") -> Mask:
         """Return the mask of loads whose mean stiffness is above 20 springs and below 90 % of all.
 
         Parameters

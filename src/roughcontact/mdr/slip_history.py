@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
 from roughcontact.theory.tools.roots import bisect
-from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, whole
+from roughcontact.validation import Array, Mask, exactly_one, number, numeric, positive_scalar, whole
 
 __all__ = ["SlipHistory", "slip_history"]
 
@@ -193,7 +192,7 @@ def _displacement(
     """Return the displacement at which the springs carry the tangential force."""
     reach = 2.5 * mu * float(np.maximum(np.abs(before), np.abs(now)).max()) / G
 
-    def beyond(place: Array) -> npt.NDArray[np.bool_]:
+    def beyond(place: Array) -> Mask:
         after, _ = _step(tau, before, now, G * (float(place) - start), mu)
         return np.asarray(2 * width * float(after.sum()) > force)
 

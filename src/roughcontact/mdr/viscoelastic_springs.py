@@ -10,15 +10,12 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.viscoelastic import Viscoelastic
 from roughcontact.theory.tools.roots import bisect
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["Springs", "ViscoelasticFoundation"]
-
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,7 +17,7 @@ from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.statistics.fit_window import Window, window_of
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.statistics.samples import dimensions
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, Mask, require
 
 if TYPE_CHECKING:
     import xarray
@@ -222,7 +222,7 @@ def _common(force: Array) -> Array:
 
 def _inside(
     force: Array, stiffness: Array, forces: tuple[float, float], limits: tuple[float, float], mean: Mean
-) -> npt.NDArray[np.bool_]:
+) -> Mask:
     """Return the points of the window."""
     means = mean_over_samples(stiffness, mean)
     there = ~np.isnan(stiffness)

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.theory.punch.polygon import square
-from roughcontact.validation import Array, numeric, positive, require
+from roughcontact.validation import Array, Mask, numeric, positive, require
 
 __all__ = [
     "CELL",
@@ -187,7 +187,7 @@ def resolved(
     spacing: npt.ArrayLike,
     *,
     cells: float = WINDOW,
-) -> npt.NDArray[np.bool_]:
+) -> Mask:
     """Return whether a stiffness lies inside the `window`.
 
     Parameters
