@@ -41,7 +41,7 @@ SMALLEST, LARGEST = 1e-50, 1e50
 
 # Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
 # whole ones.
-ARRAYS = {"npt.ArrayLike", "float | Array"}
+ARRAYS = {"ArrayLike", "npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
 WHOLE = {"int"}
 OPTIONAL = " | None"
@@ -196,7 +196,7 @@ def exactly_one(**given: Any) -> tuple[str, Any]:
 def numeric(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
-    ``float`` wants one number, ``int`` a whole one, ``npt.ArrayLike`` and ``float | Array`` numbers or arrays that can
+    ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
     be broadcast; none takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all
     values as given: their range is the function's own affair.
 

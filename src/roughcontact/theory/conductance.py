@@ -16,7 +16,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.validation import Array, number, numeric, positive, require, shown
@@ -263,7 +263,7 @@ def _inverse(
     return _not_negative(conductance, "a conductance") / unit
 
 
-def _not_negative(values: npt.ArrayLike, what: str) -> Array:
+def _not_negative(values: ArrayLike, what: str) -> Array:
     """Return numbers from 0 to infinity: full contact is infinitely stiff, and there are insulators."""
     given = np.asarray(number(values, what))
     require(given >= 0, f"{what} must not be negative or missing", given)

@@ -15,7 +15,7 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
@@ -61,7 +61,7 @@ class HeightDistribution:
     source: str = "thesis, eq. 4.59"
 
     @numeric
-    def force(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def force(self, depth: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59).
 
         Parameters
@@ -82,7 +82,7 @@ class HeightDistribution:
         return _scale(length, modulus) * self.excess(u)
 
     @numeric
-    def stiffness(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def stiffness(self, depth: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61).
 
         Parameters
@@ -103,7 +103,7 @@ class HeightDistribution:
         return _scale(length, modulus) * self.fraction(u)
 
     @numeric
-    def depth(self, force: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def depth(self, force: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`.
 
         Parameters
@@ -195,9 +195,7 @@ def from_density(
     )
 
 
-def from_samples(
-    depth: npt.ArrayLike, density: npt.ArrayLike, *, name: str = "Heights"
-) -> HeightDistribution:
+def from_samples(depth: ArrayLike, density: ArrayLike, *, name: str = "Heights") -> HeightDistribution:
     """Return the distribution whose density is sampled, and linear between the samples.
 
     Parameters
@@ -237,7 +235,7 @@ def from_samples(
 
 
 @numeric
-def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
+def stiffness_exponent(density_exponent: ArrayLike) -> Array:
     """Return alpha = (beta + 1)/(beta + 2) of k ~ F^alpha for Phi ~ z^beta (thesis, eqs 4.60 to 4.63) [-].
 
     Parameters
@@ -262,7 +260,7 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
 
 
 @numeric
-def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
+def density_exponent(stiffness_exponent: ArrayLike) -> Array:
     """Return beta = (2 alpha - 1)/(1 - alpha) of Phi ~ z^beta for k ~ F^alpha (thesis, eq. 4.64) [-].
 
     Parameters
@@ -289,7 +287,7 @@ def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
     return (2 * alpha - 1) / (1 - alpha)
 
 
-def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
+def legacy_density_exponent(modes: ArrayLike) -> Array:
     """Return the thesis' beta = -1/2 + (1/2) log2 N, a heuristic (eq. 4.72), to redraw its figures.
 
     N waves of independent phases have beta = N/2 - 1 (`beat_wave`), which agrees at N = 1 and 2 only; adjacent
@@ -316,7 +314,7 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
     return (np.log2(n) - 1) / 2
 
 
-def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
+def legacy_stiffness_exponent(modes: ArrayLike) -> Array:
     """Return the thesis' alpha = (1 + log2 N)/(3 + log2 N), a heuristic (eq. 4.73), to redraw its fig. 25.
 
     The curve k(F) of low Hurst exponents does not depend on the number of grid points (`gaussian_heights`); a
@@ -341,7 +339,7 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
     return stiffness_exponent(legacy_density_exponent(modes))
 
 
-def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+def _scale(length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return E* L [N/m]."""
     return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import gammaln, hyp2f1
 
 from roughcontact.theory.law import LoadingLaw
@@ -19,7 +19,7 @@ __all__ = ["PowerLawContact", "contact", "kappa", "law"]
 TINY = np.finfo(np.float64).tiny
 
 
-def kappa(exponent: npt.ArrayLike) -> Array:
+def kappa(exponent: ArrayLike) -> Array:
     """Return kappa(n) = sqrt(pi) Gamma(n/2 + 1)/Gamma((n + 1)/2), the depth over the height at the edge [-].
 
     The indentation depth is ``kappa Q a^n``: 1 for n = 0 (a flat disc), pi/2 for a cone, 2 for a paraboloid.
@@ -86,7 +86,7 @@ class PowerLawContact:
         """Work done by the force, n/(2n + 1) F d [J]."""
         return self.exponent / (2 * self.exponent + 1) * self.force * self.depth
 
-    def pressure(self, distance: npt.ArrayLike) -> Array:
+    def pressure(self, distance: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `distance` from the centre [m]; infinite there for n <= 1, 0 outside.
 
         Parameters
@@ -105,7 +105,7 @@ class PowerLawContact:
         slope = kappa(n) * n * self.coefficient * np.maximum(a, TINY) ** (n - 1)
         return self.modulus / np.pi * slope * np.sqrt(t) * hyp2f1(1, 1 - n / 2, 3 / 2, t)
 
-    def displacement(self, distance: npt.ArrayLike) -> Array:
+    def displacement(self, distance: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
 
         Parameters
@@ -128,14 +128,14 @@ class PowerLawContact:
 
 @numeric
 def contact(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
     exponent: float,
-    coefficient: npt.ArrayLike | None = None,
-    contact_radius: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    coefficient: ArrayLike | None = None,
+    contact_radius: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> PowerLawContact:
     """Return the contact of z = Q r^n from any three independent quantities (thesis, eqs 5.2 and 5.3).
 

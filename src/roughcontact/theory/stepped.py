@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.validation import Array, numeric, positive, require, require_numbers, whole
 
@@ -98,7 +98,7 @@ class SteppedIndenter:
         order = np.arange(whole(count, "count"), dtype=np.float64)
         return self.height * self.ratio ** (self.hurst * order)
 
-    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+    def corners(self, count: int, modulus: ArrayLike) -> tuple[Array, Array]:
         """Return forces [N] and stiffnesses [N/m] just before disc n + 1 touches, for n below `count`.
 
         k_n = 2 E* r_n (thesis, eq. 4.22, which lacks the 2), and F_n = k_0 h_0 + ... + k_n h_n, of which eq. 4.23
@@ -120,7 +120,7 @@ class SteppedIndenter:
         return np.cumsum(k * self.heights(count)), k
 
     @numeric
-    def stiffness(self, force: npt.ArrayLike, count: int, modulus: npt.ArrayLike) -> Array:
+    def stiffness(self, force: ArrayLike, count: int, modulus: ArrayLike) -> Array:
         """Return the stiffness at a force [N/m]: a staircase (thesis, fig. 17).
 
         Parameters

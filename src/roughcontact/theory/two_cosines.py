@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import hyp2f1
 
 from roughcontact.validation import Array, numeric, pair, positive, require, require_numbers, whole
@@ -25,10 +25,7 @@ FLAT_STIFFNESS = 8 / np.pi
 
 @numeric
 def force(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the force on one crest of the long wave [N] (thesis, eq. 4.38, corrected).
 
@@ -71,10 +68,7 @@ def force(
 
 @numeric
 def stiffness(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the stiffness of one crest of the long wave [N/m]: the derivative of `force`.
 
@@ -107,7 +101,7 @@ def stiffness(
 
 @numeric
 def flat(
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike], short_amplitude: npt.ArrayLike, modulus: npt.ArrayLike
+    long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array]:
     """Return force [N] and stiffness [N/m] where the short wave is flat for the first time, at d = 2 h2.
 
@@ -224,7 +218,7 @@ class Hierarchy:
         """
         return self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
 
-    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+    def corners(self, count: int, modulus: ArrayLike) -> tuple[Array, Array]:
         """Return force [N] and stiffness [N/m] where wave n + 1 is flat on wave n, for n below `count`.
 
         Thesis, eqs 4.45 and 4.46, corrected. The points lie on a line of slope 1/(H+1) (eq. 4.47).
@@ -251,10 +245,7 @@ class Hierarchy:
 
 
 def _given(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Return s = d/(2 h2), h1, q1, h2 and E*."""
     d, h2 = positive(depth, "depth [m]", zero=True), positive(short_amplitude, "short_amplitude [m]")

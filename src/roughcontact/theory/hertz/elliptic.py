@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import elliprd, elliprf
 
 from roughcontact.theory.tools.products import Product, checked, solve
@@ -60,7 +60,7 @@ class EllipticContact:
         return 2 / 5 * self.force * self.depth
 
     @numeric
-    def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the pressure [Pa] at a point [m]; 0 outside the contact.
 
         Parameters
@@ -80,7 +80,7 @@ class EllipticContact:
         return self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
 
     @numeric
-    def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+    def displacement(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a point [m], inside and outside.
 
         Parameters
@@ -110,13 +110,13 @@ class EllipticContact:
 
 
 def elliptic(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radii: tuple[npt.ArrayLike, npt.ArrayLike],
-    force: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    radii: tuple[ArrayLike, ArrayLike],
+    force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> EllipticContact:
     """Return the contact of a body with two radii of curvature from two further quantities (Johnson 1985, ch. 4).
 

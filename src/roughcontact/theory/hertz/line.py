@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import lambertw
 
 from roughcontact.theory.tools.products import Product, checked, solve
@@ -64,7 +64,7 @@ class LineContact:
         return np.pi * self.modulus / (2 * self._logarithm())
 
     @numeric
-    def pressure(self, position: npt.ArrayLike) -> Array:
+    def pressure(self, position: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact.
 
         Parameters
@@ -82,7 +82,7 @@ class LineContact:
         return self.modulus / (2 * self.radius) * half_chord
 
     @numeric
-    def displacement(self, position: npt.ArrayLike) -> Array:
+    def displacement(self, position: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside.
 
         Parameters
@@ -112,13 +112,13 @@ class LineContact:
 
 
 def line(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radius: npt.ArrayLike | None = None,
-    half_width: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    half_width: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
     reference_length: float | None = None,
 ) -> LineContact:
     """Return the contact of a parabolic cylinder from any three independent quantities (beside thesis, eq. A.37).

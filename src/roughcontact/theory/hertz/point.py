@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
@@ -68,7 +68,7 @@ class PointContact:
         """Work done by the force, 2/5 F d [J]."""
         return 2 / 5 * self.force * self.depth
 
-    def pressure(self, distance: npt.ArrayLike) -> Array:
+    def pressure(self, distance: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `distance` from the centre [m]; 0 outside the contact.
 
         Parameters
@@ -85,7 +85,7 @@ class PointContact:
         half_chord = np.sqrt(np.maximum(self.contact_radius**2 - r**2, 0.0))
         return 2 * self.modulus / (np.pi * self.radius) * half_chord
 
-    def displacement(self, distance: npt.ArrayLike) -> Array:
+    def displacement(self, distance: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
 
         Parameters
@@ -108,14 +108,14 @@ class PointContact:
 
 
 def point(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radius: npt.ArrayLike | None = None,
-    contact_radius: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    contact_radius: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> PointContact:
     """Return the contact of a paraboloid from any three independent quantities (thesis, eqs 5.4, A.60 and A.61).
 

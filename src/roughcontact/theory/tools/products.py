@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.validation import Array, fitting, positive
 
@@ -36,10 +36,7 @@ class Product:
 
 
 def checked(
-    products: Mapping[str, Product],
-    values: Sequence[npt.ArrayLike | None],
-    *,
-    body: Collection[str] = (),
+    products: Mapping[str, Product], values: Sequence[ArrayLike | None], *, body: Collection[str] = ()
 ) -> dict[str, Array]:
     """Return those quantities that are given and not None, as numbers or arrays.
 
