@@ -267,9 +267,8 @@ def _controls(
     grid: AnyGrid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
 ) -> list[Control]:
     """Return the controls that exactly one of the three lists states."""
-    several, loads = exactly_one(forces=forces, depths=depths, pressures=pressures)
-    name = several.removesuffix("s")
-    values = np.atleast_1d(number(loads, f"the list of {several}"))
+    name, loads = exactly_one(force=forces, depth=depths, pressure=pressures)
+    values = np.atleast_1d(number(loads, f"the list of {name}s"))
     if values.ndim != 1 or not len(values):
         raise ValueError(
             f"the list of {name}s must hold at least one number in one row, not shape {values.shape}"
