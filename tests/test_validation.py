@@ -14,6 +14,7 @@ import roughcontact as rc
 from roughcontact.theory import hertz, mindlin, persson, pohrt_popov, punch, rough_sphere
 from roughcontact.validation import (
     Array,
+    exactly_one,
     number,
     numeric,
     pair,
@@ -70,6 +71,14 @@ def test_what_is_not_a_pair(value):
         hertz.elliptic(1e9, radii=value, force=1.0)
     with pytest.raises(ValueError, match=r"semi_axes \[m\] must be"):
         punch.ellipse(1e9, value)
+
+
+def test_exactly_one_is_given():
+    assert exactly_one(force=None, depth=0.0, pressure=None) == ("depth", 0.0)
+    with pytest.raises(ValueError, match="exactly one of force, depth and pressure, not none"):
+        exactly_one(force=None, depth=None, pressure=None)
+    with pytest.raises(ValueError, match="exactly one of forces and depths, not forces and depths"):
+        exactly_one(forces=[1.0], depths=[1.0])
 
 
 def test_a_message_has_the_first_value_that_is_wrong():

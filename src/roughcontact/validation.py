@@ -13,6 +13,8 @@ import numpy.typing as npt
 
 __all__ = [
     "Array",
+    "Mask",
+    "exactly_one",
     "finite",
     "fitting",
     "moderate",
@@ -31,6 +33,7 @@ __all__ = [
 P = ParamSpec("P")
 R = TypeVar("R")
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
 LONGEST = 60  # text of a value in a message
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
@@ -38,7 +41,7 @@ SMALLEST, LARGEST = 1e-50, 1e50
 
 # Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
 # whole ones.
-ARRAYS = {"npt.ArrayLike", "float | Array"}
+ARRAYS = {"ArrayLike", "npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
 WHOLE = {"int"}
 OPTIONAL = " | None"
@@ -175,10 +178,25 @@ def shown(value: object) -> str:
     return text if short else f"a {type(value).__name__}"
 
 
+def exactly_one(**given: Any) -> tuple[str, Any]:
+    """Return the name and the value of the one argument that is given; None is not.
+
+    Raises
+    ------
+    ValueError
+        If none is given, or more than one, with the names of both kinds.
+    """
+    stated = {name: value for name, value in given.items() if value is not None}
+    *others, last = given
+    wanted, found = f"{', '.join(others)} and {last}", " and ".join(stated) or "none"
+    require(len(stated) == 1, f"give exactly one of {wanted}, not {found}")
+    return stated.popitem()
+
+
 def numeric(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
-    ``float`` wants one number, ``int`` a whole one, ``npt.ArrayLike`` and ``float | Array`` numbers or arrays that can
+    ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
     be broadcast; none takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all
     values as given: their range is the function's own affair.
 

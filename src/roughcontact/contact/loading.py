@@ -20,7 +20,7 @@ from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force, Solver, Tangent
 from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
-from roughcontact.validation import number, numeric
+from roughcontact.validation import exactly_one, number, numeric
 
 __all__ = ["loading_curve", "loading_path", "suggested_forces"]
 
@@ -266,13 +266,7 @@ def _controls(
     grid: AnyGrid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
 ) -> list[Control]:
     """Return the controls that exactly one of the three lists states."""
-    given = {"force": forces, "depth": depths, "pressure": pressures}
-    named = {name: loads for name, loads in given.items() if loads is not None}
-    if len(named) != 1:
-        raise ValueError(
-            f"give exactly one of forces, depths and pressures, not {' and '.join(named) or 'none'}"
-        )
-    [(name, loads)] = named.items()
+    name, loads = exactly_one(force=forces, depth=depths, pressure=pressures)
     values = np.atleast_1d(number(loads, f"the list of {name}s"))
     if values.ndim != 1 or not len(values):
         raise ValueError(

@@ -22,7 +22,7 @@ from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import scalar
+from roughcontact.validation import exactly_one, scalar
 
 __all__ = ["lock", "press", "solve", "solve_state"]
 
@@ -125,13 +125,7 @@ def control_of(
     grid: AnyGrid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
 ) -> Control:
     """Return the control that exactly one of the three numbers states."""
-    given = [
-        name for name, v in (("force", force), ("depth", depth), ("pressure", pressure)) if v is not None
-    ]
-    if len(given) != 1:
-        raise ValueError(
-            f"give exactly one of force, depth and pressure, not {' and '.join(given) or 'none'}"
-        )
+    exactly_one(force=force, depth=depth, pressure=pressure)
     if force is not None:
         return Force(scalar(force, "force"))
     if depth is not None:

@@ -14,11 +14,10 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import capabilities, exact_of, self_influence
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, dense_shear
 from roughcontact.solver.subdomain import bounding_box
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["ContactCells", "Selection"]
 
-Mask = npt.NDArray[np.bool_]
 Cells = npt.NDArray[np.intp]
 Values = npt.NDArray[Any]
 

@@ -9,14 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import beside, inner, namespace, numbers
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "under_force", "violations", "within"]
 
-Mask = npt.NDArray[np.bool_]
 
 AT_LIMIT = 1e-12  # part of the limit that is rounding: a traction as near to it is at it
 FORCE = 1e-14  # of all the limits together: how well a sum over many cells meets a force

@@ -16,9 +16,8 @@ from roughcontact.solver.control import Status
 __all__ = ["SlipNewton"]
 
 REDUCTION = 0.1  # of the error by each linear solve: the next guess is another problem
-FALL = (
-    0.9  # of the residual, below its least, that an iteration must reach, so that the iteration cannot cycle
-)
+# Of the residual, below its least, that an iteration must reach, so that the iteration cannot cycle.
+FALL = 0.9
 PATIENCE = 20  # descents without a smaller residual or energy, after which only rounding is left
 ROUNDING = float(np.finfo(np.float64).eps)
 

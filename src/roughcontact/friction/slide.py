@@ -12,22 +12,14 @@ from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
-from roughcontact.friction.slip_problem import (
-    Load,
-    Pull,
-    Shift,
-    SlipProblem,
-    continued,
-    load_of,
-    make_problem,
-)
+from roughcontact.friction.slip_problem import Load, Pull, Shift, SlipProblem, continued, make_problem
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, number, numeric
+from roughcontact.validation import Array, exactly_one, number, numeric
 
 __all__ = ["Loads", "advance", "load_cycle", "slide", "slide_path"]
 
@@ -108,9 +100,7 @@ def slide(
     """
     make = make_problem if initial is None else partial(continued, initial.problem)
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
-    load = load_of(problem.along, force=force, displacement=displacement)
-    problem.check(load)
-    answer = advance(problem, load, initial)
+    answer = advance(problem, problem.load(force=force, displacement=displacement), initial)
     if not answer.status.converged:
         raise ConvergenceError(answer)  # type: ignore[arg-type]  # it has all that the error tells
     return answer
@@ -169,21 +159,10 @@ def slide_path(
     (10, True)
     """
     problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
-    if (forces is None) == (displacements is None):
-        raise ValueError("give exactly one of forces and displacements")
-    given = forces if forces is not None else displacements
-    assert given is not None
+    name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
         raise ValueError(f"a path needs at least one load, in a row, not {given}")
-    loads = [
-        load_of(problem.along, force=value)
-        if displacements is None
-        else load_of(problem.along, displacement=value)
-        for value in given
-    ]
-    for load in loads:
-        problem.check(load)
-    return _follow(problem, loads)
+    return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
 
 
 def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:

@@ -16,7 +16,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.validation import Array, number, positive_scalar
+from roughcontact.validation import Array, exactly_one, number, positive_scalar, require
 
 __all__ = [
     "Load",
@@ -24,7 +24,6 @@ __all__ = [
     "Shift",
     "SlipProblem",
     "continued",
-    "load_of",
     "make_problem",
     "shear_body",
 ]
@@ -101,8 +100,15 @@ class SlipProblem:
         """Whether a force is all that friction can hold."""
         return isinstance(load, Pull) and math.hypot(load.x, load.y) >= self.capacity * (1 - SLIDING)
 
-    def check(self, load: Pull | Shift) -> None:
-        """Raise a ValueError for a load that this contact cannot take."""
+    def load(self, *, force: Load | None = None, displacement: Load | None = None) -> Pull | Shift:
+        """Return the load that exactly one of the two states, or raise a ValueError if this contact cannot take it."""
+        name, given = exactly_one(force=force, displacement=displacement)
+        value = np.asarray(number(given, "a tangential load"))
+        if value.ndim == 0:
+            value = value * np.asarray(self.along or (1.0, 0.0))
+        if value.shape != (2,) or not np.isfinite(value).all():
+            raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
+        load = (Pull if name == "force" else Shift)(*value.tolist())
         size = math.hypot(load.x, load.y)
         if self.along is not None:
             ex, ey = self.along
@@ -119,6 +125,7 @@ class SlipProblem:
             raise ValueError(
                 "all cells of a periodic grid are in contact: no traction displaces their mean; give a force"
             )
+        return load
 
 
 def make_problem(
@@ -178,23 +185,6 @@ def continued(
     return replace(earlier, tolerance=tolerance)
 
 
-def load_of(
-    along: tuple[float, float] | None, *, force: Load | None = None, displacement: Load | None = None
-) -> Pull | Shift:
-    """Return the load that exactly one of the two states."""
-    if (force is None) == (displacement is None):
-        raise ValueError("give exactly one of force and displacement")
-    given = force if force is not None else displacement
-    assert given is not None
-    value = np.asarray(number(given, "a tangential load"))
-    if value.ndim == 0:
-        value = value * np.asarray(along or (1.0, 0.0))
-    if value.shape != (2,) or not np.isfinite(value).all():
-        raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
-    x, y = (float(v) for v in value)
-    return Pull(x, y) if force is not None else Shift(x, y)
-
-
 def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = None) -> ShearOperator:
     """Return `operator`, which must lie on `grid`; without one the half-spaces of the bodies.
 
@@ -205,15 +195,13 @@ def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = N
     """
     if operator is None:
         return shear_half_space(grid, bodies)
-    if operator.grid != grid:
-        raise ValueError(f"the operator's grid {operator.grid} is not the contact's {grid}")
+    require(operator.grid == grid, f"the operator's grid {operator.grid} is not the contact's {grid}")
     return operator
 
 
 def _unit(along: Sequence[float]) -> tuple[float, float]:
     direction = np.asarray(number(along, "along"))
     size = float(np.hypot(*direction)) if direction.shape == (2,) else math.nan
-    if not (math.isfinite(size) and size > 0):
-        raise ValueError(f"`along` is a direction (x, y), not {along}")
+    require(math.isfinite(size) and size > 0, f"`along` is a direction (x, y), not {along}")
     x, y = direction / size
     return float(x), float(y)

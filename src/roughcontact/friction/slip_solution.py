@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.cached import cached_property
 from roughcontact.friction.contact_cells import ContactCells
@@ -18,14 +15,13 @@ from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["TangentialSolution"]
 
-Mask = npt.NDArray[np.bool_]
 
 UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
 

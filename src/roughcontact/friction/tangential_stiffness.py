@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import inner, namespace
 from roughcontact.friction.contact_cells import ContactCells
@@ -18,11 +17,10 @@ from roughcontact.material import Bodies
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
-Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 MAX_STEPS = 5000

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from roughcontact.mdr.adhesion import Adhesion, Control
-from roughcontact.validation import Array, number, numeric, shown
+from roughcontact.validation import Array, Mask, number, numeric, require, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
 
@@ -41,7 +40,7 @@ class AdhesivePath:
     dissipated: Array
 
     @property
-    def released(self) -> npt.NDArray[np.bool_]:
+    def released(self) -> Mask:
         """Whether the body is off after it had been on, shape (n,): where it has separated."""
         on = self.contact_radius > 0
         return np.logical_or.accumulate(on) & ~on
@@ -93,14 +92,12 @@ def adhesive_path(
     """
     if not isinstance(adhesion, Adhesion):
         raise ValueError(f"an Adhesion is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}")
-    if (depths is None) == (forces is None):
-        raise ValueError("give exactly one history, of depths or of forces")
+    require((depths is None) != (forces is None), "give exactly one history, of depths or of forces")
     if depths is not None and not machine_stiffness > 0:
         raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
     history = np.asarray(number(forces if depths is None else depths, "the history"))
-    if history.ndim != 1:
-        raise ValueError(f"a history is a list of numbers, not of shape {history.shape}")
+    require(history.ndim == 1, f"a history is a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():
         raise ValueError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
     track = _Track(control, *control.extrema())
@@ -141,25 +138,36 @@ class _Track:
         """Return where the edge goes from radius `a` when the control becomes `c`, and the energy it loses."""
         own = float(self.control.level(a)) if a > 0 else 0.0
         if c > own or (a == 0 and c == 0):
-            return self._out(a, own, c)
+            return self._lead(a, own, c, 1)
         if a > 0 and c < own:
-            return self._in(a, own, c)
+            return self._lead(a, own, c, -1)
         return a, 0.0
 
-    def _out(self, a: float, level: float, c: float) -> tuple[float, float]:
+    def _pieces(self, a: float, way: int) -> list[tuple[float, float, float]]:
+        """Return the pieces from the one that holds `a` on, outwards or inwards: both ends, and c at the far one."""
+        first = int(np.searchsorted(self.extrema, a, side="right" if way > 0 else "left"))
+        far = range(first, len(self.extrema)) if way > 0 else range(first - 1, -1, -1)
+        ends = self.extrema.tolist()
+        return [(ends[index - way], ends[index], float(self.levels[index])) for index in far]
+
+    def _lead(self, a: float, level: float, c: float, way: int) -> tuple[float, float]:
+        """Return where the edge goes outwards (1) or inwards (-1) from `a` at `level`, and the energy it loses."""
         loss = 0.0
-        for index in range(int(np.searchsorted(self.extrema, a, side="right")), len(self.extrema)):
-            end, there = float(self.extrema[index]), float(self.levels[index])
-            if there < level:
+        for start, end, there in self._pieces(a, way):
+            if way * there < way * level:
                 continue
-            start = float(self.extrema[index - 1])
-            if start > a:  # the equilibria between lie lower: a snap to where they are as high again
+            if (
+                way * start > way * a
+            ):  # c lies behind on the pieces between: a snap to where it is `level` again
                 landing = self._cross(start, end, level)
                 loss += self._energy(a, level) - self._energy(landing, level)
                 a = landing
-            if there >= c:
+            if way * there >= way * c:
                 return self._cross(a, end, c), loss
             a, level = end, there
+        if way < 0:
+            torn = math.inf if self.control.machine_stiffness == 0 else self._energy(a, level)
+            return 0.0, loss + torn
         last = float(self.extrema[-1])
         if not self.control.adhesion.profile.edge:
             raise ValueError(f"the contact spreads beyond {last:g} m, where the body is not known")
@@ -167,25 +175,9 @@ class _Track:
             loss += self._energy(a, level) - self._energy(last, level)
         return last, loss
 
-    def _in(self, a: float, level: float, c: float) -> tuple[float, float]:
-        loss = 0.0
-        for index in range(int(np.searchsorted(self.extrema, a)) - 1, -1, -1):
-            start, there = float(self.extrema[index]), float(self.levels[index])
-            if there > level:
-                continue
-            end = float(self.extrema[index + 1])
-            if end < a:
-                landing = self._cross(start, end, level)
-                loss += self._energy(a, level) - self._energy(landing, level)
-                a = landing
-            if there <= c:
-                return self._cross(start, a, c), loss
-            a, level = start, there
-        torn = math.inf if self.control.machine_stiffness == 0 else self._energy(a, level)
-        return 0.0, loss + torn
-
-    def _cross(self, low: float, high: float, level: float) -> float:
-        """Return where c passes a level on a rising piece."""
+    def _cross(self, start: float, end: float, level: float) -> float:
+        """Return where c passes a level on a rising piece, given by its ends in either order."""
+        low, high = sorted((start, end))
         below, above = (float(self.control.level(a)) - level for a in (low, high))
         if below >= 0 or above <= 0:
             return low if below >= 0 else high

@@ -81,26 +81,23 @@ class Profile:
         r = checked_radii(r)
         inside = np.minimum(r, self.radius)
         beyond = math.inf if self.edge else math.nan
-        return np.where(
-            r > self.radius,
-            beyond,
-            sum((c * term.height(inside) for c, term in self.terms), np.zeros_like(r)),
-        )
+        return np.where(r > self.radius, beyond, self._sum("height", inside))
 
     def transform(self, x: float | Array) -> Array:
         """Return g(x) [m]: the depth at which the contact has the radius x."""
-        x = checked_radii(x)
-        return sum((c * term.transform(x) for c, term in self.terms), np.zeros_like(x))
+        return self._sum("transform", checked_radii(x))
 
     def transform_slope(self, x: float | Array) -> Array:
         """Return g'(x) [-]; infinite beside the edge of a flat face and at a cusp."""
-        x = checked_radii(x)
-        return sum((c * term.slope(x) for c, term in self.terms), np.zeros_like(x))
+        return self._sum("slope", checked_radii(x))
 
     def transform_integral(self, x: float | Array) -> Array:
         """Return the integral of g from 0 to x [m^2]."""
-        x = checked_radii(x)
-        return sum((c * term.primitive(x) for c, term in self.terms), np.zeros_like(x))
+        return self._sum("primitive", checked_radii(x))
+
+    def _sum(self, function: str, places: Array) -> Array:
+        """Return what the terms' functions of one name add up to."""
+        return sum((c * getattr(term, function)(places) for c, term in self.terms), np.zeros_like(places))
 
     def cut(self, radius: float) -> Profile:
         """Return the body cut off at a `radius` [m], where it ends in a sharp edge.
@@ -131,8 +128,7 @@ class Profile:
         """Return the body stretched along its axis."""
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
-        if not math.isfinite(factor):
-            raise ValueError(f"a body can be stretched by a finite factor, not by {factor}")
+        require(math.isfinite(factor), f"a body can be stretched by a finite factor, not by {factor}")
         terms = tuple((float(factor) * c, term) for c, term in self.terms)
         return replace(self, terms=terms, rises=self.rises and factor >= 0)
 

@@ -81,11 +81,7 @@ def _basis(count: int) -> tuple[Array, Array]:
 
 def interpolate(function: Function, edges: Array, count: int) -> Panels:
     """Return the panels that meet `function` at `count` nodes each, both edges among them."""
-    nodes, matrix = _basis(count)
-    left, right = edges[:-1, None], edges[1:, None]
-    places = np.clip(left + (right - left) * (nodes + 1) / 2, left, right)
-    values = np.asarray(function(places.ravel()), dtype=np.float64).reshape(places.shape)
-    return Panels(edges, values @ matrix.T)
+    return Panels(edges, _each(function, np.stack([edges[:-1], edges[1:]], axis=1), count))
 
 
 def fit(function: Function, end: float, *, tolerance: float) -> Panels:
@@ -118,7 +114,7 @@ def fit(function: Function, end: float, *, tolerance: float) -> Panels:
             raise ValueError(
                 f"the function is not piecewise smooth to {tolerance:g}: give samples of it instead (sampled)"
             )
-        own = _each(function, todo)
+        own = _each(function, todo, NODES)
         if not np.isfinite(own).all():
             where = todo[~np.isfinite(own).all(axis=1)][0]
             raise ValueError(f"the function is not finite between {where[0]:g} and {where[1]:g}")
@@ -140,9 +136,9 @@ def fit(function: Function, end: float, *, tolerance: float) -> Panels:
     )
 
 
-def _each(function: Function, spans: Array) -> Array:
+def _each(function: Function, spans: Array, count: int) -> Array:
     """Return the coefficients of the panels `spans`, shape (m, 2), which need not be neighbours."""
-    nodes, matrix = _basis(NODES)
+    nodes, matrix = _basis(count)
     left, right = spans[:, :1], spans[:, 1:]
     places = np.clip(left + (right - left) * (nodes + 1) / 2, left, right)
     values = np.asarray(function(places.ravel()), dtype=np.float64)

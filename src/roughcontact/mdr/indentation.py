@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile, chec
 from roughcontact.mdr.disc import disc_radius
 from roughcontact.mdr.recovery import pressure, spring_energy, surface_displacement
 from roughcontact.theory.tools.roots import last_below
-from roughcontact.validation import Array, number
+from roughcontact.validation import Array, exactly_one, number, require
 
 __all__ = ["Indentation", "IndentationCurve", "indent", "indentation_curve", "indented"]
 
@@ -208,10 +207,9 @@ def indent(
     >>> round(ball.force / (4 / 3 * 1e11 * 1e-4 * 1e-6), 6)
     1.0
     """
-    load = _one_load(force=force, depth=depth, contact_radius=contact_radius)
-    d, a = _solve(profile, as_modulus(modulus), load[0], np.atleast_1d(number(load[1], load[0])))
-    if len(d) != 1:
-        raise ValueError(f"one load is wanted, not {len(d)}: indentation_curve takes many")
+    name, load = exactly_one(force=force, depth=depth, contact_radius=contact_radius)
+    d, a = _solve(profile, as_modulus(modulus), name, np.atleast_1d(number(load, name)))
+    require(len(d) == 1, f"one load is wanted, not {len(d)}: indentation_curve takes many")
     return Indentation(profile, as_modulus(modulus), float(d[0]), float(a[0]))
 
 
@@ -251,21 +249,18 @@ def indentation_curve(
     >>> round(float(curve.stiffness[1] / curve.stiffness[0]), 6)  # of a cone as F^(1/2)
     2.0
     """
-    name, values = _one_load(force=forces, depth=depths, contact_radius=contact_radii)
+    name, values = exactly_one(force=forces, depth=depths, contact_radius=contact_radii)
     loads = number(values, name)
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
-    falls = np.nonzero(np.diff(loads) <= 0)[0]
-    if len(falls):
+    if len(falls := np.nonzero(np.diff(loads) <= 0)[0]):
         raise ValueError(
             f"loads must increase strictly: {name} goes from {loads[falls[0]]:g} to {loads[falls[0] + 1]:g}"
         )
     return indented(profile, as_modulus(modulus), name, loads)
 
 
-def indented(
-    profile: Profile, modulus: float, name: Literal["force", "depth", "contact_radius"], loads: Array
-) -> IndentationCurve:
+def indented(profile: Profile, modulus: float, name: str, loads: Array) -> IndentationCurve:
     """Return the states at loads in any order, as histories have them.
 
     Parameters
@@ -292,14 +287,6 @@ def indented(
     1.0
     """
     return IndentationCurve(profile, modulus, *_solve(profile, modulus, name, loads))
-
-
-def _one_load(**given: Any) -> tuple[Any, Any]:
-    loads = [(name, value) for name, value in given.items() if value is not None]
-    if len(loads) != 1:
-        names = " and ".join(name for name, _ in loads) or "none"
-        raise ValueError(f"give exactly one of force, depth and contact_radius, not {names}")
-    return loads[0]
 
 
 def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[Array, Array]:
@@ -335,8 +322,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
 
 
 def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
-    wrong = radii[(radii < profile.flat) | (radii > profile.radius)]
-    if len(wrong):
+    if len(wrong := radii[(radii < profile.flat) | (radii > profile.radius)]):
         raise ValueError(
             f"the contact radius of this body lies between {profile.flat:g} m and {profile.radius:g} m, "
             f"not {wrong[0]:g}"

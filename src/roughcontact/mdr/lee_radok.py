@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
-from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
-from roughcontact.validation import Array, number, shown
+from roughcontact.mdr.viscoelastic import Viscoelastic, checked_history, checked_material
+from roughcontact.theory.tools.computed import LogCubic
+from roughcontact.validation import Array, exactly_one, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -112,36 +112,30 @@ def transfer(
     >>> round(float(creep.elastic_force[1] / creep.elastic_force[0]), 4)  # ten times softer in the end
     9.9996
     """
-    if (forces is None) == (depths is None):
-        raise ValueError("give exactly one of forces and depths")
+    _, loads = exactly_one(forces=forces, depths=depths)
     checked_material(material)
-    missing = [name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)]
-    if missing:
+    if missing := [
+        name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)
+    ]:
         raise ValueError(
             "an elastic loading curve is wanted, such as rc.loading_curve and indentation_curve return, not "
             f"{shown(curve)} without {', '.join(missing)}"
         )
-    t = np.asarray(number(times, "times [s]"))
-    given = np.asarray(number(depths if forces is None else forces, "loads"))
-    load = np.broadcast_to(given, t.shape).astype(np.float64) if given.ndim == 0 else given
-    if t.ndim != 1 or not len(t) or t.shape != load.shape:
-        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
-    ordered(t, load)
-    if (load < 0).any():
-        raise ValueError(f"loads must not be negative, but the least is {load.min():g}")
-    table = _CurveTable.of(curve)
+    t, load = checked_history(times, np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads)
+    require(load >= 0, f"loads must not be negative, but the least is {load.min():g}")
+    points = _points(curve)
     if forces is None:
         _growing(t, load, "depth")
-        phi = table.look_up(table.depth, table.force, load, "depth") / curve.modulus
+        phi = _look_up(points[1], points[0], load, "depth") / curve.modulus
         force = _resisting(material, t, phi)
         depth = load
     else:
         force = load
         phi = _creeping(material, t, load)
         _growing(t, phi, "contact")
-        depth = table.look_up(table.force, table.depth, phi * curve.modulus, "elastic force")
+        depth = _look_up(points[0], points[1], phi * curve.modulus, "elastic force")
     elastic = phi * curve.modulus
-    area = table.look_up(table.force, table.area, elastic, "elastic force")
+    area = _look_up(points[0], points[2], elastic, "elastic force")
     return Transfer(t, force, depth, area, elastic)
 
 
@@ -193,41 +187,28 @@ def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
 
 def _growing(t: Array, value: Array, what: str) -> None:
     """Refuse a history in which the contact shrinks."""
-    fall = np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]
-    if len(fall):
+    if len(fall := np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]):
         raise ValueError(
             f"the {what} falls from t = {t[fall[0]]:g} s on: the transfer holds only while no point leaves the contact "
             "(Lee & Radok); for a body of revolution depth_history and force_history go on"
         )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _CurveTable:
-    """Points of an elastic curve, all positive and increasing."""
+def _points(curve: ElasticCurve) -> Array:
+    """Return force, depth and contact area of the points of a curve at which all are positive, one a row."""
+    rows = np.array([curve.force, curve.depth, curve.contact_area])
+    rows = rows[:, (rows > 0).all(axis=0)]
+    if rows.shape[1] < 2 or (np.diff(rows[:2], axis=1) <= 0).any():
+        raise ValueError("the elastic curve must have at least two points of increasing force and depth")
+    return rows
 
-    force: Array
-    depth: Array
-    area: Array
 
-    @classmethod
-    def of(cls, curve: ElasticCurve) -> _CurveTable:
-        columns = np.array([curve.force, curve.depth, curve.contact_area])
-        columns = columns[:, (columns > 0).all(axis=0)]
-        if columns.shape[1] < 2 or (np.diff(columns[:2], axis=1) <= 0).any():
-            raise ValueError("the elastic curve must have at least two points of increasing force and depth")
-        return cls(*columns)
-
-    def look_up(self, at: Array, of: Array, value: Array, what: str) -> Array:
-        """Return one column where another has the value; 0 at 0."""
-        out = np.zeros_like(value)
-        asked = value > 0
-        low, high = at[0] * (1 - ROUNDING), at[-1] * (1 + ROUNDING)
-        outside = value[asked & ((value < low) | (value > high))]
-        if len(outside):
-            raise ValueError(
-                f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
-                f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
-            )
-        inner = np.log(np.clip(value[asked], at[0], at[-1]))
-        out[asked] = np.exp(PchipInterpolator(np.log(at), np.log(of))(inner))
-        return out
+def _look_up(at: Array, of: Array, value: Array, what: str) -> Array:
+    """Return one column of a curve where another has the value; 0 at 0."""
+    found = np.where(value > 0, LogCubic.of(at, of)(value), 0.0)
+    if len(outside := value[np.isnan(found)]):
+        raise ValueError(
+            f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
+            f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
+        )
+    return found

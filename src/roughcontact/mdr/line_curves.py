@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
-from roughcontact.validation import Array, pair
+from roughcontact.validation import Array, Mask, pair, require
 
 __all__ = ["LineCurves", "Mean"]
 
@@ -75,8 +75,7 @@ class LineCurves:
             If there is none, or the parts differ in loads, modulus or points.
         """
         batches = list(parts)
-        if not batches:
-            raise ValueError("there are no curves to join")
+        require(len(batches) > 0, "there are no curves to join")
         first = batches[0]
         common = "force" if first.force.ndim == 1 else "depth"
         for other in batches[1:]:
@@ -155,7 +154,7 @@ class LineCurves:
                 springs = np.exp(np.log(self.springs).mean(axis=0))
         return np.asarray(self.modulus * self.spacing * springs)
 
-    def resolved(self, mean: Mean = "arithmetic") -> npt.NDArray[np.bool_]:
+    def resolved(self, mean: Mean = "arithmetic") -> Mask:
         """Return the mask of loads whose mean stiffness is above 20 springs and below 90 % of all.
 
         Parameters

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.validation import Array, number, numeric, positive_scalar
+from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, require
 
 __all__ = ["checked_lines", "loading_curves"]
 
@@ -208,15 +208,13 @@ def _loads(
     forces: Sequence[float] | Array | None, depths: Sequence[float] | Array | None
 ) -> tuple[Array, bool]:
     """Return the loads and whether they are forces."""
-    if (forces is None) == (depths is None):
-        raise ValueError("give exactly one of forces and depths")
-    by_force = forces is not None
-    name, unit, least = ("forces", "N", "above 0") if by_force else ("depths", "m", "at least 0")
-    loads = np.atleast_1d(number(forces if by_force else depths, name))
+    name, values = exactly_one(forces=forces, depths=depths)
+    by_force = name == "forces"
+    unit, least = ("N", "above 0") if by_force else ("m", "at least 0")
+    loads = np.atleast_1d(number(values, name))
     if loads.ndim != 1 or not len(loads):
         raise ValueError(f"{name} must hold at least one number in one row, not shape {loads.shape}")
     if not (np.isfinite(loads).all() and (loads > 0 if by_force else loads >= 0).all()):
         raise ValueError(f"{name} must be finite and {least} [{unit}], not {loads[0]:g} to {loads[-1]:g}")
-    if not (np.diff(loads) > 0).all():
-        raise ValueError(f"{name} must increase strictly")
+    require(np.diff(loads) > 0, f"{name} must increase strictly")
     return loads, by_force

@@ -10,7 +10,7 @@ import numpy as np
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.sliding_state import SlidingState, sliding_state
-from roughcontact.validation import Array, number, numeric, positive_scalar
+from roughcontact.validation import Array, number, numeric, positive_scalar, require
 
 __all__ = ["SlidingCurves", "sliding_friction"]
 
@@ -119,8 +119,7 @@ def sliding_friction(
     rates = np.atleast_1d(number(speeds, "speeds [m/s]"))
     if rates.ndim != 1 or not len(rates) or not (np.isfinite(rates).all() and (rates > 0).all()):
         raise ValueError(f"speeds must be positive and finite [m/s], at least one in one row, not {rates}")
-    if not (np.diff(rates) > 0).all():
-        raise ValueError("speeds must increase strictly")
+    require(np.diff(rates) > 0, "speeds must increase strictly")
     positive_scalar(relaxation_time, "relaxation_time")
     if lines.shape[1] < 2 or not (np.ptp(lines, axis=1) > 0).all():
         raise ValueError("a line without asperities slides without friction: its heights must differ")

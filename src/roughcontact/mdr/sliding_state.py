@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.validation import Array
 
 __all__ = ["SlidingState", "sliding_state"]
 
-Mask = npt.NDArray[np.bool_]
 
 STEPS = 100  # of Newton's method for a place of touch; each gains at least one relaxation length
 

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indented
 from roughcontact.theory.tools.roots import bisect
-from roughcontact.validation import Array, number, numeric, positive_scalar, whole
+from roughcontact.validation import Array, Mask, exactly_one, number, numeric, positive_scalar, whole
 
 __all__ = ["SlipHistory", "slip_history"]
 
@@ -138,12 +137,8 @@ def _histories(
     normal_force: History | None, depth: History | None, force: History | None, displacement: History | None
 ) -> tuple[Literal["force", "depth"], Literal["force", "displacement"], Array]:
     """Return which loads are given, and both histories, shape (2, n)."""
-    if (normal_force is None) == (depth is None):
-        raise ValueError("give exactly one of normal_force and depth")
-    if (force is None) == (displacement is None):
-        raise ValueError("give exactly one of force and displacement")
-    first = normal_force if depth is None else depth
-    second = force if displacement is None else displacement
+    _, first = exactly_one(normal_force=normal_force, depth=depth)
+    _, second = exactly_one(force=force, displacement=displacement)
     pair = [np.atleast_1d(number(values, "a history")) for values in (first, second)]
     if (
         any(one.ndim != 1 for one in pair)
@@ -197,8 +192,8 @@ def _displacement(
     """Return the displacement at which the springs carry the tangential force."""
     reach = 2.5 * mu * float(np.maximum(np.abs(before), np.abs(now)).max()) / G
 
-    def beyond(place: Array) -> npt.NDArray[np.bool_]:
-        after, _ = _step(tau, before, now, G * (float(place[0]) - start), mu)
-        return np.array([2 * width * float(after.sum()) > force])
+    def beyond(place: Array) -> Mask:
+        after, _ = _step(tau, before, now, G * (float(place) - start), mu)
+        return np.asarray(2 * width * float(after.sum()) > force)
 
-    return float(bisect(beyond, np.array([start - reach]), np.array([start + reach]))[0])
+    return float(bisect(beyond, np.asarray(start - reach), np.asarray(start + reach)))

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 from roughcontact.mdr.indentation import Indentation, indent
-from roughcontact.validation import Array, positive_scalar, scalar, shown
+from roughcontact.validation import Array, exactly_one, positive_scalar, scalar, shown
 
 __all__ = ["PartialSlip", "partial_slip"]
 
@@ -146,9 +146,8 @@ def partial_slip(
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
         positive_scalar(value, name)
-    if (force is None) == (displacement is None):
-        raise ValueError("give exactly one of force and displacement")
-    given = scalar(force if displacement is None else displacement, "tangential load")
+    _, load = exactly_one(force=force, displacement=displacement)
+    given = scalar(load, "tangential load")
     if not (math.isfinite(given) and given >= 0):
         raise ValueError(
             f"a tangential load must be finite and not negative, not {given}: only its size matters"

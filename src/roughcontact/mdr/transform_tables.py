@@ -9,7 +9,7 @@ from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.chebyshev import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.terms import TableTerm
 from roughcontact.mdr.transform import FUNCTION, height_of, transform_of
-from roughcontact.validation import Array, scalar, shown
+from roughcontact.validation import Array, require, scalar, shown
 
 __all__ = ["from_function", "from_samples", "from_two_functions"]
 
@@ -31,8 +31,7 @@ def from_function(function: Function, radius: float, *, transformed: bool) -> Pr
         raise ValueError(
             f"the function must take an array of radii, as np.cosh does and math.cosh does not, but: {error}"
         ) from error
-    if not np.isfinite(start):
-        raise ValueError(f"the function must be finite at its apex, not {start} at radius 0")
+    require(np.isfinite(start), f"the function must be finite at its apex, not {start} at radius 0")
     return _profile(fit(lambda x: function(x) - start, radius, tolerance=FUNCTION), transformed)
 
 
@@ -81,8 +80,7 @@ def _flat(given: Panels) -> float:
     """Return the radius up to which the function vanishes."""
     size = np.abs(given.coefficients).sum(axis=1)
     above = np.nonzero(size > NOISE * size.max())[0]
-    if not len(above):
-        raise ValueError("the profile is flat as far as it is known: flat_punch is such a body")
+    require(len(above) > 0, "the profile is flat as far as it is known: flat_punch is such a body")
     # Panels that shrink towards zero end somewhere, and a power of r is no flat face.
     first = float(given.edges[above[0]])
     return first if size[: above[0]].max(initial=0.0) == 0 else 0.0

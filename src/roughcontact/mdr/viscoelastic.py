@@ -23,10 +23,10 @@ from roughcontact.validation import Array, number, scalar, shown
 __all__ = [
     "Creep",
     "Viscoelastic",
+    "checked_history",
     "checked_material",
     "kelvin_voigt",
     "maxwell",
-    "ordered",
     "prony",
     "standard_solid",
     "viscous",
@@ -319,8 +319,8 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
     return material
 
 
-def ordered(times: Array, loads: Array) -> None:
-    """Refuse a history whose numbers are not finite, or whose times run backwards.
+def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Array) -> tuple[Array, Array]:
+    """Return a history as arrays, or refuse numbers that are not finite and times that run backwards.
 
     Parameters
     ----------
@@ -329,26 +329,31 @@ def ordered(times: Array, loads: Array) -> None:
     loads : array, shape (n,)
         Loads at these times.
 
+    Returns
+    -------
+    times, loads : array, shape (n,)
+        The same as float64.
+
     Raises
     ------
     ValueError
-        If a number is not finite, or a time is before the one before it.
+        If there are not as many loads as times, a number is not finite, or a time is before the one before it.
 
     Examples
     --------
-    >>> import numpy as np
     >>> from roughcontact.mdr import viscoelastic
-    >>> viscoelastic.ordered(np.array([0.0, 1.0]), np.array([2.0, 3.0]))
+    >>> viscoelastic.checked_history([0, 1], [2, 3])
+    (array([0., 1.]), array([2., 3.]))
     """
-    for name, values in (("times", times), ("loads", loads)):
-        wrong = values[~np.isfinite(values)]
-        if wrong.size:
+    t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
+    if t.ndim != 1 or t.shape != load.shape or not len(t):
+        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
+    for name, values in (("times", t), ("loads", load)):
+        if (wrong := values[~np.isfinite(values)]).size:
             raise ValueError(f"{name} must be finite, not {wrong[0]}")
-    back = np.nonzero(np.diff(times) < 0)[0]
-    if len(back):
-        raise ValueError(
-            f"times must not run backwards, as from {times[back[0]]:g} to {times[back[0] + 1]:g} s"
-        )
+    if (back := np.nonzero(np.diff(t) < 0)[0]).size:
+        raise ValueError(f"times must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
+    return t, load
 
 
 def _times(time: float | Array) -> Array:

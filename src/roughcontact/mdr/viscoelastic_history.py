@@ -9,17 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
 
-from roughcontact.mdr.axisymmetric_profile import Profile, checked_profile
-from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.viscoelastic import Viscoelastic, checked_material, ordered
+from roughcontact.mdr.axisymmetric_profile import Profile
+from roughcontact.mdr.indentation import Indentation, indent
+from roughcontact.mdr.viscoelastic import Viscoelastic, checked_history, checked_material
 from roughcontact.mdr.viscoelastic_springs import Springs, ViscoelasticFoundation
 from roughcontact.theory.tools.roots import bisect
-from roughcontact.validation import Array, number, numeric, whole
+from roughcontact.validation import Array, numeric, require, whole
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
 
@@ -92,22 +91,15 @@ def depth_history(
     10.0
     """
     checked_material(material)
-    t, d = _history(times, depths)
-    if not (d > 0).any():
-        raise ValueError(f"the body never touches: its largest depth is {d.max():g} m")
-    top = float(indentation_curve(profile, 1.0, depths=[d.max()]).contact_radius[0])
-    foundation, width = _foundation(profile, material, top, springs)
-    state, at = foundation.untouched(), 0.0
+    t, d = checked_history(times, depths)
+    require((d > 0).any(), f"the body never touches: its largest depth is {d.max():g} m")
+    foundation = _foundation(material, indent(profile, 1.0, depth=float(d.max())), springs)
+    state, before, at = foundation.untouched(), float(t[0]), 0.0
     states = []
-    for index, (now, depth) in enumerate(zip(t.tolist(), d.tolist(), strict=True)):
-        if index and now > t[index - 1]:
-            state = foundation.move(state, (at, depth), now - float(t[index - 1]))
-        else:
-            state = foundation.jump(state, depth)
-        at = depth
-        states.append(
-            (_force(foundation, state, depth, width), depth, _radius(foundation, state, depth, width))
-        )
+    for now, depth in zip(t.tolist(), d.tolist(), strict=True):
+        state = foundation.move(state, (at, depth), now - before)
+        before, at = now, depth
+        states.append((foundation.force(state, depth), depth, foundation.contact_radius(state, depth)))
     return ViscoelasticHistory(t, *np.array(states).T)
 
 
@@ -157,56 +149,45 @@ def force_history(
     (8.8, 8.8)
     """
     checked_material(material)
-    t, F = _history(times, forces)
+    t, F = checked_history(times, forces)
     if (F < 0).any() or not F.any():
         raise ValueError(
             f"forces must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"
         )
     # No history up to this force can reach a larger contact than the force itself, all the time.
     most = float(F.max()) * float(material.creep()(t[-1] - t[0]))
-    top = float(indentation_curve(profile, 1.0, forces=[most]).contact_radius[0])
-    foundation, width = _foundation(profile, material, top, springs)
-    scale = float(indentation_curve(profile, 1.0, forces=[most]).depth[0])
-    state, at = foundation.untouched(), 0.0
+    largest = indent(profile, 1.0, force=most)
+    foundation = _foundation(material, largest, springs)
+    state, before, at, load = foundation.untouched(), float(t[0]), 0.0, 0.0
     states = []
-    before, load = float(t[0]), 0.0
     for now, force in zip(t.tolist(), F.tolist(), strict=True):
-        step = _step(foundation, state, at, now - before)
         if force == load == 0:  # a body without load follows the surface
             state = foundation.rest(state, now - before)
             at = float((state.place + foundation.transform).min())
-        elif step is not None:
-            goal = (load + force) / 2 if material.dashpot and now > before else force
-            try_part, whole = step
-
-            def answer(depth: float, go: Callable[[float], Springs] = try_part) -> float:
-                return _force(foundation, go(depth), depth, width)
-
-            d = _depth(answer, goal, at, scale)
-            state, at = whole(d), d if not material.dashpot else at + 2 * (d - at)
+        elif now > before or not material.dashpot:  # a sudden force moves a dashpot only with time
+            state, at = _loaded(foundation, state, at, now - before, (load, force), largest.depth)
         before, load = now, force
-        states.append((force, at, _radius(foundation, state, at, width)))
+        states.append((force, at, foundation.contact_radius(state, at)))
     return ViscoelasticHistory(t, *np.array(states).T)
 
 
-def _step(
-    foundation: ViscoelasticFoundation, state: Springs, at: float, duration: float
-) -> tuple[Callable[[float], Springs], Callable[[float], Springs]] | None:
-    """Return the springs as functions of the depth at which the force is met: there, and at the end of the step."""
-    dashpot = foundation.material.dashpot > 0
-    if duration == 0:
-        # A sudden force moves a dashpot only with time.
-        return None if dashpot else (partial(foundation.jump, state),) * 2
+def _loaded(
+    foundation: ViscoelasticFoundation,
+    state: Springs,
+    at: float,
+    duration: float,
+    force: tuple[float, float],
+    scale: float,
+) -> tuple[Springs, float]:
+    """Return the springs and the depth after a step whose force is met at its end, with a dashpot in its middle."""
+    parts, goal = (2, sum(force) / 2) if foundation.material.dashpot else (1, force[1])
 
-    def move(depth: float) -> Springs:
-        return foundation.move(state, (at, depth), duration)
+    def force_at(depth: float) -> float:
+        return foundation.force(foundation.move(state, (at, depth), duration / parts), depth)
 
-    if not dashpot:
-        return move, move
-    return (
-        lambda depth: foundation.move(state, (at, depth), duration / 2),
-        lambda depth: move(at + 2 * (depth - at)),
-    )
+    met = _depth(force_at, goal, at, scale)
+    end = at + 2 * (met - at) if parts == 2 else met
+    return foundation.move(state, (at, end), duration), end
 
 
 def _depth(force: Callable[[float], float], goal: float, start: float, scale: float) -> float:
@@ -220,52 +201,15 @@ def _depth(force: Callable[[float], float], goal: float, start: float, scale: fl
         low, high, width = low - width, low, 2 * width
     if goal > 0:
         return float(brentq(lambda d: force(d) - goal, low, high, xtol=1e-15 * scale))
-    return float(
-        bisect(lambda d: np.array([force(float(d[0])) > goal]), np.array([low]), np.array([high]))[0]
+    return float(bisect(lambda d: np.asarray(force(float(d)) > goal), np.asarray(low), np.asarray(high)))
+
+
+def _foundation(material: Viscoelastic, largest: Indentation, springs: int) -> ViscoelasticFoundation:
+    """Return the springs under the largest contact."""
+    profile, width = largest.profile, largest.contact_radius / whole(springs, "springs")
+    require(
+        profile.rises, "on a body whose transform falls somewhere the contact is not one disc at every load"
     )
-
-
-def _history(times: Sequence[float] | Array, loads: Sequence[float] | Array) -> tuple[Array, Array]:
-    t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
-    if t.ndim != 1 or t.shape != load.shape or not len(t):
-        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
-    ordered(t, load)
-    return t, load
-
-
-def _foundation(
-    profile: Profile, material: Viscoelastic, top: float, springs: int
-) -> tuple[ViscoelasticFoundation, float]:
-    if not checked_profile(profile).rises:
-        raise ValueError(
-            "on a body whose transform falls somewhere the contact is not one disc at every load"
-        )
-    width = top / whole(springs, "springs")
     # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
     places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
-    return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius])), width
-
-
-def _force(foundation: ViscoelasticFoundation, state: Springs, depth: float, width: float) -> float:
-    """Return the sum of the springs [N]; over the last cell the stress is drawn on as far as the contact goes."""
-    touched = np.nonzero(state.on)[0]
-    if not len(touched):
-        return 0.0
-    last = int(touched[-1])
-    length = _radius(foundation, state, depth, width) - width * last
-    slope = float(state.stress[last] - state.stress[last - 1]) if last else 0.0
-    mean = float(state.stress[last]) + slope * (length / width - 1) / 2
-    return 2 * width * float(state.stress[:last].sum()) + 2 * length * mean
-
-
-def _radius(foundation: ViscoelasticFoundation, state: Springs, depth: float, width: float) -> float:
-    """Return where the contact ends [m]: where the gaps of the two springs outside, drawn on, close."""
-    touched = np.nonzero(state.on)[0]
-    if not len(touched):
-        return 0.0
-    last = int(touched[-1])
-    centre = width * (last + 0.5)
-    if last + 2 >= len(state.on):
-        return centre + width / 2
-    near, far = (state.place + foundation.transform - depth)[last + 1 : last + 3]
-    return centre + width * (1 - min(1.0, near / (far - near)) if far > near else 0.5)
+    return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius]), width)

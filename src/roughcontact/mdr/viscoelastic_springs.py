@@ -10,15 +10,12 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.mdr.viscoelastic import Viscoelastic
 from roughcontact.theory.tools.roots import bisect
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["Springs", "ViscoelasticFoundation"]
-
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,11 +48,37 @@ class ViscoelasticFoundation:
     ----------
     material : Viscoelastic
     transform : array, shape (n,)
-        g at the springs [m].
+        g at the springs [m], which stand in the middle of cells, from the axis outwards.
+    width : float
+        Of a cell [m].
     """
 
     material: Viscoelastic
     transform: Array
+    width: float
+
+    def contact_radius(self, springs: Springs, depth: float) -> float:
+        """Return where the contact ends [m]: where the gaps of the two springs outside, drawn on, close."""
+        touched = np.nonzero(springs.on)[0]
+        if not len(touched):
+            return 0.0
+        last = int(touched[-1])
+        centre = self.width * (last + 0.5)
+        if last + 2 >= len(springs.on):
+            return centre + self.width / 2
+        near, far = (springs.place + self.transform - depth)[last + 1 : last + 3]
+        return centre + self.width * (1 - min(1.0, near / (far - near)) if far > near else 0.5)
+
+    def force(self, springs: Springs, depth: float) -> float:
+        """Return the sum of the springs [N]; over the last cell the stress is drawn on as far as the contact goes."""
+        touched = np.nonzero(springs.on)[0]
+        if not len(touched):
+            return 0.0
+        last = int(touched[-1])
+        length = self.contact_radius(springs, depth) - self.width * last
+        slope = float(springs.stress[last] - springs.stress[last - 1]) if last else 0.0
+        mean = float(springs.stress[last]) + slope * (length / self.width - 1) / 2
+        return 2 * self.width * float(springs.stress[:last].sum()) + 2 * length * mean
 
     def untouched(self) -> Springs:
         """Return springs at rest."""
@@ -96,6 +119,8 @@ class ViscoelasticFoundation:
 
     def move(self, springs: Springs, depth: tuple[float, float], duration: float) -> Springs:
         """Return the springs after the depth went evenly from the first to the second value [m] in a time [s]."""
+        if duration == 0:
+            return self.jump(springs, depth[1])
         start, speed = depth[0] - self.transform, (depth[1] - depth[0]) / duration
         place, elements = springs.place, springs.elements
         # A dashpot separates at once when the body recedes faster than the spring can follow.

@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import ndtr, stdtrit
 
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
+from roughcontact.validation import Array, Mask
 
 __all__ = ["counts_of", "interval", "resampled_laws"]
 
-Array = npt.NDArray[np.float64]
 
-
-def counts_of(uniform: Array, there: npt.NDArray[np.bool_]) -> Array:
+def counts_of(uniform: Array, there: Mask) -> Array:
     """Return how often each sample is drawn, shape (replicates, samples); one that is not there never.
 
     Parameters

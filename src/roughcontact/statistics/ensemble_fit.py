@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples, shares_of_samples
 from roughcontact.statistics.power_law import PowerLaw, fit_power_law
+from roughcontact.validation import Array
 
 __all__ = ["EnsembleFit", "fit_ensemble", "law_error"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
+
+from roughcontact.validation import Array
 
 __all__ = ["Mean", "mean_over_samples", "shares_of_samples"]
 
-Array = npt.NDArray[np.float64]
 Mean: TypeAlias = Literal["arithmetic", "geometric"]
 
 

@@ -17,17 +17,15 @@ from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.statistics.fit_window import Window, window_of
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.statistics.samples import dimensions
+from roughcontact.validation import Array, Mask, require
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["fit_power_laws", "law_at"]
 
-Array = npt.NDArray[np.float64]
-
-COMPLETE = (
-    0.9  # a load belongs to a fit where this part of the samples has an answer: a mean over few is of others
-)
+# A load belongs to a fit where this part of the samples has an answer: a mean over few is of others.
+COMPLETE = 0.9
 _LEAST = 3  # points: two always lie on a line
 _FORCE, _STIFFNESS = "dimensionless_force", "dimensionless_stiffness"
 _CONVERGED = [status.value for status in Status if status.converged]
@@ -103,8 +101,7 @@ def fit_power_laws(
         If a variable is missing, samples stand at forces of their own (see `roughcontact.statistics.on_common`), or
         window, mean or level is not one.
     """
-    if not 0 < level < 1:
-        raise ValueError(f"the level of an interval lies between 0 and 1, not at {level}")
+    require(0 < level < 1, f"the level of an interval lies between 0 and 1, not at {level}")
     import xarray
 
     over = dimensions(samples)
@@ -168,26 +165,24 @@ def _curves(
     dataset: xarray.Dataset, samples: Sequence[str]
 ) -> tuple[xarray.DataArray, xarray.DataArray, str]:
     """Return k/(E* L) where it converged, F/(E* h L), and the name of their common dimension."""
-    missing = [name for name in (_FORCE, _STIFFNESS) if name not in dataset]
-    if missing:
+    if missing := [name for name in (_FORCE, _STIFFNESS) if name not in dataset]:
         raise ValueError(f"these are no loading curves: {' and '.join(missing)} is missing")
     points = _FORCE if _FORCE in dataset.dims else "load"
     force, stiffness = dataset[_FORCE], dataset[_STIFFNESS]
     for name, values in ((_FORCE, force), (_STIFFNESS, stiffness)):
         if points not in values.dims:
             raise ValueError(f"{name} does not lie along 'load': these are no loading curves")
-    absent = [d for d in samples if d not in dataset.sizes]
-    if absent:
+    if absent := [d for d in samples if d not in dataset.sizes]:
         raise ValueError(
             f"there are no samples along {absent[0]!r}; there are {', '.join(map(str, dataset.sizes))}"
         )
     if "status" in dataset and points in dataset["status"].dims:
         stiffness = stiffness.where(dataset["status"].isin(_CONVERGED))
-    whole = [
+    stiffness, force = (
         values.expand_dims({d: dataset.sizes[d] for d in samples if d not in values.dims})
         for values in (stiffness, force)
-    ]
-    return whole[0], whole[1], points
+    )
+    return stiffness, force, points
 
 
 def _fitting(
@@ -227,7 +222,7 @@ def _common(force: Array) -> Array:
 
 def _inside(
     force: Array, stiffness: Array, forces: tuple[float, float], limits: tuple[float, float], mean: Mean
-) -> npt.NDArray[np.bool_]:
+) -> Mask:
     """Return the points of the window."""
     means = mean_over_samples(stiffness, mean)
     there = ~np.isnan(stiffness)

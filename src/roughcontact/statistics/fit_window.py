@@ -26,9 +26,8 @@ __all__ = [
 ]
 
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
-FULL_CONTACT_SHARE = (
-    0.9  # of the full-contact stiffness; above it they are those of the finite size (eq. 4.14)
-)
+# Of the full-contact stiffness; above it they are those of the finite size (eq. 4.14).
+FULL_CONTACT_SHARE = 0.9
 
 
 def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
@@ -126,8 +125,7 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
         If one is missing, or the curves are those of line contacts, which have no such window.
     """
     wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "full_contact_stiffness")
-    missing = [name for name in wanted if name not in dataset]
-    if missing:
+    if missing := [name for name in wanted if name not in dataset]:
         raise ValueError(
             f"the curves do not say what is resolved, for want of {', '.join(missing)}: give a window, "
             "resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)"

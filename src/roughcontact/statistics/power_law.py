@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["FORCE_LIMIT", "ROUNDING", "PowerLaw", "fit_power_law"]
-
-Array = npt.NDArray[np.float64]
 
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
 ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
@@ -69,8 +66,7 @@ def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_
     ValueError
         If there is no rms height that could scale the force.
     """
-    if not force_scale > 0:
-        raise ValueError("a flat surface has no rms height to scale the force by")
+    require(force_scale > 0, "a flat surface has no rms height to scale the force by")
     x, y = np.log(force / force_scale), np.log(stiffness / stiffness_scale)
     slope, offset = np.polyfit(x, y, 1)
     rest = y - (slope * x + offset)

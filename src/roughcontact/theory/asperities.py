@@ -195,8 +195,7 @@ def press(
     >>> contact.forces.round(6).tolist(), contact.merged
     ([1.0, 1.0], 0)
     """
-    if (force is None) == (depth is None):
-        raise ValueError("give either a force [N] or a depth [m]")
+    require((force is None) != (depth is None), "give either a force [N] or a depth [m]")
     if force is not None:
         depth = independent_depth(asperities, float(positive(force, "the force [N]")))
     depth = float(positive(depth or 0.0, "the depth [m]"))

@@ -67,20 +67,12 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     if n == 1:
         wave = {"amplitude": h0, "length": 1.0, "modulus": 1.0}
         return HeightDistribution(name, partial(cosine.stiffness, **wave), partial(cosine.force, **wave))
-    return HeightDistribution(name, partial(_fraction, h0, n), partial(_excess, h0, n))
+    return HeightDistribution(name, partial(_integral, h0, n, 1), partial(_integral, h0, n, 2))
 
 
-def _fraction(amplitude: float, n: int, u: Array) -> Array:
-    return _moment(u / amplitude, n, 1)
-
-
-def _excess(amplitude: float, n: int, u: Array) -> Array:
-    return amplitude * _moment(u / amplitude, n, 2)
-
-
-def _moment(u: Array, n: int, order: int) -> Array:
-    """Return the density's integral of an order (1: fraction, 2: excess) at u, for unit amplitudes."""
-    depth = np.asarray(u, dtype=np.float64)
+def _integral(amplitude: float, n: int, order: int, u: Array) -> Array:
+    """Return the density's integral of an order (1: fraction, 2: excess) at u."""
+    depth = np.asarray(u / amplitude, dtype=np.float64)
     # The distribution is symmetric about n: fraction and excess below follow from those above.
     mirrored = np.minimum(depth, np.maximum(2 * n - depth, 0.0))
     near = mirrored <= NEAR
@@ -89,8 +81,7 @@ def _moment(u: Array, n: int, order: int) -> Array:
     values[~near] = _fourier(mirrored[~near], n, order)
     below = depth > n
     values = np.where(below, depth - n + values if order == 2 else 1 - values, values)
-    plain: Array = values[()]
-    return plain
+    return amplitude ** (order - 1) * values[()]
 
 
 def _near_peak(u: Array, n: int, order: int) -> Array:

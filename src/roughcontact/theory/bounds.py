@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.theory.punch.polygon import square
-from roughcontact.validation import Array, numeric, positive, require
+from roughcontact.validation import Array, Mask, numeric, positive, require
 
 __all__ = [
     "CELL",
@@ -31,7 +31,7 @@ KING = 1.012
 
 
 @numeric
-def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
+def cell(modulus: ArrayLike, spacing: ArrayLike) -> Array:
     """Return the stiffness of a single cell in contact, 0.891107 E* spacing [N/m] (thesis, eq. 4.16).
 
     An artefact of the grid: a flat square of the size of the cell has 1.152298.
@@ -58,7 +58,7 @@ def cell(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
 
 
 @numeric
-def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
+def spring(modulus: ArrayLike, spacing: ArrayLike) -> Array:
     """Return the stiffness of a single spring of the method of dimensionality reduction, E* spacing [N/m].
 
     Parameters
@@ -83,7 +83,7 @@ def spring(modulus: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
 
 
 @numeric
-def full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+def full_contact_stiffness(modulus: ArrayLike, length: ArrayLike) -> Array:
     """Return the stiffness that no contact inside a square exceeds, 1.152298 E* L [N/m] (thesis, eqs 4.7 and 4.14).
 
     Parameters
@@ -108,7 +108,7 @@ def full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Arr
 
 
 @numeric
-def king_full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+def king_full_contact_stiffness(modulus: ArrayLike, length: ArrayLike) -> Array:
     """Return the full-contact stiffness [N/m] as printed, 2 E* 1.012 L/sqrt(pi) = 1.1419 E* L (eqs 4.7 and 4.14).
 
     0.9 % too low, see `full_contact_stiffness`: a converged result exceeds it. Only to redraw the thesis' figures.
@@ -137,7 +137,7 @@ def king_full_contact_stiffness(modulus: npt.ArrayLike, length: npt.ArrayLike) -
 
 @numeric
 def window(
-    modulus: npt.ArrayLike, length: npt.ArrayLike, spacing: npt.ArrayLike, *, cells: float = WINDOW
+    modulus: ArrayLike, length: ArrayLike, spacing: ArrayLike, *, cells: float = WINDOW
 ) -> tuple[Array, Array]:
     """Return the stiffnesses between which a grid resolves a surface [N/m] (thesis, section 4.3).
 
@@ -181,13 +181,8 @@ def window(
 
 @numeric
 def resolved(
-    stiffness: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-    length: npt.ArrayLike,
-    spacing: npt.ArrayLike,
-    *,
-    cells: float = WINDOW,
-) -> npt.NDArray[np.bool_]:
+    stiffness: ArrayLike, modulus: ArrayLike, length: ArrayLike, spacing: ArrayLike, *, cells: float = WINDOW
+) -> Mask:
     """Return whether a stiffness lies inside the `window`.
 
     Parameters

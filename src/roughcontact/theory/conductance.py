@@ -16,7 +16,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.validation import Array, number, numeric, positive, require, shown
@@ -239,30 +239,15 @@ def law(
     >>> round(float(ratio), 6)  # as F^(1/3)
     2.0
     """
-    if quantity not in mechanical.quantities:
-        raise ValueError(f"{mechanical.name} has no {quantity!r}; it has {sorted(mechanical.quantities)}")
-    stiffness = mechanical.quantities[quantity]
-    quantities: dict[str, Callable[[Array], Array]] = {}
-    for name, conductance, both in (
-        ("electrical_conductance", electrical, resistivities),
-        ("thermal_conductance", thermal, conductivities),
-    ):
-        if both is not None:
-            conductance(0.0, modulus, both)  # bad numbers show themselves here
-            quantities[name] = partial(_of_stiffness, conductance, stiffness, modulus, both)
-    if not quantities:
-        raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
-    return LoadingLaw(mechanical.name, mechanical.source, quantities, mechanical.domain)
-
-
-def _of_stiffness(
-    conductance: Callable[[Array, float, Pair], Array],
-    stiffness: Callable[[Array], Array],
-    modulus: float,
-    pair: Pair,
-    force: Array,
-) -> Array:
-    return conductance(stiffness(force), modulus, pair)
+    found: dict[str, Callable[[Array], Array]] = {}
+    if resistivities is not None:
+        found["electrical_conductance"] = partial(electrical, modulus=modulus, resistivities=resistivities)
+    if conductivities is not None:
+        found["thermal_conductance"] = partial(thermal, modulus=modulus, conductivities=conductivities)
+    require(len(found), "give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
+    for conductance in found.values():
+        conductance(np.zeros(()))  # bad numbers show themselves here
+    return mechanical.derived(quantity, found)
 
 
 def _lengths(stiffness: float | Array, modulus: float) -> Array:
@@ -278,7 +263,7 @@ def _inverse(
     return _not_negative(conductance, "a conductance") / unit
 
 
-def _not_negative(values: npt.ArrayLike, what: str) -> Array:
+def _not_negative(values: ArrayLike, what: str) -> Array:
     """Return numbers from 0 to infinity: full contact is infinitely stiff, and there are insulators."""
     given = np.asarray(number(values, what))
     require(given >= 0, f"{what} must not be negative or missing", given)

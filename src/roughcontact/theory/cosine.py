@@ -6,14 +6,13 @@ note of each other, so only the distribution of heights matters, not the wavenum
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import spherical_jn
 
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, composed
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, positive, require
 
@@ -21,9 +20,7 @@ __all__ = ["depth", "force", "law", "small_force", "stiffness"]
 
 
 @numeric
-def force(
-    depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def force(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the force on one cosine wave [N] (thesis, eq. 4.33, corrected).
 
     F = (2/pi) E* L h0 (sqrt(s(1-s)) - (1-2s) asin(sqrt s)) with s = d/(2 h0) up to 1, where all springs touch;
@@ -53,14 +50,11 @@ def force(
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     t = _angle(d / (2 * h0))
-    value: Array = scale * (h0 / np.pi * _bracket(t) + np.maximum(d - 2 * h0, 0.0))
-    return value
+    return scale * (h0 / np.pi * _bracket(t) + np.maximum(d - 2 * h0, 0.0))
 
 
 @numeric
-def stiffness(
-    depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def stiffness(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the stiffness of one cosine wave, E* times the length in contact, (2/pi) E* L asin(sqrt s) [N/m].
 
     Parameters
@@ -84,9 +78,7 @@ def stiffness(
 
 
 @numeric
-def depth(
-    force: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def depth(force: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the depth at which one cosine wave carries a force [m], the inverse of `force`.
 
     Parameters
@@ -118,9 +110,7 @@ def depth(
 
 
 @numeric
-def small_force(
-    depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def small_force(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the force at small depth, (8/(3 pi)) E* L h0 (d/(2 h0))^(3/2) [N] (thesis, eq. 4.34, corrected).
 
     Below the exact force: by 1 % at d = 0.2 h0, by 6 % at d = h0.
@@ -149,8 +139,7 @@ def small_force(
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
     require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force", d)
-    value: Array = 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
-    return value
+    return 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
 
 
 @numeric
@@ -180,18 +169,14 @@ def law(amplitude: float, length: float, modulus: float) -> LoadingLaw:
         "One cosine on springs",
         "thesis, eq. 4.33, corrected",
         {
-            "stiffness": partial(_stiffness, wave),
+            "stiffness": composed(partial(stiffness, **wave), partial(depth, **wave)),
             "depth": partial(depth, **wave),
         },
     )
 
 
-def _stiffness(wave: Mapping[str, float], force: Array) -> Array:
-    return stiffness(depth(force, **wave), **wave)
-
-
 def _given(
-    depth: npt.ArrayLike, amplitude: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
+    depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array, Array]:
     """Return d, h0 and E* L."""
     scale = positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
@@ -200,11 +185,9 @@ def _given(
 
 def _angle(s: Array) -> Array:
     """Return t = 2 asin(sqrt s): the phase of a wave that is in contact, pi where all is."""
-    value: Array = 2 * np.arcsin(np.sqrt(np.minimum(s, 1.0)))
-    return value
+    return 2 * np.arcsin(np.sqrt(np.minimum(s, 1.0)))
 
 
 def _bracket(t: Array) -> Array:
     """Return sin t - t cos t, twice the bracket of eq. 4.33, as t^2 j1(t): no cancellation at small t."""
-    value: Array = t**2 * spherical_jn(1, t)
-    return value
+    return t**2 * spherical_jn(1, t)

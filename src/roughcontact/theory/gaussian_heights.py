@@ -14,7 +14,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import ndtr
 
 from roughcontact.theory.law import LoadingLaw
@@ -29,7 +29,7 @@ BEYOND = 40.0  # where density and share of the heights above are 0 in floating-
 
 
 @numeric
-def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+def force(level: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the force when the flat body stands at a level above the mean height [N].
 
     Parameters
@@ -60,9 +60,7 @@ def force(level: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modul
 
 
 @numeric
-def stiffness(
-    force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def stiffness(force: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the contact stiffness at a force [N/m].
 
     Parameters
@@ -88,9 +86,7 @@ def stiffness(
 
 
 @numeric
-def exponent(
-    force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def exponent(force: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the local exponent d ln k/d ln F at a force [-]: it rises towards 1 as the force falls.
 
     Parameters
@@ -111,8 +107,7 @@ def exponent(
     """
     positive(force, "force [N]")
     t = _level(force, rms, length, modulus)
-    value: Array = _force(t) * _density(t) / ndtr(-t) ** 2
-    return value
+    return _force(t) * _density(t) / ndtr(-t) ** 2
 
 
 @numeric
@@ -148,8 +143,7 @@ def law(rms: float, length: float, modulus: float) -> LoadingLaw:
 def _force(t: Array) -> Array:
     """Return F/(E* h L)."""
     t = np.minimum(t, BEYOND)
-    value: Array = _density(t) - t * ndtr(-t)
-    return value
+    return _density(t) - t * ndtr(-t)
 
 
 def _density(t: Array) -> Array:
@@ -157,15 +151,14 @@ def _density(t: Array) -> Array:
     return value
 
 
-def _level(force: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+def _level(force: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the t at which the line carries a force."""
     scale = _scale(length, modulus) * positive(rms, "rms [m]")
     f = positive(force, "force [N]", zero=True) / scale
     # phi - t Q falls with t and is nowhere below -t.
-    value: Array = -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
-    return value
+    return -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
 
 
-def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+def _scale(length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return E* L [N/m]."""
     return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")

@@ -15,11 +15,11 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import LoadingLaw, composed
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, finite, numeric, positive, require
 
@@ -61,7 +61,7 @@ class HeightDistribution:
     source: str = "thesis, eq. 4.59"
 
     @numeric
-    def force(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def force(self, depth: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return F(u) [N] at indentation depths u from first touch [m], of a line of a `length` [m] (eq. 4.59).
 
         Parameters
@@ -82,7 +82,7 @@ class HeightDistribution:
         return _scale(length, modulus) * self.excess(u)
 
     @numeric
-    def stiffness(self, depth: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def stiffness(self, depth: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return k(u) = dF/du [N/m] at indentation depths u from first touch [m] (thesis, eq. 4.61).
 
         Parameters
@@ -103,7 +103,7 @@ class HeightDistribution:
         return _scale(length, modulus) * self.fraction(u)
 
     @numeric
-    def depth(self, force: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+    def depth(self, force: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
         """Return the indentation depth u [m] at normal forces [N]: the inverse of `force`.
 
         Parameters
@@ -127,8 +127,7 @@ class HeightDistribution:
         while (short := loaded & (self.excess(high) < wanted)).any():
             low, high = np.where(short, high, low), np.where(short, 2 * high, high)
             require(high < FARTHEST, "no depth gives this force: the density has no heights near the peak")
-        value: Array = np.where(loaded, bisect(lambda u: self.excess(u) > wanted, low, high), 0.0)[()]
-        return value
+        return np.where(loaded, bisect(lambda u: self.excess(u) > wanted, low, high), 0.0)[()]
 
     @numeric
     def law(self, length: float, modulus: float) -> LoadingLaw:
@@ -148,12 +147,13 @@ class HeightDistribution:
         """
         # A wrong body is refused now, not at the first force.
         _scale(length, modulus)
+        line = {"length": length, "modulus": modulus}
         return LoadingLaw(
             self.name,
             self.source,
             {
-                "stiffness": partial(_stiffness, self, length, modulus),
-                "depth": partial(self.depth, length=length, modulus=modulus),
+                "stiffness": composed(partial(self.stiffness, **line), partial(self.depth, **line)),
+                "depth": partial(self.depth, **line),
             },
         )
 
@@ -195,9 +195,7 @@ def from_density(
     )
 
 
-def from_samples(
-    depth: npt.ArrayLike, density: npt.ArrayLike, *, name: str = "Heights"
-) -> HeightDistribution:
+def from_samples(depth: ArrayLike, density: ArrayLike, *, name: str = "Heights") -> HeightDistribution:
     """Return the distribution whose density is sampled, and linear between the samples.
 
     Parameters
@@ -237,7 +235,7 @@ def from_samples(
 
 
 @numeric
-def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
+def stiffness_exponent(density_exponent: ArrayLike) -> Array:
     """Return alpha = (beta + 1)/(beta + 2) of k ~ F^alpha for Phi ~ z^beta (thesis, eqs 4.60 to 4.63) [-].
 
     Parameters
@@ -258,12 +256,11 @@ def stiffness_exponent(density_exponent: npt.ArrayLike) -> Array:
     """
     beta = finite(density_exponent, "density_exponent")
     require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
-    value: Array = (beta + 1) / (beta + 2)
-    return value
+    return (beta + 1) / (beta + 2)
 
 
 @numeric
-def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
+def density_exponent(stiffness_exponent: ArrayLike) -> Array:
     """Return beta = (2 alpha - 1)/(1 - alpha) of Phi ~ z^beta for k ~ F^alpha (thesis, eq. 4.64) [-].
 
     Parameters
@@ -287,11 +284,10 @@ def density_exponent(stiffness_exponent: npt.ArrayLike) -> Array:
         (alpha > 0) & (alpha < 1),
         "stiffness_exponent must lie between 0 and 1; at 1 there is no highest peak",
     )
-    value: Array = (2 * alpha - 1) / (1 - alpha)
-    return value
+    return (2 * alpha - 1) / (1 - alpha)
 
 
-def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
+def legacy_density_exponent(modes: ArrayLike) -> Array:
     """Return the thesis' beta = -1/2 + (1/2) log2 N, a heuristic (eq. 4.72), to redraw its figures.
 
     N waves of independent phases have beta = N/2 - 1 (`beat_wave`), which agrees at N = 1 and 2 only; adjacent
@@ -315,11 +311,10 @@ def legacy_density_exponent(modes: npt.ArrayLike) -> Array:
     """
     n = positive(modes, "modes")
     require(n >= 1, "modes must be at least 1", n)
-    value: Array = (np.log2(n) - 1) / 2
-    return value
+    return (np.log2(n) - 1) / 2
 
 
-def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
+def legacy_stiffness_exponent(modes: ArrayLike) -> Array:
     """Return the thesis' alpha = (1 + log2 N)/(3 + log2 N), a heuristic (eq. 4.73), to redraw its fig. 25.
 
     The curve k(F) of low Hurst exponents does not depend on the number of grid points (`gaussian_heights`); a
@@ -344,18 +339,13 @@ def legacy_stiffness_exponent(modes: npt.ArrayLike) -> Array:
     return stiffness_exponent(legacy_density_exponent(modes))
 
 
-def _scale(length: npt.ArrayLike, modulus: npt.ArrayLike) -> Array:
+def _scale(length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return E* L [N/m]."""
     return positive(modulus, "modulus [Pa]") * positive(length, "length [m]")
 
 
-def _stiffness(heights: HeightDistribution, length: float, modulus: float, force: Array) -> Array:
-    return heights.stiffness(heights.depth(force, length, modulus), length, modulus)
-
-
 def _sampled_fraction(once: PPoly, u: Array) -> Array:
-    value: Array = once(np.clip(u, once.x[0], once.x[-1]))
-    return value
+    return once(np.clip(u, once.x[0], once.x[-1]))
 
 
 def _sampled_excess(once: PPoly, twice: PPoly, u: Array) -> Array:

@@ -20,36 +20,28 @@ class Interface(Protocol):
     @property
     def lowest(self) -> float:
         """The smallest separation at which the theory holds [m]."""
-        ...
 
     @property
     def scale(self) -> float:
         """A length over which pressures change by much: the standard deviation of heights [m]."""
-        ...
 
     def pressure(self, separation: float | Array) -> Array:
         """Nominal pressure [Pa]: decreasing, convex, and log-concave."""
-        ...
 
     def stiffness(self, separation: float | Array) -> Array:
         """-dp/ds, interfacial stiffness per nominal area [Pa/m]."""
-        ...
 
     def contact_fraction(self, separation: float | Array) -> Array:
         """Real contact area over the nominal one [-]."""
-        ...
 
     def spot_density(self, separation: float | Array) -> Array:
         """Contacts per nominal area [1/m^2]."""
-        ...
 
     def energy(self, separation: float | Array) -> Array:
         """Elastic energy of the asperities per nominal area [J/m^2]: the work of the pressure."""
-        ...
 
     def separation(self, pressure: float | Array) -> Array:
         """Separation [m] at a nominal pressure [Pa]; infinite without load."""
-        ...
 
 
 def loading_law(interface: Interface, area: float, *, name: str, source: str) -> LoadingLaw:

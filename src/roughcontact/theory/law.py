@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from roughcontact.validation import Array, number
 
-__all__ = ["LoadingLaw", "over_area"]
+__all__ = ["LoadingLaw", "composed", "over_area"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,9 +68,60 @@ class LoadingLaw:
             values[inside] = self.quantities[quantity](given[inside])
         return values.reshape(np.shape(force))
 
+    def derived(self, quantity: str, functions: Mapping[str, Callable[[Array], Array]]) -> LoadingLaw:
+        """Return the law of what follows from one of the quantities alone.
+
+        Parameters
+        ----------
+        quantity : str
+            Its name.
+        functions : mapping of str to callable
+            From the names of what follows to functions of the quantity's values.
+
+        Returns
+        -------
+        LoadingLaw
+            Of the same theory, on the same domain.
+
+        Raises
+        ------
+        ValueError
+            If the theory does not predict the quantity.
+        """
+        if quantity not in self.quantities:
+            raise ValueError(f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}")
+        found = self.quantities[quantity]
+        return replace(self, quantities={name: composed(of, found) for name, of in functions.items()})
+
     def __repr__(self) -> str:
         """Say whose theory it is and what it is about."""
         return f"LoadingLaw({self.name}: {', '.join(sorted(self.quantities))})"
+
+
+def composed(outer: Callable[[Array], Array], inner: Callable[[Array], Array]) -> Callable[[Array], Array]:
+    """Return ``outer(inner(force))`` as a function that can be sent to another process, if both can.
+
+    Parameters
+    ----------
+    outer, inner : Callable[[Array], Array]
+        Functions of an array.
+
+    Returns
+    -------
+    Callable[[Array], Array]
+
+    Examples
+    --------
+    >>> from math import exp, log
+    >>> from roughcontact.theory.law import composed
+    >>> round(composed(exp, log)(2.0), 12)
+    2.0
+    """
+    return partial(_composed, outer, inner)
+
+
+def _composed(outer: Callable[[Array], Array], inner: Callable[[Array], Array], force: Array) -> Array:
+    return outer(inner(force))
 
 
 def over_area(quantity: Callable[[Array], Array], area: float, force: Array) -> Array:

@@ -22,6 +22,7 @@ from roughcontact.theory import (
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.profile_moments import ProfileMoments
 from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.validation import require
 
 __all__ = ["LAWS", "NamedLaw", "SurfaceFacts", "named"]
 
@@ -178,14 +179,11 @@ def named(name: str, **knowns: Any) -> LoadingLaw:
     >>> round(float(laws.named("hertz", radius=1e-2, modulus=1e11).predict("stiffness", 1.0)))
     8434327
     """
-    if name not in LAWS:
-        raise ValueError(f"there is no law named {name!r}; there are {', '.join(LAWS)}")
-    strange = knowns.keys() - {field.name for field in fields(SurfaceFacts)}
-    if strange:
+    require(name in LAWS, f"there is no law named {name!r}; there are {', '.join(LAWS)}")
+    if strange := knowns.keys() - {field.name for field in fields(SurfaceFacts)}:
         raise ValueError(f"no law asks for {', '.join(sorted(strange))}")
     law, facts = LAWS[name], SurfaceFacts(**knowns).completed()
     wanted = {need: getattr(facts, need) for need in law.needs}
-    missing = [need for need, value in wanted.items() if value is None]
-    if missing:
+    if missing := [need for need, value in wanted.items() if value is None]:
         raise ValueError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")
     return law.make(*wanted.values())

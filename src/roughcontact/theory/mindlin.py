@@ -11,7 +11,6 @@ regions a good approximation: along the long side of a rectangle of 4 : 1 the ra
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import partial
 from typing import Literal, Protocol
 
@@ -37,12 +36,10 @@ class ElasticSolid(Protocol):
     @property
     def shear_modulus(self) -> float:
         """Shear modulus G [Pa]; infinite of a rigid body."""
-        ...
 
     @property
     def poisson_ratio(self) -> float:
         """Poisson's ratio [-]."""
-        ...
 
 
 def ratio(poisson_ratio: float) -> float:
@@ -171,19 +168,10 @@ def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
     >>> round(float(hertz.law(1e-2, 1e11).predict("stiffness", 1.0) / law.predict("tangential_stiffness", 1.0)), 6)
     1.2
     """
-    if "stiffness" not in mechanical.quantities:
-        raise ValueError(f"{mechanical.name} has no 'stiffness'; it has {sorted(mechanical.quantities)}")
-    normal = mechanical.quantities["stiffness"]
     positive(ratio, "the ratio E*/G*")
-
-    sideways = partial(_sideways, normal, ratio)
-    return LoadingLaw(
-        mechanical.name, mechanical.source, {"tangential_stiffness": sideways}, mechanical.domain
+    return mechanical.derived(
+        "stiffness", {"tangential_stiffness": partial(tangential_stiffness, ratio=ratio)}
     )
-
-
-def _sideways(normal: Callable[[Array], Array], ratio: float, force: Array) -> Array:
-    return tangential_stiffness(normal(force), ratio)
 
 
 @numeric

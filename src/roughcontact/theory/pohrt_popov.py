@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.punch.polygon import SQUARE
@@ -36,7 +36,7 @@ FORCE_LIMIT = 0.07
 SMOOTH = 2.0
 
 
-def exponent(hurst: npt.ArrayLike) -> Array:
+def exponent(hurst: ArrayLike) -> Array:
     """Return alpha = 1/(H+1) for 0 < H <= 2, 1/3 above (thesis, eqs 4.31, 4.52 and 6.2) [-].
 
     Parameters
@@ -64,7 +64,7 @@ def exponent(hurst: npt.ArrayLike) -> Array:
     return 1 / (np.minimum(_hurst(hurst), SMOOTH) + 1)
 
 
-def prefactor(hurst: npt.ArrayLike) -> Array:
+def prefactor(hurst: ArrayLike) -> Array:
     """Return zeta = 1.7/(H+1) for 0 < H <= 2 (thesis, eq. 4.74), 1.7/3 above [-].
 
     Above 2 the printed formula goes to 0 and the stiffness does not. Held at H = 2, zeta is 6 % above that of a
@@ -97,11 +97,7 @@ def prefactor(hurst: npt.ArrayLike) -> Array:
 
 @numeric
 def stiffness(
-    force: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the contact stiffness of a self-affine surface [N/m] (thesis, eqs 4.53 and 4.74).
 
@@ -142,11 +138,7 @@ def stiffness(
 
 @numeric
 def force(
-    stiffness: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    stiffness: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the force at which a self-affine surface has a stiffness [N], the inverse of `stiffness`.
 
@@ -171,18 +163,11 @@ def force(
     """
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     k = _below_full_contact(positive(stiffness, "stiffness [N/m]", zero=True) / stiffness_scale)
-    value: Array = force_scale * (k / zeta) ** (1 / alpha)
-    return value
+    return force_scale * (k / zeta) ** (1 / alpha)
 
 
 @numeric
-def depth(
-    force: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-) -> Array:
+def depth(force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the indentation depth of a self-affine surface, int dF/k [m] (thesis, eq. 5.1 solved for d).
 
     Parameters
@@ -206,17 +191,12 @@ def depth(
     alpha, zeta, force_scale, stiffness_scale = _scales(hurst, rms, length, modulus)
     f = positive(force, "force [N]", zero=True) / force_scale
     _below_full_contact(zeta * f**alpha)
-    value: Array = force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
-    return value
+    return force_scale / stiffness_scale * f ** (1 - alpha) / ((1 - alpha) * zeta)
 
 
 @numeric
 def force_at_depth(
-    depth: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return F = E* L h (zeta H d/((H+1) h))^((H+1)/H), the force at a depth [N] (thesis, eq. 5.1).
 
@@ -249,7 +229,7 @@ def force_at_depth(
 
 
 @numeric
-def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Array:
+def theta(hurst: ArrayLike, rms: ArrayLike, length: ArrayLike) -> Array:
     """Return Theta = h L^-H, which a self-affine surface keeps when it is cut to another size [m^(1-H)] (eq. 7.1).
 
     Parameters
@@ -270,14 +250,11 @@ def theta(hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike) -> Ar
     1.0
     """
     h, size = positive(rms, "rms [m]"), positive(length, "length [m]")
-    value: Array = h * size ** -_hurst(hurst)
-    return value
+    return h * size ** -_hurst(hurst)
 
 
 @numeric
-def scale_free_stiffness(
-    force: npt.ArrayLike, hurst: npt.ArrayLike, theta: npt.ArrayLike, modulus: npt.ArrayLike
-) -> Array:
+def scale_free_stiffness(force: ArrayLike, hurst: ArrayLike, theta: ArrayLike, modulus: ArrayLike) -> Array:
     """Return k = E* zeta (F/(E* Theta))^(1/(H+1)), the law without the size of the surface [N/m] (thesis, eq. 7.2).
 
     Parameters
@@ -316,8 +293,7 @@ def scale_free_stiffness(
         "hurst must not exceed 2: one smooth crest carries the load, whose stiffness depends on the size",
         hurst,
     )
-    value: Array = e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
-    return value
+    return e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
 
 
 @numeric
@@ -361,7 +337,7 @@ def _energy(surface: Mapping[str, float], force: Array) -> Array:
     return (1 - alpha) / (2 - alpha) * force * depth(force, **surface)
 
 
-def _hurst(hurst: npt.ArrayLike) -> Array:
+def _hurst(hurst: ArrayLike) -> Array:
     h = number(hurst, "hurst")
     require(
         h > 0,
@@ -384,7 +360,7 @@ def _below_full_contact(dimensionless_stiffness: Array) -> Array:
 
 
 def _scales(
-    hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, modulus: npt.ArrayLike
+    hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array, Array, Array]:
     """Return alpha, zeta, E* h L [N] and E* L [N/m] (thesis, eqs 4.13 and 4.8)."""
     stiffness_scale = positive(modulus, "modulus [Pa]") * positive(length, "length [m]")

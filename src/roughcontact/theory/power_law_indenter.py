@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import gammaln, hyp2f1
 
 from roughcontact.theory.law import LoadingLaw
@@ -19,7 +19,7 @@ __all__ = ["PowerLawContact", "contact", "kappa", "law"]
 TINY = np.finfo(np.float64).tiny
 
 
-def kappa(exponent: npt.ArrayLike) -> Array:
+def kappa(exponent: ArrayLike) -> Array:
     """Return kappa(n) = sqrt(pi) Gamma(n/2 + 1)/Gamma((n + 1)/2), the depth over the height at the edge [-].
 
     The indentation depth is ``kappa Q a^n``: 1 for n = 0 (a flat disc), pi/2 for a cone, 2 for a paraboloid.
@@ -86,7 +86,7 @@ class PowerLawContact:
         """Work done by the force, n/(2n + 1) F d [J]."""
         return self.exponent / (2 * self.exponent + 1) * self.force * self.depth
 
-    def pressure(self, distance: npt.ArrayLike) -> Array:
+    def pressure(self, distance: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `distance` from the centre [m]; infinite there for n <= 1, 0 outside.
 
         Parameters
@@ -103,10 +103,9 @@ class PowerLawContact:
         # (E*/pi) int_r^a g'(x)/sqrt(x^2 - r^2) dx with g = kappa Q x^n (thesis, eq. A.63).
         t = np.maximum(a**2 - r**2, 0.0) / np.maximum(a**2, TINY)
         slope = kappa(n) * n * self.coefficient * np.maximum(a, TINY) ** (n - 1)
-        value: Array = self.modulus / np.pi * slope * np.sqrt(t) * hyp2f1(1, 1 - n / 2, 3 / 2, t)
-        return value
+        return self.modulus / np.pi * slope * np.sqrt(t) * hyp2f1(1, 1 - n / 2, 3 / 2, t)
 
-    def displacement(self, distance: npt.ArrayLike) -> Array:
+    def displacement(self, distance: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
 
         Parameters
@@ -124,20 +123,19 @@ class PowerLawContact:
         e = a / np.maximum(np.maximum(r, a), TINY)
         profile = e / (n + 1) * hyp2f1(1 / 2, (n + 1) / 2, (n + 3) / 2, e**2)
         outside = 2 / np.pi * self.depth * (np.arcsin(e) - profile)
-        value: Array = np.where(r <= a, self.depth - self.coefficient * r**n, outside)[()]
-        return value
+        return np.where(r <= a, self.depth - self.coefficient * r**n, outside)[()]
 
 
 @numeric
 def contact(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
     exponent: float,
-    coefficient: npt.ArrayLike | None = None,
-    contact_radius: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    coefficient: ArrayLike | None = None,
+    contact_radius: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> PowerLawContact:
     """Return the contact of z = Q r^n from any three independent quantities (thesis, eqs 5.2 and 5.3).
 
@@ -181,14 +179,7 @@ def contact(
         "force": Product((1, 1, n + 1), 2 * n / (n + 1) * factor, unit="N"),
         "stiffness": Product((1, 0, 1), 2.0, unit="N/m"),
     }
-    given = {
-        "modulus": modulus,
-        "coefficient": coefficient,
-        "contact_radius": contact_radius,
-        "depth": depth,
-        "force": force,
-        "stiffness": stiffness,
-    }
+    given = (modulus, coefficient, contact_radius, depth, force, stiffness)
     known = checked(quantities, given, body=("modulus", "coefficient"))
     return PowerLawContact(exponent=n, **solve(quantities, known))
 

@@ -15,17 +15,14 @@ class ProfileMoments(Protocol):
     @property
     def m0(self) -> float:
         """Mean square height [m^2]."""
-        ...
 
     @property
     def m2(self) -> float:
         """Mean square slope of a profile [-]; that of the surface is ``2 m2``."""
-        ...
 
     @property
     def m4(self) -> float:
         """Mean square curvature of a profile [1/m^2]."""
-        ...
 
 
 def moment(moments: ProfileMoments, name: Literal["m0", "m2", "m4"], note: str = "") -> float:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.law import LoadingLaw
@@ -26,7 +26,7 @@ STEPS = 12
 
 @numeric
 def coefficient(
-    hurst: npt.ArrayLike, rms: npt.ArrayLike, length: npt.ArrayLike, *, prefactor: npt.ArrayLike | None = None
+    hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, *, prefactor: ArrayLike | None = None
 ) -> Array:
     """Return Q of the indenter z = Q r^H that stands for the roughness [m^(1-H)] (thesis, eq. 5.6).
 
@@ -63,20 +63,19 @@ def coefficient(
     """
     h, zeta = _roughness(hurst, prefactor)
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
-    value: Array = (2 / (zeta * size)) ** (h + 1) * (h + 1) * size * height / (2 * h * kappa(h))
-    return value
+    return (2 / (zeta * size)) ** (h + 1) * (h + 1) * size * height / (2 * h * kappa(h))
 
 
 @numeric
 def force(
-    stiffness: npt.ArrayLike,
+    stiffness: ArrayLike,
     *,
-    radius: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-    prefactor: npt.ArrayLike | None = None,
+    radius: ArrayLike,
+    hurst: ArrayLike,
+    rms: ArrayLike,
+    length: ArrayLike,
+    modulus: ArrayLike,
+    prefactor: ArrayLike | None = None,
 ) -> Array:
     """Return the force at which a rough sphere has a stiffness [N] (thesis, eq. 5.9 with E* for E).
 
@@ -118,20 +117,19 @@ def force(
     """
     e, sphere, rough, h = _terms(radius, hurst, rms, length, modulus, prefactor)
     x = positive(stiffness, "stiffness [N/m]", zero=True) / e
-    value: Array = e * (sphere * x**3 + rough * x ** (h + 1))
-    return value
+    return e * (sphere * x**3 + rough * x ** (h + 1))
 
 
 @numeric
 def stiffness(
-    force: npt.ArrayLike,
+    force: ArrayLike,
     *,
-    radius: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-    prefactor: npt.ArrayLike | None = None,
+    radius: ArrayLike,
+    hurst: ArrayLike,
+    rms: ArrayLike,
+    length: ArrayLike,
+    modulus: ArrayLike,
+    prefactor: ArrayLike | None = None,
 ) -> Array:
     """Return the contact stiffness of a rough sphere [N/m], the inverse of `force` (thesis, eq. 5.9).
 
@@ -165,19 +163,18 @@ def stiffness(
     for _ in range(STEPS):
         slope = np.where(loaded, 3 * sphere * x**2 + (h + 1) * rough * x**h, 1.0)
         x = x - (sphere * x**3 + rough * x ** (h + 1) - f) / slope
-    value: Array = e * x
-    return value
+    return e * x
 
 
 @numeric
 def crossover_force(
-    radius: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    radius: ArrayLike,
+    hurst: ArrayLike,
+    rms: ArrayLike,
+    length: ArrayLike,
+    modulus: ArrayLike,
     *,
-    prefactor: npt.ArrayLike | None = None,
+    prefactor: ArrayLike | None = None,
 ) -> Array:
     """Return the force at which smooth sphere and roughness alone are equally stiff [N] (thesis, eq. 5.10).
 
@@ -213,8 +210,7 @@ def crossover_force(
     r, e = positive(radius, "radius [m]"), positive(modulus, "modulus [Pa]")
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
     inside = zeta ** (3 * h + 3) * height**-3 * size ** (3 * h) * (6 * r) ** -(h + 1)
-    value: Array = e * inside ** (1 / (h - 2))
-    return value
+    return e * inside ** (1 / (h - 2))
 
 
 Terms = tuple[tuple[float, float], ...]  # powers of a radius, and their coefficients
@@ -277,7 +273,7 @@ def _energy(body: Mapping[str, float], terms: Terms, force: Array) -> Array:
     return np.asarray(sum(parts))
 
 
-def _roughness(hurst: npt.ArrayLike, prefactor: npt.ArrayLike | None) -> tuple[Array, Array]:
+def _roughness(hurst: ArrayLike, prefactor: ArrayLike | None) -> tuple[Array, Array]:
     """Return H and zeta."""
     natural = pohrt_popov.prefactor(hurst)
     require(
@@ -290,12 +286,12 @@ def _roughness(hurst: npt.ArrayLike, prefactor: npt.ArrayLike | None) -> tuple[A
 
 
 def _terms(
-    radius: npt.ArrayLike,
-    hurst: npt.ArrayLike,
-    rms: npt.ArrayLike,
-    length: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-    prefactor: npt.ArrayLike | None,
+    radius: ArrayLike,
+    hurst: ArrayLike,
+    rms: ArrayLike,
+    length: ArrayLike,
+    modulus: ArrayLike,
+    prefactor: ArrayLike | None,
 ) -> tuple[Array, Array, Array, Array]:
     """Return E*, the factors of x^3 and of x^(H+1) in F/E*, and H; x = k/E*."""
     h, zeta = _roughness(hurst, prefactor)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.validation import Array, numeric, positive, require, require_numbers, whole
 
@@ -80,8 +80,7 @@ class SteppedIndenter:
         array
             r_n [m], shape (count,).
         """
-        value: Array = self.radius * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
-        return value
+        return self.radius * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
 
     def heights(self, count: int) -> Array:
         """Return h_n of the first `count` discs [m] (thesis, eq. 4.21).
@@ -96,12 +95,10 @@ class SteppedIndenter:
         array
             h_n [m], shape (count,).
         """
-        value: Array = self.height * self.ratio ** (
-            self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
-        )
-        return value
+        order = np.arange(whole(count, "count"), dtype=np.float64)
+        return self.height * self.ratio ** (self.hurst * order)
 
-    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+    def corners(self, count: int, modulus: ArrayLike) -> tuple[Array, Array]:
         """Return forces [N] and stiffnesses [N/m] just before disc n + 1 touches, for n below `count`.
 
         k_n = 2 E* r_n (thesis, eq. 4.22, which lacks the 2), and F_n = k_0 h_0 + ... + k_n h_n, of which eq. 4.23
@@ -123,7 +120,7 @@ class SteppedIndenter:
         return np.cumsum(k * self.heights(count)), k
 
     @numeric
-    def stiffness(self, force: npt.ArrayLike, count: int, modulus: npt.ArrayLike) -> Array:
+    def stiffness(self, force: ArrayLike, count: int, modulus: ArrayLike) -> Array:
         """Return the stiffness at a force [N/m]: a staircase (thesis, fig. 17).
 
         Parameters
@@ -142,5 +139,4 @@ class SteppedIndenter:
         """
         forces, k = self.corners(count, modulus)
         reached = np.searchsorted(forces, positive(force, "force [N]", zero=True), side="right")
-        value: Array = k[np.minimum(reached, count - 1)]
-        return value
+        return k[np.minimum(reached, count - 1)]

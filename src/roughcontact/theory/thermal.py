@@ -64,8 +64,7 @@ def constriction(ratio: float | Array, form: Literal["power", "tube"] = "power")
     require(eps <= 1, f"a spot is no larger than its cell: the ratio of radii is at most 1, not {ratio}")
     if form == "power":
         return np.asarray((1 - eps) ** 1.5)
-    if form != "tube":
-        raise ValueError(f"form must be 'power' or 'tube', not {form!r}")
+    require(form == "tube", f"form must be 'power' or 'tube', not {form!r}")
     one, first, third, fifth, seventh = TUBE
     square = eps**2
     return np.asarray(one + eps * (first + square * (third + square * (fifth + square * seventh))))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import hyp2f1
 
 from roughcontact.validation import Array, numeric, pair, positive, require, require_numbers, whole
@@ -25,10 +25,7 @@ FLAT_STIFFNESS = 8 / np.pi
 
 @numeric
 def force(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the force on one crest of the long wave [N] (thesis, eq. 4.38, corrected).
 
@@ -66,16 +63,12 @@ def force(
     1.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
-    value: Array = 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
-    return value
+    return 2 * e * h2**1.5 / (q1 * np.sqrt(h1)) * s**2 * hyp2f1(1 / 2, 1 / 2, 3, s)
 
 
 @numeric
 def stiffness(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> Array:
     """Return the stiffness of one crest of the long wave [N/m]: the derivative of `force`.
 
@@ -103,13 +96,12 @@ def stiffness(
     8.0
     """
     s, h1, q1, h2, e = _given(depth, long_wave, short_amplitude, modulus)
-    value: Array = 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
-    return value
+    return 2 * e / q1 * np.sqrt(h2 / h1) * s * hyp2f1(1 / 2, 1 / 2, 2, s)
 
 
 @numeric
 def flat(
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike], short_amplitude: npt.ArrayLike, modulus: npt.ArrayLike
+    long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array]:
     """Return force [N] and stiffness [N/m] where the short wave is flat for the first time, at d = 2 h2.
 
@@ -208,10 +200,8 @@ class Hierarchy:
         array
             h_n [m], shape (count,).
         """
-        value: Array = self.amplitude * self.ratio ** (
-            -self.hurst * np.arange(whole(count, "count"), dtype=np.float64)
-        )
-        return value
+        order = np.arange(whole(count, "count"), dtype=np.float64)
+        return self.amplitude * self.ratio ** (-self.hurst * order)
 
     def wavenumbers(self, count: int) -> Array:
         """Return q_n of the first `count` waves [rad/m] (thesis, eq. 4.43).
@@ -226,10 +216,9 @@ class Hierarchy:
         array
             q_n [rad/m], shape (count,).
         """
-        value: Array = self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
-        return value
+        return self.wavenumber * self.ratio ** np.arange(whole(count, "count"), dtype=np.float64)
 
-    def corners(self, count: int, modulus: npt.ArrayLike) -> tuple[Array, Array]:
+    def corners(self, count: int, modulus: ArrayLike) -> tuple[Array, Array]:
         """Return force [N] and stiffness [N/m] where wave n + 1 is flat on wave n, for n below `count`.
 
         Thesis, eqs 4.45 and 4.46, corrected. The points lie on a line of slope 1/(H+1) (eq. 4.47).
@@ -256,10 +245,7 @@ class Hierarchy:
 
 
 def _given(
-    depth: npt.ArrayLike,
-    long_wave: tuple[npt.ArrayLike, npt.ArrayLike],
-    short_amplitude: npt.ArrayLike,
-    modulus: npt.ArrayLike,
+    depth: ArrayLike, long_wave: tuple[ArrayLike, ArrayLike], short_amplitude: ArrayLike, modulus: ArrayLike
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Return s = d/(2 h2), h1, q1, h2 and E*."""
     d, h2 = positive(depth, "depth [m]", zero=True), positive(short_amplitude, "short_amplitude [m]")

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.theory.tools.quadrature import gauss, graded, running
-from roughcontact.validation import Array, number, pair, shown
+from roughcontact.validation import Array, number, pair, require, shown
 
 __all__ = ["ContinuousSpectrum", "MeasuredSpectrum", "Spectrum", "Waves"]
 
@@ -25,16 +25,13 @@ class ContinuousSpectrum(Protocol):
     @property
     def q_min(self) -> float:
         """Smallest wavenumber [rad/m]."""
-        ...
 
     @property
     def q_max(self) -> float:
         """Largest wavenumber [rad/m]."""
-        ...
 
     def __call__(self, wavenumber: Array, /) -> Array:
         """Return C2D [m^4] at the wavenumbers [rad/m]."""
-        ...
 
 
 class MeasuredSpectrum(Protocol):
@@ -43,27 +40,22 @@ class MeasuredSpectrum(Protocol):
     @property
     def wavenumber(self) -> Array:
         """Wavenumbers of the bins [rad/m], increasing."""
-        ...
 
     @property
     def density(self) -> Array:
         """C2D of the bins [m^4]."""
-        ...
 
     @property
     def kind(self) -> str:
         """``"C2D"`` of a surface or ``"C1D"`` of its profiles."""
-        ...
 
     @property
     def q_min(self) -> float:
         """Lower end of the band that is to be relied upon [rad/m]."""
-        ...
 
     @property
     def q_max(self) -> float:
         """Upper end of that band [rad/m]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -241,8 +233,7 @@ class Waves:
         high = spectrum.q_max if q_max is None else q_max
         q, density = np.asarray(spectrum.wavenumber), np.asarray(spectrum.density)
         keep = (q >= low * (1 - 1e-9)) & (q <= high * (1 + 1e-9)) & (density > 0)
-        if keep.sum() < 2:
-            raise ValueError(f"two bins with power are wanted between {low:g} and {high:g} rad/m")
+        require(keep.sum() >= 2, f"two bins with power are wanted between {low:g} and {high:g} rad/m")
         ln_q, ln_c = np.log(q[keep]), np.log(density[keep])
         bins = np.asarray(q[keep])
         return _of_density(lambda x: np.exp(np.interp(np.log(x), ln_q, ln_c)), bins[0], bins[-1], bins)
@@ -268,18 +259,15 @@ class Waves:
             If the heights are no map, hold holes or are flat.
         """
         z = np.asarray(number(heights, "heights [m]"))
-        if z.ndim != 2:
-            raise ValueError(f"heights must have two axes, not {z.ndim}")
-        if not np.isfinite(z).all():
-            raise ValueError("heights hold points that were not measured: fill them first")
+        require(z.ndim == 2, f"heights must have two axes, not {z.ndim}")
+        require(np.isfinite(z), "heights hold points that were not measured: fill them first")
         (ny, nx), (dy, dx) = z.shape, map(float, pair(spacing, "the spacing (dy, dx) [m]"))
         power = np.abs(scipy.fft.rfft2(z - z.mean()) / z.size) ** 2
         # Every column stands for q and -q, but the first and, of an even number, the last.
         power[:, 1 : (nx + 1) // 2] *= 2
         q = 2 * np.pi * np.hypot(scipy.fft.fftfreq(ny, dy)[:, None], scipy.fft.rfftfreq(nx, dx))
         waves = (q > 0) & (power > 0)
-        if not waves.any():
-            raise ValueError("the heights are flat: contact is full at any load")
+        require(waves.any(), "the heights are flat: contact is full at any load")
         q, power = q[waves], power[waves]
         band = np.rint(np.log(q / q.min()) / MERGED).astype(np.int64)
         sums, squares = np.bincount(band, power).astype(float), np.bincount(band, power * q**2).astype(float)
@@ -312,8 +300,7 @@ class Waves:
         )
         if not (q.ndim == 1 and q.shape == m.shape and q.size and q[0] > 0 and (np.diff(q) > 0).all()):
             raise ValueError("bands need increasing, positive wavenumbers and one power each")
-        if not (np.isfinite(m).all() and (m > 0).all()):
-            raise ValueError("the power of every band must be positive and finite")
+        require(np.isfinite(m) & (m > 0), "the power of every band must be positive and finite")
         ends = np.sqrt(np.cumsum(q**2 * m))
         edges = np.union1d(graded(START * ends[0], ends[-1], 1.2), ends)
         x, weights = gauss(4)
@@ -333,8 +320,7 @@ Spectrum: TypeAlias = Waves | MeasuredSpectrum | ContinuousSpectrum
 
 def _of_density(density: Callable[[Array], Array], low: float, high: float, breaks: Array) -> Waves:
     """Return the waves of C2D(q) on a finite band, smooth between the breaks."""
-    if not 0 < low < high:
-        raise ValueError(f"no wave lies between {low:g} and {high:g} rad/m")
+    require(0 < low < high, f"no wave lies between {low:g} and {high:g} rad/m")
     corners = np.sqrt(breaks[(breaks > low) & (breaks < high)] / low - 1)
     end = math.sqrt(high / low - 1)
     s_edges = np.union1d(np.append(graded(START * min(end, 1.0), end, 1.5), end), corners)
@@ -343,8 +329,8 @@ def _of_density(density: Callable[[Array], Array], low: float, high: float, brea
     s = s_edges[:-1, None] + width * x
     q = low * (1 + s**2)
     values = np.asarray(density(q.ravel()), dtype=np.float64).reshape(q.shape)
-    if not (np.isfinite(values).all() and (values >= 0).all()):
-        raise ValueError("the spectrum must be finite and not negative between its limits")
+    usable = np.isfinite(values) & (values >= 0)
+    require(usable, "the spectrum must be finite and not negative between its limits")
     powers = 2 * math.pi * q * values * (2 * low * s * width)
     squares = q**2 * powers
     before = np.concatenate([[0.0], np.cumsum(squares @ weights)[:-1]])[:, None]
@@ -353,6 +339,5 @@ def _of_density(density: Callable[[Array], Array], low: float, high: float, brea
         q.shape
     )
     keep = (powers > 0) & (slope > 0)
-    if not keep.any():
-        raise ValueError("the spectrum is zero between its limits: contact is full at any load")
+    require(keep.any(), "the spectrum is zero between its limits: contact is full at any load")
     return Waves(q[keep], (powers * weights)[keep], slope[keep])

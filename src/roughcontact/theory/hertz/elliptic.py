@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import elliprd, elliprf
 
 from roughcontact.theory.tools.products import Product, checked, solve
@@ -60,7 +60,7 @@ class EllipticContact:
         return 2 / 5 * self.force * self.depth
 
     @numeric
-    def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the pressure [Pa] at a point [m]; 0 outside the contact.
 
         Parameters
@@ -77,11 +77,10 @@ class EllipticContact:
         """
         a, b = self.semi_axes
         u, v = number(x, "x [m]") / a, number(y, "y [m]") / b
-        value: Array = self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
-        return value
+        return self.max_pressure * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0))
 
     @numeric
-    def displacement(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+    def displacement(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a point [m], inside and outside.
 
         Parameters
@@ -111,13 +110,13 @@ class EllipticContact:
 
 
 def elliptic(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radii: tuple[npt.ArrayLike, npt.ArrayLike],
-    force: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    radii: tuple[ArrayLike, ArrayLike],
+    force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> EllipticContact:
     """Return the contact of a body with two radii of curvature from two further quantities (Johnson 1985, ch. 4).
 
@@ -172,20 +171,14 @@ def elliptic(
         "max_pressure": Product((1, -1, 1), 1 / curved, unit="Pa"),
         "stiffness": Product((1, 0, 1), np.pi / flat, unit="N/m"),
     }
-    given = {
-        "modulus": modulus,
-        "force": force,
-        "depth": depth,
-        "max_pressure": max_pressure,
-        "stiffness": stiffness,
-    }
     radius = np.sqrt(rx * ry)
-    found = solve(quantities, {"radii": radius, **checked(quantities, given)})
+    others = checked(quantities, (modulus, None, force, depth, max_pressure, stiffness))
+    found = solve(quantities, {"radii": radius, **others})
     size = np.sqrt(found["depth"] * radius * curved / flat)
     return EllipticContact(
         radii=(rx, ry),
         semi_axes=(size * np.sqrt(aa), size * np.sqrt(bb)),
-        **{name: found[name] for name in given},
+        **{name: value for name, value in found.items() if name != "radii"},
     )
 
 
@@ -196,5 +189,4 @@ def _aspect(ratio: Array) -> Array:
     for _ in range(STEPS):
         aa, bb = np.exp(t), np.exp(-t)
         t = t + (wanted - np.log(elliprd(0.0, aa, bb) / elliprd(0.0, bb, aa))) / SLOPE
-    aspect: Array = np.exp(t)
-    return aspect
+    return np.exp(t)

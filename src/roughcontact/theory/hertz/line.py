@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import lambertw
 
 from roughcontact.theory.tools.products import Product, checked, solve
@@ -64,7 +64,7 @@ class LineContact:
         return np.pi * self.modulus / (2 * self._logarithm())
 
     @numeric
-    def pressure(self, position: npt.ArrayLike) -> Array:
+    def pressure(self, position: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `position` from the middle [m]; 0 outside the contact.
 
         Parameters
@@ -79,11 +79,10 @@ class LineContact:
         """
         x = np.asarray(position, dtype=np.float64)
         half_chord = np.sqrt(np.maximum(self.half_width**2 - x**2, 0.0))
-        value: Array = self.modulus / (2 * self.radius) * half_chord
-        return value
+        return self.modulus / (2 * self.radius) * half_chord
 
     @numeric
-    def displacement(self, position: npt.ArrayLike) -> Array:
+    def displacement(self, position: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `position` from the middle [m], inside and outside.
 
         Parameters
@@ -100,8 +99,7 @@ class LineContact:
         theta = np.arccosh(np.maximum(x / self.half_width, 1.0))
         sagitta = self.half_width**2 / (4 * self.radius)
         outside = sagitta * (2 * self._logarithm() - 2 * theta - np.exp(-2 * theta))
-        value: Array = np.where(x <= self.half_width, self.depth - x**2 / (2 * self.radius), outside)[()]
-        return value
+        return np.where(x <= self.half_width, self.depth - x**2 / (2 * self.radius), outside)[()]
 
     def _logarithm(self) -> Array:
         """Return ln(2L/a)."""
@@ -110,18 +108,17 @@ class LineContact:
                 "the depth of a line contact grows with the size of the body: give a reference_length [m], "
                 "the distance at which the displacement is zero"
             )
-        value: Array = np.log(2 * self.reference_length / self.half_width)
-        return value
+        return np.log(2 * self.reference_length / self.half_width)
 
 
 def line(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radius: npt.ArrayLike | None = None,
-    half_width: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    half_width: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
     reference_length: float | None = None,
 ) -> LineContact:
     """Return the contact of a parabolic cylinder from any three independent quantities (beside thesis, eq. A.37).
@@ -155,14 +152,7 @@ def line(
     >>> round(float(roller.half_width) * 1e6, 2), round(float(roller.max_pressure) / 1e9, 4)  # [um], [GPa]
     (112.84, 0.5642)
     """
-    given = {
-        "modulus": modulus,
-        "radius": radius,
-        "half_width": half_width,
-        "force": force,
-        "max_pressure": max_pressure,
-    }
-    known = checked(QUANTITIES, given)
+    known = checked(QUANTITIES, (modulus, radius, half_width, force, max_pressure))
     if reference_length is not None:
         reference_length = float(positive(reference_length, "reference_length [m]"))
     if depth is not None:

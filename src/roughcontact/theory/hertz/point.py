@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import spherical_jn
 
 from roughcontact.theory.law import LoadingLaw
@@ -68,7 +68,7 @@ class PointContact:
         """Work done by the force, 2/5 F d [J]."""
         return 2 / 5 * self.force * self.depth
 
-    def pressure(self, distance: npt.ArrayLike) -> Array:
+    def pressure(self, distance: ArrayLike) -> Array:
         """Return the pressure [Pa] at a `distance` from the centre [m]; 0 outside the contact.
 
         Parameters
@@ -83,10 +83,9 @@ class PointContact:
         """
         r = positive(distance, "distance [m]", zero=True)
         half_chord = np.sqrt(np.maximum(self.contact_radius**2 - r**2, 0.0))
-        value: Array = 2 * self.modulus / (np.pi * self.radius) * half_chord
-        return value
+        return 2 * self.modulus / (np.pi * self.radius) * half_chord
 
-    def displacement(self, distance: npt.ArrayLike) -> Array:
+    def displacement(self, distance: ArrayLike) -> Array:
         """Return the displacement of the surface [m] at a `distance` from the centre [m], inside and outside.
 
         Parameters
@@ -105,19 +104,18 @@ class PointContact:
         # t = 2 asin(a/r) and the spherical Bessel function j1 it is (a^2/pi R) (t^2/2) j1(t) / sin^2(t/2).
         t = 2 * np.arcsin(a / np.maximum(np.maximum(r, a), TINY))
         outside = 2 * self.depth / np.pi * spherical_jn(1, t) / np.sinc(t / (2 * np.pi)) ** 2
-        value: Array = np.where(r <= a, self.depth - r**2 / (2 * self.radius), outside)[()]
-        return value
+        return np.where(r <= a, self.depth - r**2 / (2 * self.radius), outside)[()]
 
 
 def point(
-    modulus: npt.ArrayLike | None = None,
+    modulus: ArrayLike | None = None,
     *,
-    radius: npt.ArrayLike | None = None,
-    contact_radius: npt.ArrayLike | None = None,
-    depth: npt.ArrayLike | None = None,
-    force: npt.ArrayLike | None = None,
-    max_pressure: npt.ArrayLike | None = None,
-    stiffness: npt.ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    contact_radius: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    max_pressure: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
 ) -> PointContact:
     """Return the contact of a paraboloid from any three independent quantities (thesis, eqs 5.4, A.60 and A.61).
 
@@ -149,15 +147,7 @@ def point(
     >>> round(float(ball.contact_radius) * 1e6, 2), round(float(ball.depth) * 1e9, 1)  # [um], [nm]
     (42.17, 177.8)
     """
-    given = {
-        "modulus": modulus,
-        "radius": radius,
-        "contact_radius": contact_radius,
-        "depth": depth,
-        "force": force,
-        "max_pressure": max_pressure,
-        "stiffness": stiffness,
-    }
+    given = (modulus, radius, contact_radius, depth, force, max_pressure, stiffness)
     known = checked(QUANTITIES, given, body=("modulus", "radius"))
     return PointContact(**solve(QUANTITIES, known))
 

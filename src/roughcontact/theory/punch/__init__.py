@@ -1,34 +1,27 @@
 """Flat punches: the contact stiffness of a region of given shape, and pressures where they are known."""
 
-from __future__ import annotations
+from types import ModuleType as _Module
 
-from roughcontact.theory.punch.annulus import annulus
+from roughcontact.theory.punch.annulus import annulus as annulus
 from roughcontact.theory.punch.closed import (
-    disc,
-    disc_displacement,
-    disc_pressure,
-    ellipse,
-    ellipse_pressure,
-    strip,
-    strip_pressure,
+    disc as disc,
+    disc_displacement as disc_displacement,
+    disc_pressure as disc_pressure,
+    ellipse as ellipse,
+    ellipse_pressure as ellipse_pressure,
+    strip as strip,
+    strip_pressure as strip_pressure,
 )
-from roughcontact.theory.punch.polygon import SQUARE, TRIANGLE, Computed, shape_factor, square, triangle
-from roughcontact.theory.punch.two_discs import two_discs
+from roughcontact.theory.punch.polygon import (
+    SQUARE as SQUARE,
+    TRIANGLE as TRIANGLE,
+    Computed as Computed,
+    shape_factor as shape_factor,
+    square as square,
+    triangle as triangle,
+)
+from roughcontact.theory.punch.two_discs import two_discs as two_discs
 
 __all__ = [
-    "SQUARE",
-    "TRIANGLE",
-    "Computed",
-    "annulus",
-    "disc",
-    "disc_displacement",
-    "disc_pressure",
-    "ellipse",
-    "ellipse_pressure",
-    "shape_factor",
-    "square",
-    "strip",
-    "strip_pressure",
-    "triangle",
-    "two_discs",
+    name for name, each in globals().items() if not (name.startswith("_") or isinstance(each, _Module))
 ]

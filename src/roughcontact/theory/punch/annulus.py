@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import ellipkm1
 
 from roughcontact.validation import Array, numeric, positive, require
@@ -16,7 +16,7 @@ THIN_HOLE = 0.02
 
 
 @numeric
-def annulus(modulus: npt.ArrayLike, outer_radius: npt.ArrayLike, inner_radius: npt.ArrayLike) -> Array:
+def annulus(modulus: ArrayLike, outer_radius: ArrayLike, inner_radius: ArrayLike) -> Array:
     """Return the stiffness of an annulus [N/m].
 
     Parameters

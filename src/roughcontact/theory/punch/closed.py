@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import elliprf
 
 from roughcontact.validation import Array, number, numeric, pair, positive, require
@@ -20,7 +20,7 @@ __all__ = [
 
 
 @numeric
-def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+def disc(modulus: ArrayLike, radius: ArrayLike) -> Array:
     """Return the stiffness of a disc, k = 2 E* a [N/m] (thesis, eq. 4.6).
 
     It is that of any axisymmetric indenter whose contact is a disc, whatever its pressure.
@@ -47,7 +47,7 @@ def disc(modulus: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
 
 
 @numeric
-def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
+def disc_pressure(force: ArrayLike, radius: ArrayLike, distance: ArrayLike) -> Array:
     """Return the pressure under a disc, F/(2 pi a sqrt(a^2 - r^2)) [Pa] (Boussinesq).
 
     Infinite at the edge, 0 outside.
@@ -78,7 +78,7 @@ def disc_pressure(force: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.Arr
 
 
 @numeric
-def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt.ArrayLike) -> Array:
+def disc_displacement(depth: ArrayLike, radius: ArrayLike, distance: ArrayLike) -> Array:
     """Return the displacement of the surface under and around a disc, (2/pi) d asin(a/r) outside [m].
 
     Parameters
@@ -102,11 +102,10 @@ def disc_displacement(depth: npt.ArrayLike, radius: npt.ArrayLike, distance: npt
     0.3333
     """
     r, a = positive(distance, "distance [m]", zero=True), positive(radius, "radius [m]")
-    value: Array = 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
-    return value
+    return 2 / np.pi * positive(depth, "depth [m]", zero=True) * np.arcsin(a / np.maximum(r, a))
 
 
-def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLike]) -> Array:
+def ellipse(modulus: ArrayLike, semi_axes: tuple[ArrayLike, ArrayLike]) -> Array:
     """Return the stiffness of an ellipse, k = pi E* a/K(e), e^2 = 1 - b^2/a^2 [N/m] (Galin).
 
     Parameters
@@ -132,16 +131,12 @@ def ellipse(modulus: npt.ArrayLike, semi_axes: tuple[npt.ArrayLike, npt.ArrayLik
     1.0
     """
     a, b = pair(semi_axes, "semi_axes [m]")
-    value: Array = np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
-    return value
+    return np.pi * positive(modulus, "modulus [Pa]") / elliprf(0.0, a**2, b**2)
 
 
 @numeric
 def ellipse_pressure(
-    force: npt.ArrayLike,
-    semi_axes: tuple[npt.ArrayLike, npt.ArrayLike],
-    x: npt.ArrayLike,
-    y: npt.ArrayLike,
+    force: ArrayLike, semi_axes: tuple[ArrayLike, ArrayLike], x: ArrayLike, y: ArrayLike
 ) -> Array:
     """Return the pressure under an ellipse, F/(2 pi a b sqrt(1 - x^2/a^2 - y^2/b^2)) [Pa] (Galin).
 
@@ -174,7 +169,7 @@ def ellipse_pressure(
 
 
 @numeric
-def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: npt.ArrayLike) -> Array:
+def strip(modulus: ArrayLike, half_width: ArrayLike, reference_length: ArrayLike) -> Array:
     """Return the stiffness per length of an infinite strip, k' = pi E*/(2 ln(2L/a)) [N/m^2].
 
     Parameters
@@ -213,7 +208,7 @@ def strip(modulus: npt.ArrayLike, half_width: npt.ArrayLike, reference_length: n
 
 
 @numeric
-def strip_pressure(force: npt.ArrayLike, half_width: npt.ArrayLike, position: npt.ArrayLike) -> Array:
+def strip_pressure(force: ArrayLike, half_width: ArrayLike, position: ArrayLike) -> Array:
     """Return the pressure under a strip, F'/(pi sqrt(a^2 - x^2)) [Pa]; infinite at the edge, 0 outside.
 
     Parameters
@@ -245,5 +240,4 @@ def _edged(scale: Array, inside: Array) -> Array:
     """Return scale/sqrt(inside); infinite where `inside` is 0, 0 where it is negative."""
     with np.errstate(divide="ignore"):
         root = 1 / np.sqrt(np.maximum(inside, 0.0))
-    value: Array = np.where(inside < 0, 0.0, scale * np.where(scale > 0, root, 0.0))[()]
-    return value
+    return np.where(inside < 0, 0.0, scale * np.where(scale > 0, root, 0.0))[()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.validation import Array, numeric, positive
 
@@ -44,7 +44,7 @@ TRIANGLE = Computed(
 
 
 @numeric
-def square(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
+def square(modulus: ArrayLike, side: ArrayLike) -> Array:
     """Return the stiffness of a square, k = 1.152298(1) E* L [N/m] (thesis, eqs 4.7 and 4.14, which have 1.1419).
 
     Parameters
@@ -69,7 +69,7 @@ def square(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
 
 
 @numeric
-def triangle(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
+def triangle(modulus: ArrayLike, side: ArrayLike) -> Array:
     """Return the stiffness of an equilateral triangle, k = 0.78811(1) E* L [N/m] (beside thesis, fig. 12).
 
     Parameters
@@ -94,7 +94,7 @@ def triangle(modulus: npt.ArrayLike, side: npt.ArrayLike) -> Array:
 
 
 @numeric
-def shape_factor(stiffness: npt.ArrayLike, modulus: npt.ArrayLike, area: npt.ArrayLike) -> Array:
+def shape_factor(stiffness: ArrayLike, modulus: ArrayLike, area: ArrayLike) -> Array:
     """Return the stiffness over that of a disc of the same area, k/(2 E* sqrt(A/pi)) [-]; never below 1.
 
     Parameters
@@ -118,5 +118,4 @@ def shape_factor(stiffness: npt.ArrayLike, modulus: npt.ArrayLike, area: npt.Arr
     1.0212
     """
     k, a = positive(stiffness, "stiffness [N/m]"), positive(area, "area [m^2]")
-    value: Array = k / (2 * positive(modulus, "modulus [Pa]") * np.sqrt(a / np.pi))
-    return value
+    return k / (2 * positive(modulus, "modulus [Pa]") * np.sqrt(a / np.pi))

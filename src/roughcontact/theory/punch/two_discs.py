@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 from scipy.special import eval_jacobi, gammaln
 
 from roughcontact.validation import Array, numeric, positive, require
@@ -16,7 +16,7 @@ DEGREE = 12  # of the polynomials: from three radii on, more of them change the 
 
 
 @numeric
-def two_discs(modulus: npt.ArrayLike, radius: npt.ArrayLike, spacing: npt.ArrayLike) -> Array:
+def two_discs(modulus: ArrayLike, radius: ArrayLike, spacing: ArrayLike) -> Array:
     """Return the stiffness of two equal discs under one rigid body that does not tilt [N/m] (thesis, fig. 12 b).
 
     Parameters

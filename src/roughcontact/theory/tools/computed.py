@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.validation import Array, number, shown
 
-__all__ = ["ComputedCurve", "as_law"]
+__all__ = ["ComputedCurve", "LogCubic", "as_law"]
 
 ROUNDING = 1e-12  # the end points must not fall out of their range by the rounding of a difference of forces
 
@@ -23,17 +23,14 @@ class ComputedCurve(Protocol):
     @property
     def force(self) -> Array:
         """Normal forces [N], shape (n,), increasing."""
-        ...
 
     @property
     def depth(self) -> Array:
         """Indentation depths [m], shape (n,)."""
-        ...
 
     @property
     def stiffness(self) -> Array:
         """Contact stiffnesses [N/m], shape (n,)."""
-        ...
 
 
 def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
@@ -49,37 +46,32 @@ def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
     """
     if isinstance(loading, LoadingLaw):
         return loading
-    missing = [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]
-    if missing:
+    if missing := [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]:
         raise ValueError(
             "a LoadingLaw, or a computed curve with force, depth and stiffness, is wanted, not "
             f"{shown(loading)} without {', '.join(missing)}"
         )
-    force, depth, stiffness = (
-        np.atleast_1d(number(values, what))
-        for values, what in (
-            (loading.force, "the forces of the curve [N]"),
-            (loading.depth, "the depths of the curve [m]"),
-            (loading.stiffness, "the stiffnesses of the curve [N/m]"),
-        )
-    )
+    force = np.atleast_1d(number(loading.force, "the forces of the curve [N]"))
+    depth = np.atleast_1d(number(loading.depth, "the depths of the curve [m]"))
+    stiffness = np.atleast_1d(number(loading.stiffness, "the stiffnesses of the curve [N/m]"))
     return LoadingLaw(
         "the computed curve",
         "",
-        {"depth": partial(_depth, _Points.of(force, depth)), "stiffness": _Points.of(force, stiffness)},
+        {"depth": partial(_depth, LogCubic.of(force, depth)), "stiffness": LogCubic.of(force, stiffness)},
         (0.0, float(force.max(initial=0.0)) * (1 + ROUNDING)),
     )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Points:
-    """A monotone cubic through the logarithms of positive points."""
+class LogCubic:
+    """A monotone cubic through the logarithms of positive points; NaN beyond them."""
 
     cubic: PchipInterpolator
     ends: tuple[float, float]
 
     @classmethod
-    def of(cls, force: Array, values: Array) -> _Points:
+    def of(cls, force: Array, values: Array) -> LogCubic:
+        """Return the cubic through those values at strictly increasing forces that are positive and finite."""
         right = (force > 0) & (values > 0) & np.isfinite(force) & np.isfinite(values)
         x, y = force[right], values[right]
         if len(x) < 2 or not (np.diff(x) > 0).all():
@@ -90,10 +82,11 @@ class _Points:
         return cls(PchipInterpolator(np.log(x), np.log(y), extrapolate=False), (x[0], x[-1]))
 
     def __call__(self, f: Array) -> Array:
+        """Return the values at forces."""
         low, high = self.ends
         inside = (f >= low * (1 - ROUNDING)) & (f <= high * (1 + ROUNDING))
         return np.where(inside, np.exp(self.cubic(np.log(np.clip(f, low, high)))), np.nan)
 
 
-def _depth(points: _Points, force: Array) -> Array:
+def _depth(points: LogCubic, force: Array) -> Array:
     return np.where(force == 0, 0.0, points(force))

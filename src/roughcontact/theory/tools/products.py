@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from roughcontact.validation import Array, fitting, positive
 
@@ -36,19 +36,16 @@ class Product:
 
 
 def checked(
-    products: Mapping[str, Product],
-    given: Mapping[str, npt.ArrayLike | None],
-    *,
-    body: Collection[str] = (),
+    products: Mapping[str, Product], values: Sequence[ArrayLike | None], *, body: Collection[str] = ()
 ) -> dict[str, Array]:
     """Return those quantities that are given and not None, as numbers or arrays.
 
     Parameters
     ----------
     products : mapping of str to Product
-        At least the quantities that may be given.
-    given : mapping of str to (array_like or None)
-        Values.
+        The quantities that may be given.
+    values : sequence of (array_like or None)
+        Their values, in the order of the products.
     body : collection of str
         Quantities that describe the unloaded body. Where they are all given, the others may be 0.
 
@@ -57,6 +54,7 @@ def checked(
     ValueError
         If a value is not positive and finite.
     """
+    given = dict(zip(products, values, strict=True))
     unloaded = bool(body) and all(given[name] is not None for name in body)
     return {
         name: positive(value, f"{name} [{products[name].unit}]", zero=unloaded and name not in body)

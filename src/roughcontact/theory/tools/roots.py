@@ -6,9 +6,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["bisect", "concave_root", "last_below"]
 
@@ -18,7 +17,7 @@ STEPS = 100
 CLOSE = 1e-8  # in scales; Newton doubles the digits: after a step of this size nothing but rounding is left
 
 
-def bisect(beyond: Callable[[Array], npt.NDArray[np.bool_]], low: Array, high: Array) -> Array:
+def bisect(beyond: Callable[[Array], Mask], low: Array, high: Array) -> Array:
     """Return the place between `low` and `high` from which on `beyond` is true, to the last digit.
 
     Of a root far below the width of its bracket the error is ``2**-64`` of that width.
@@ -43,8 +42,7 @@ def bisect(beyond: Callable[[Array], npt.NDArray[np.bool_]], low: Array, high: A
         over = beyond(middle)
         high = np.where(over, middle, high)
         low = np.where(over, low, middle)
-    root: Array = low[()]
-    return root
+    return low[()]
 
 
 def last_below(value: Callable[[Array], Array], target: Array, low: float, high: float) -> Array:
