@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
+from roughcontact.contact.solution import Solution
 from roughcontact.plot.raster import Window, part
-
-if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
 
 __all__ = ["contact_window", "faint_spots"]
 

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact import statistics
+from roughcontact.plot.ticks import TICK
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
@@ -145,7 +146,7 @@ def draw_realisations(figure: Figure, averages: xarray.Dataset) -> None:
     axes.plot(x, here * (x / middle) ** alpha, "--", color=_SLOPE, linewidth=2.0, label=f"slope {alpha:.4f}")
     axes.axvspan(force[0] * aside[0], low, color="0.95", zorder=0)
     words = f"fewer than {SPOTS:g} summits\nin contact"
-    axes.text(force[0], means[-1], words, fontsize=drawing.TICK, color="0.4", va="top")
+    axes.text(force[0], means[-1], words, fontsize=TICK, color="0.4", va="top")
     drawing.stiffness_axes(axes, xlim=(force[0] * aside[0], force[-1] * aside[-1]))
     axes.legend(loc="lower right")
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.plot.raster import box
 from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
@@ -82,7 +83,7 @@ def draw(figure: Figure, data: WavyLine) -> None:
     across, upright = (-0.05, 0.05), (-0.23, 0.015)
     _line(left, data, (-0.5, 0.5), (float(data.line.heights.min()) - 0.1, 0.15))
     _line(right, data, across, upright)
-    drawing.box(left, across, upright, color="0.35", linewidth=0.8)
+    box(left, across, upright, color="0.35", linewidth=0.8)
     left.text(across[1] + 0.015, upright[1], "(b)", va="center")
     for axes in (left, right):
         axes.set_xlabel(r"$x\,/\,\lambda_0$")

@@ -8,6 +8,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.level import level
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.theory.punch.polygon import SQUARE
 from roughcontact.thesis import drawing
@@ -54,8 +55,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
             axes.plot(force, points, "o", color=colour, markersize=3, fillstyle=fill, zorder=3)
         if hurst in places:
             axes.plot(law, places[hurst] * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
-    drawing.level(axes, SQUARE.value, f"square punch, {SQUARE.value:.4f}", "-")
-    drawing.level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)))
+    level(axes, SQUARE.value, f"square punch, {SQUARE.value:.4f}", "-")
+    level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)))
     drawing.key(axes, "--", "slopes 1/(H + 1) of H = 0 and 1")
     axes.legend(loc="lower right")
     lowest = float(averages["stiffness"].min())

@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.level import level
 from roughcontact.study.ranges import Range
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import Scale, Studies
@@ -56,8 +57,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         if hurst in laws:
             place, law = laws[hurst]
             axes.plot(law, place * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
-    drawing.level(axes, 1.0, "every spring carries load", ":", va="top")
-    drawing.level(axes, 1 / points, "one spring carries load", ":", va="top")
+    level(axes, 1.0, "every spring carries load", ":", va="top")
+    level(axes, 1 / points, "one spring carries load", ":", va="top")
     drawing.key(axes, "--", "slopes 1/(H + 1) at H = 0 and 2")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85))
     drawing.stiffness_axes(axes, xlim=(force[0], force[-1]), ylim=(0.5 / points, 2))

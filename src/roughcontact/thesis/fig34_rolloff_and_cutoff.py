@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.plot.ticks import TICK
 from roughcontact.thesis import drawing
 
 __all__ = ["Roughness", "case", "draw"]
@@ -95,7 +96,7 @@ def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
         top = base - 0.03
         base = top - float(heights.max())
         axes.plot(x, heights + base, color=colour, linewidth=0.9)
-        axes.text(0.0, top + 0.004, each.name, fontsize=drawing.TICK, color=colour, va="bottom")
+        axes.text(0.0, top + 0.004, each.name, fontsize=TICK, color=colour, va="bottom")
         base += float(heights.min())
     # The wavelength of the cut, below the line that has it.
     y = base - 0.02

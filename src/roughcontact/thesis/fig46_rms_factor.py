@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.plot.level import level
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
 
@@ -43,7 +44,7 @@ def draw(figure: Figure, data: Array) -> None:
         name = "limit" if modes is None else f"$N$ = {modes}"
         axes.plot(HURST, curve, color=colour, linewidth=1.8 if modes is None else 1.2, label=name)
     axes.plot(HURST, data[-1] / 2, ":", color="0.35", label="limit of eq. A.76 as printed")
-    drawing.level(axes, math.pi, r"$\pi$", ha="right")
+    level(axes, math.pi, r"$\pi$", ha="right")
     words = r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$"
     drawing.label(axes, "Hurst exponent $H$", words, xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)

@@ -17,7 +17,7 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact.thesis
-from roughcontact.plot.raster import TICK
+from roughcontact.plot.ticks import TICK
 from roughcontact.study.study import Study
 from roughcontact.thesis.drawing import STYLE
 from roughcontact.thesis.verdict import Verdict

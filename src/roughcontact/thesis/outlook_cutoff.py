@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from scipy.special import erf
 
 import roughcontact as rc
+from roughcontact.plot.level import level
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.study.study import Study
@@ -127,7 +128,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.family(area, shown, "waves", {"area": "-", "persson": ":"}, "L/{}")
     drawing.key(area, ":", "Persson")
     drawing.family(stiffness, shown, "waves", {"stiffness": "-"}, "L/{}")
-    drawing.level(stiffness, CELLS * float(shown["cell_stiffness"].max()))
+    level(stiffness, CELLS * float(shown["cell_stiffness"].max()))
     for axes, name in ((area, r"contact area $A\,/\,L^2$"), (stiffness, drawing.STIFFNESS)):
         drawing.label(axes, drawing.FORCE, f"{name}, H = {SHOWN:g}", **drawing.LOG)
         axes.legend(title="shortest wave")
