@@ -25,10 +25,10 @@ from roughcontact.plot.level import level
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.validation import Array
 
 __all__ = ["area_curve", "depth_curve", "resistance_curve", "resistance_figure", "stiffness_curve"]
 
-Array = npt.NDArray[Any]
 
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
 _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}

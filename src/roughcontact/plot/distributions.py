@@ -8,7 +8,6 @@ from itertools import cycle
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -18,10 +17,10 @@ from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.analysis.histogram import height_histogram
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = ["height_distribution", "pressure_distribution", "pressure_distribution_figure"]
 
-Array = npt.NDArray[np.float64]
 Density = Callable[[Array], Array]
 
 _BARS: Any = {"fill": True, "color": "#0072b2", "alpha": 0.45}

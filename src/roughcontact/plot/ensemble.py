@@ -13,10 +13,10 @@ from matplotlib.axes import Axes
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import pretty
 from roughcontact.plot.ticks import TICK, label_axes
+from roughcontact.validation import Array
 
 __all__ = ["fitted_values", "mean_curves"]
 
-Array = npt.NDArray[Any]
 
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")

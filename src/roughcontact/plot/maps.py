@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
@@ -16,10 +15,10 @@ from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.marks import faint_spots
 from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_image, length_scale, part, show
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = ["contact_map", "height_map", "pressure_map"]
 
-Array = npt.NDArray[Any]
 
 _CONTACT = "#c8290b"
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
@@ -15,6 +14,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.validation import Array
 
 __all__ = [
     "Window",
@@ -28,7 +28,6 @@ __all__ = [
     "show",
 ]
 
-Array = npt.NDArray[Any]
 Window = tuple[slice, slice]
 Colours = Colormap | str
 

@@ -14,10 +14,10 @@ from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.validation import Array
 
 __all__ = ["SpectrumScales", "spectrum_axes", "spectrum_curve"]
 
-Array = npt.NDArray[Any]
 
 _POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
 _DRAWN = 40.0  # bins to a decade: more are a band of ink

@@ -7,7 +7,6 @@ surfaces of our own: slopes can be compared, numbers cannot.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 from matplotlib.figure import Figure
 
@@ -21,6 +20,7 @@ from roughcontact.theory import greenwood_williamson
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict
+from roughcontact.validation import Array
 
 __all__ = [
     "CHOSEN",
@@ -34,7 +34,6 @@ __all__ = [
     "studies",
 ]
 
-Array = npt.NDArray[np.float64]
 
 HURST = (0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95)
 POINTS = {"small": 256, "thesis": 512}

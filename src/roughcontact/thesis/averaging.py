@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 import xarray
 
+import roughcontact as rc
 from roughcontact.solver.control import Status
 from roughcontact.statistics.samples import mean, scatter, standard_error
 from roughcontact.study.study import Study
@@ -21,6 +22,7 @@ __all__ = [
     "logarithm",
     "means",
     "outlook_study",
+    "rms_heights",
     "same_for_all",
     "slope",
     "surface_study",
@@ -90,6 +92,17 @@ def logarithm(values: xarray.DataArray) -> xarray.DataArray:
 def exponential(values: xarray.DataArray) -> xarray.DataArray:
     """Return the exponential, with its labels."""
     return cast("xarray.DataArray", np.exp(values))
+
+
+def rms_heights(points: int, hurst: xarray.DataArray, shortest: xarray.DataArray) -> xarray.DataArray:
+    """Return the rms height of waves on a square of unit side down to the shortest, with one factor of the spectrum."""
+    grid = rc.Grid((points, points), 1 / points)
+
+    def height(hurst: float, shortest: float) -> float:
+        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
+
+    found: xarray.DataArray = xarray.apply_ufunc(height, hurst, shortest, vectorize=True, keep_attrs=False)
+    return found
 
 
 def slope(values: xarray.DataArray, places: xarray.DataArray, along: str) -> xarray.DataArray:

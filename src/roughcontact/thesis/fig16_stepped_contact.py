@@ -13,10 +13,10 @@ import roughcontact as rc
 from roughcontact.thesis import drawing
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 
 TITLE = "the stepped indenter against a wall: contact areas and deformations"
 COUNT = 3

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -16,10 +15,10 @@ import roughcontact as rc
 from roughcontact.plot.raster import box
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
+from roughcontact.validation import Array
 
 __all__ = ["Gedankenexperiment", "case", "draw", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 
 TITLE = "one contact of a rough square and of the larger one that it is a part of"
 POINTS = 256

@@ -16,10 +16,10 @@ from roughcontact.plot.raster import box
 from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["WavyLine", "case", "draw", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 
 TITLE = "a rough line with three scales, H = 0.9, C = 7, and depths of indentation"
 WAVES = Hierarchy(amplitude=1.0, wavenumber=2 * np.pi, ratio=7.0, hurst=0.9)

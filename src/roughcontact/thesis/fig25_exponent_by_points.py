@@ -51,8 +51,7 @@ def averages(lines: xarray.Dataset, *surfaces: xarray.Dataset) -> xarray.Dataset
     found = fits[list(WINDOWED)].assign(white=white_exponent(lines["dimensionless_force"], fits))
     means = line_averages(lines)
     last = means.isel(load=-1)
-    for name in ("force", "stiffness", "stiffness_error"):
-        found[name] = last[name]
+    found = found.assign(last[["force", "stiffness", "stiffness_error"]].data_vars)
     parts = [
         curve_fits(each)[list(WINDOWED)]
         .sel(hurst=HURST)

@@ -49,8 +49,7 @@ def averages(squares: xarray.Dataset, lines: xarray.Dataset, coarse: xarray.Data
         ("line_", line_averages(lines)),
     ):
         at = on_common(means, FORCES, at="force")
-        if "resolved" in at:
-            at = at.where(at["resolved"])
+        at = at.where(at["resolved"]) if "resolved" in at else at
         for name in ("stiffness", "stiffness_error"):
             found[prefix + name] = without_parameters(at)[name]
     return found.assign_attrs(coarse_cells=int(coarse["points"]))

@@ -49,23 +49,18 @@ def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
         matched = match(line, surface, HIGHEST)
         moved = np.interp(np.log(force / matched.ratio), np.log(line.force), np.log(line.mean()))
         found.append((np.exp(moved), matched.ratio, matched.ratio * matched.error, matched.window[0]))
-    columns = map(np.array, zip(*found, strict=True))
+    line_stiffness, ratio, error, lowest = map(np.array, zip(*found, strict=True))
     whole = curve_averages(surfaces)[["force", "stiffness", "stiffness_error"]]
     whole = whole.rename(stiffness="surface", stiffness_error="surface_error")
-    for (name, words), values in zip(
-        (
-            ("line", "stiffness of lines at matched forces"),
-            ("ratio", "force of surfaces over that of lines"),
-            ("ratio_error", "standard error of it"),
-            ("resolved", "lowest stiffness of the match"),
-        ),
-        columns,
-        strict=True,
+    for name, values, words in (
+        ("line", line_stiffness, "stiffness of lines at matched forces"),
+        ("ratio", ratio, "force of surfaces over that of lines"),
+        ("ratio_error", error, "standard error of it"),
+        ("resolved", lowest, "lowest stiffness of the match"),
     ):
         whole[name] = ("hurst", "load")[: values.ndim], values, {"long_name": words, "units": "1"}
-    return whole.assign_attrs(
-        samples=surfaces.sizes["sample"], lines=every.sizes["sample"], points=int(surfaces["points"])
-    )
+    sizes = {"samples": surfaces.sizes["sample"], "lines": every.sizes["sample"]}
+    return whole.assign_attrs(sizes | {"points": int(surfaces["points"])})
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,13 +45,9 @@ class Roughness:
 def case(seed: int = SEED) -> tuple[Roughness, ...]:
     """Return the spectrum C1D [m^3] without a limit, with a plateau and with a cut, and a line of each."""
     grid = rc.Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
-    scale = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid).scale
+    plain = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid)
     limit = LIMIT * LENGTH
-    spectra = (
-        rc.SelfAffineSpectrum(HURST, dimension=1, scale=scale),
-        rc.SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
-        rc.SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
-    )
+    spectra = plain, replace(plain, rolloff=limit), replace(plain, long_cutoff=limit)
     return tuple(
         Roughness(name, spectrum, rc.synthesise(grid, spectrum, np.random.default_rng(seed)))
         for name, spectrum in zip(_NAMES, spectra, strict=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 import roughcontact as rc
@@ -14,10 +13,10 @@ from roughcontact.mdr.lattice_sums import lambda_rms
 from roughcontact.plot.level import level
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 
 TITLE = "factor of the spectrum of a line for the rms height of a discrete surface, against H"
 HURST = np.linspace(0, 2, 81)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis import drawing
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw"]
 
@@ -22,8 +22,6 @@ CHOSEN = (f"H = {HURST:g}", "displacements uniform within ±d, d as the unit of 
 SIZE = (6.5, 4.6)
 
 _LINE, _MOVED = "#0072b2", "#d55e00"
-
-Array = npt.NDArray[np.float64]
 
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:

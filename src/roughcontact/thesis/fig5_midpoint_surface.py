@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.view import surface_view
 from roughcontact.thesis import drawing
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw"]
 
@@ -27,7 +27,6 @@ CHOSEN = (
 )
 SIZE = (7.2, 5.0)
 
-Array = npt.NDArray[np.float64]
 
 # Of two squares a side: where the nodes of a half step lie.
 _HALVES = np.indices((5, 5)).reshape(2, -1)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 
 from roughcontact.mdr.calibration import force_ratio
@@ -14,10 +13,10 @@ from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.thesis.averaging import converged
+from roughcontact.validation import Array
 
 __all__ = ["Ensemble", "Match", "match", "pairs"]
 
-Array = npt.NDArray[np.float64]
 
 _REPLICATES = 200
 

@@ -10,7 +10,6 @@ import xarray
 from matplotlib.figure import Figure
 from scipy.special import erf
 
-import roughcontact as rc
 from roughcontact.plot.level import level
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import CELLS
@@ -74,7 +73,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``persson`` his A/L^2; ``cell_stiffness`` k/(E* L) of a cell. NaN where a wave has too few cells.
     """
     given = averaging.converged(exported)
-    whole = _whole(given)
+    heights = averaging.rms_heights(int(given["drawn_on"]), given["hurst"], given["short_cutoff"])
+    whole = heights / heights.isel(row=-1)
     # Higher waves on the same body: a surface of any amplitude has the same contact at a force in proportion.
     curves = given[["stiffness"]].assign(
         force=given["dimensionless_force"] * whole,
@@ -87,37 +87,13 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     slope = averaging.same_for_all(given["rms_slope"]) * whole
     found["slope"] = slope.assign_attrs(long_name="rms slope", units="1")
     found["cell_stiffness"] = averaging.same_for_all(given["cell_stiffness"])
-    found["persson"] = _persson(found["force"] * float(given["rms"].mean()), slope)
-    waves = (1 / given["short_cutoff"]).round().astype(int)
-    indexed = (
-        averaging.without_parameters(found)
-        .drop_vars("short_cutoff")
-        .assign_coords(waves=("row", waves.values))
-    )
-    rows = indexed.set_index(row=["points", "waves"])
-    return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])
-
-
-def _whole(exported: xarray.Dataset) -> xarray.DataArray:
-    """Return the rms height of every row over that with all waves, of one spectrum."""
-    points = int(exported["drawn_on"])
-    grid = rc.Grid((points, points), 1 / points)
-
-    def height(hurst: float, shortest: float) -> float:
-        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
-
-    rows = [
-        [height(hurst, shortest) for hurst in exported["hurst"].values]
-        for shortest in exported["short_cutoff"].values
-    ]
-    heights = xarray.DataArray(rows, dims=("row", "hurst"))
-    return heights / heights.isel(row=-1)
-
-
-def _persson(pressure: xarray.DataArray, slope: xarray.DataArray) -> xarray.DataArray:
     # persson.contact_fraction for many slopes at once.
-    fraction: xarray.DataArray = xarray.apply_ufunc(erf, np.sqrt(2) * pressure / slope)
-    return fraction
+    pressure = found["force"] * float(given["rms"].mean())
+    found["persson"] = xarray.apply_ufunc(erf, np.sqrt(2) * pressure / slope)
+    waves = (1 / given["short_cutoff"]).round().astype(int)
+    rows = averaging.without_parameters(found).drop_vars("short_cutoff")
+    rows = rows.assign_coords(waves=("row", waves.values)).set_index(row=["points", "waves"])
+    return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

@@ -76,10 +76,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         stiffness of the region and area grow from the fewest waves to all. ``slope`` along ``waves``.
     """
     given = averaging.converged(exported)
-    points = int(given["points"])
-    heights = {each: _moments(points, each).rms_height for each in np.unique(given["short_cutoff"].values)}
-    whole = given["short_cutoff"].copy(data=[heights[each] for each in given["short_cutoff"].values])
-    whole = whole / whole.isel(row=0)
+    heights = averaging.rms_heights(int(given["points"]), given["hurst"], given["short_cutoff"])
+    whole = heights / heights.isel(row=0)
     scale = float(given["modulus"] * given["size"])
     curves = xarray.Dataset(
         {

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 from matplotlib.figure import Figure
 from scipy.interpolate import CubicHermiteSpline
@@ -15,10 +14,10 @@ from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.averaging import RMS
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, spanned
+from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 
 TITLE = "tangential stiffness of rough contacts, and how far they move before they slide"
 HURST = (0.4, 0.7, 1.0)
@@ -100,21 +99,14 @@ def _by_depth(given: xarray.Dataset) -> xarray.DataArray:
     """
 
     def gained(depth: Array, stiffness: Array, force: Array, pulled: Array) -> Array:
-        curve = CubicHermiteSpline(
-            np.log(force), np.log(depth), force / (stiffness * depth), extrapolate=False
-        )
+        slope = force / (stiffness * depth)
+        curve = CubicHermiteSpline(np.log(force), np.log(depth), slope, extrapolate=False)
         held = np.where(pulled < 1, force[:, None] * (1 - pulled), np.nan)
         return np.where(pulled < 1, 1 - np.exp(curve(np.log(held))) / depth[:, None], 1.0)
 
-    curves = [given[name] for name in ("depth", "stiffness", "force")]
-    path: xarray.DataArray = xarray.apply_ufunc(
-        gained,
-        *curves,
-        given["pulled"],
-        input_core_dims=[["load"], ["load"], ["load"], ["pull"]],
-        output_core_dims=[["load", "pull"]],
-        vectorize=True,
-    )
+    along: Any = {"input_core_dims": [*[["load"]] * 3, ["pull"]], "output_core_dims": [["load", "pull"]]}
+    curves = [given[name] for name in ("depth", "stiffness", "force", "pulled")]
+    path: xarray.DataArray = xarray.apply_ufunc(gained, *curves, vectorize=True, **along)
     return path
 
 
