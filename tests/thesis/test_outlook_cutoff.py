@@ -16,7 +16,7 @@ ROWS = [(16, 1 / 4), (32, 1 / 4), (32, 1 / 8)]
 
 @pytest.fixture(scope="module")
 def export():
-    study = outlook_cutoff.cutoff_study("small")
+    [study] = outlook_cutoff.studies("small")
     parameters = study.parameters | {"drawn_on": 32, "loads": 8}
     rows = [{"points": points, "short_cutoff": shortest} for points, shortest in ROWS]
     table = {"hurst": (0.2, 0.7)}

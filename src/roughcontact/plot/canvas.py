@@ -95,11 +95,8 @@ def _peak(solution: Solution, window: Window | None) -> str:
 
 def _summary(solution: Solution) -> str:
     spots = solution.spots.count
-    return ",  ".join(
-        (
-            f"force {written(solution.force, 'N')}",
-            f"depth {written(solution.depth, 'm')}",
-            f"stiffness {written(solution.stiffness, 'N m-1')}",
-            f"contact {100 * solution.contact_fraction:.3g} % in {spots} spot{'s' if spots != 1 else ''}",
-        )
+    return (
+        f"force {written(solution.force, 'N')},  depth {written(solution.depth, 'm')},  "
+        f"stiffness {written(solution.stiffness, 'N m-1')},  "
+        f"contact {100 * solution.contact_fraction:.3g} % in {spots} spot{'s' if spots != 1 else ''}"
     )

@@ -38,11 +38,7 @@ _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
 _SMOOTH = 200  # points of a line
 _FULL = "full contact"
-_WORDS = (
-    0.25,
-    0.06,
-    0.015,
-)  # parts of the axes: width and height of words on a level, and of a point beyond it
+_WORDS = (0.25, 0.06, 0.015)  # of the axes: width and height of words on a level, and of a point beside them
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
@@ -100,10 +96,8 @@ def resistance_figure(dataset: xarray.Dataset) -> Figure:
 def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
     """Draw one resistance against force, both logarithmic; what is infinite has no place on the axis."""
     numbers = (dataset["force"].to_numpy(), dataset[name].to_numpy())
-    words = [
-        (VARIABLES["force"].label, VARIABLES["force"].unit),
-        (name.replace("_", " "), VARIABLES[name].unit),
-    ]
+    labels = {"force": VARIABLES["force"].label, name: name.replace("_", " ")}
+    words = [(label, VARIABLES[each].unit) for each, label in labels.items()]
     _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), _RESISTANCES[name])
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)

@@ -25,7 +25,6 @@ from roughcontact.validation import Array
 __all__ = [
     "CHOSEN",
     "asperity_averages",
-    "asperity_study",
     "draw_realisations",
     "exponent_words",
     "greenwood_williamson_stiffness",
@@ -49,20 +48,11 @@ CHOSEN = (
 
 
 def studies(scale: Scale) -> Studies:
-    """Return the one study, which figures 31 to 33 share."""
-    return (asperity_study(scale),)
-
-
-def asperity_study(scale: Scale) -> Study:
-    """Return the study: 25 surfaces of each of seven fractal dimensions."""
-    forces = {"lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
-    return Study(
-        name={"small": "asperities-small", "thesis": "asperities"}[scale],
-        case="asperities",
-        samples={"small": 8, "thesis": 25}[scale],
-        parameters={"points": POINTS[scale]} | forces,
-        table={"hurst": HURST},
-    )
+    """Return the one study, which figures 31 to 33 share: 25 surfaces of each of seven fractal dimensions."""
+    name, samples = {"small": ("asperities-small", 8), "thesis": ("asperities", 25)}[scale]
+    parameters = {"points": POINTS[scale], "lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
+    table = {"hurst": HURST}
+    return (Study(name=name, case="asperities", samples=samples, parameters=parameters, table=table),)
 
 
 def law_exponent(hurst: float) -> float:
@@ -82,15 +72,9 @@ def asperity_averages(exported: xarray.Dataset) -> xarray.Dataset:
         and ``window_high``.
     """
     force = exported["dimensionless_force"]
-    found = xarray.Dataset(
-        {
-            "force": force,
-            "stiffness": exported["dimensionless_stiffness"],
-            "independent": exported["independent_stiffness"],
-            "spots": statistics.mean(exported["spots"]),
-            "merged": statistics.mean(exported["merged"]) / statistics.mean(exported["spots"]),
-        }
-    )
+    spots, merged = (statistics.mean(exported[name]) for name in ("spots", "merged"))
+    found = xarray.Dataset({"force": force, "stiffness": exported["dimensionless_stiffness"]})
+    found = found.assign(independent=exported["independent_stiffness"], spots=spots, merged=merged / spots)
     laws = [_laws(found.sel(hurst=hurst), int(exported["points"])) for hurst in found["hurst"]]
     return found.merge(xarray.concat(laws, "hurst"))
 

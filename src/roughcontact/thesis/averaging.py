@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
@@ -12,6 +11,7 @@ import roughcontact as rc
 from roughcontact.solver.control import Status
 from roughcontact.statistics.samples import mean, scatter, standard_error
 from roughcontact.study.study import Study
+from roughcontact.thesis.figures import Scale, Studies
 
 __all__ = [
     "RMS",
@@ -21,7 +21,7 @@ __all__ = [
     "exponential",
     "logarithm",
     "means",
-    "outlook_study",
+    "outlook_studies",
     "rms_heights",
     "same_for_all",
     "slope",
@@ -39,9 +39,9 @@ def surface_study(name: str, parameters: dict[str, Any], **given: Any) -> Study:
     return Study(name=name, parameters=common | parameters, **given)
 
 
-def outlook_study(name: str, scale: str, parameters: dict[str, Any], **given: Any) -> Study:
-    """Return the study of a question of the outlook, see `surface_study`."""
-    return surface_study(f"outlook-{name}{'-small' if scale == 'small' else ''}", parameters, **given)
+def outlook_studies(name: str, scale: Scale, parameters: dict[str, Any], **given: Any) -> Studies:
+    """Return the one study of a question of the outlook, see `surface_study`."""
+    return (surface_study(f"outlook-{name}{'-small' if scale == 'small' else ''}", parameters, **given),)
 
 
 def converged(exported: xarray.Dataset) -> xarray.Dataset:
@@ -55,7 +55,7 @@ def converged(exported: xarray.Dataset) -> xarray.Dataset:
     return exported.assign({name: exported[name].where(met) for name in numbers})
 
 
-def means(values: Mapping[str, xarray.DataArray]) -> xarray.Dataset:
+def means(**values: xarray.DataArray) -> xarray.Dataset:
     """Return the mean of each variable over the samples and, as ``NAME_error``, its standard error."""
     found = {}
     for name, each in values.items():
@@ -65,7 +65,7 @@ def means(values: Mapping[str, xarray.DataArray]) -> xarray.Dataset:
 
 def curve_statistics(force: xarray.DataArray, stiffness: xarray.DataArray) -> xarray.Dataset:
     """Return the mean stiffness at every force, its standard error and its scatter."""
-    found = means({"stiffness": stiffness}).assign(scatter=scatter(stiffness))
+    found = means(stiffness=stiffness).assign(scatter=scatter(stiffness))
     return xarray.Dataset({"force": force}).assign(found.data_vars)
 
 

@@ -37,7 +37,7 @@ CHOSEN = (
 SIZE = (7.4, 2.2)
 
 # Stiffnesses over 2 E* sqrt(A/pi) in the thesis' source of the figure; the square's stands in eqs 4.7 and 4.14, too.
-_PRINTED = {"square": 1.012, "triangle": 1.034}
+_PRINTED = {"square": (1.012, "eqs 4.7, 4.14"), "triangle": (1.034, "source of the figure")}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,17 +117,14 @@ def verdicts(data: tuple[PunchShape, ...]) -> Verdicts:
     exact = map(punch.shape_factor, stiffnesses, (1.0, 1.0), (1.0, math.sqrt(3) / 4))
     apart = float(punch.two_discs(1.0, two.size, SPACING) / (2 * punch.disc(1.0, two.size)))
     far = float(brentq(lambda s: float(punch.two_discs(1.0, 1.0, s)) - 0.99 * 4, 3.0, 1e3))
-    yield from (
-        Verdict(
-            f"stiffness of a {region.name} over that of a disc of its area"
-            + (" (eqs 4.7, 4.14)" if region.name == "square" else " (source of the figure)"),
-            f"{_PRINTED[region.name]:.3f}",
-            f"{float(factor):.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² "
-            f"cells",
-            bool(abs(float(factor) / _PRINTED[region.name] - 1) < 5e-4),
+    for region, factor in zip(angular, map(float, exact), strict=True):
+        printed, source = _PRINTED[region.name]
+        yield Verdict(
+            f"stiffness of a {region.name} over that of a disc of its area ({source})",
+            f"{printed:.3f}",
+            f"{factor:.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² cells",
+            abs(factor / printed - 1) < 5e-4,
         )
-        for region, factor in zip(angular, exact, strict=True)
-    )
     yield Verdict(
         "two distant circles act in parallel",
         "k = k1 + k2",

@@ -27,15 +27,9 @@ SIZE = (6.4, 4.4)
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: 11 Hurst exponents, 400 forces, 1500 lines of 500 points."""
-    return (
-        line_study(
-            "lines-of-figure-22",
-            scale,
-            table={"hurst": Range(start=0.0, stop=2.0, step=0.2)},
-            parameters={"points": POINTS, "lowest_force": 1e-8, "highest_force": 10.0, "loads": 400},
-            lines=LINES,
-        ),
-    )
+    table = {"hurst": Range(start=0.0, stop=2.0, step=0.2)}
+    forces = {"lowest_force": 1e-8, "highest_force": 10.0, "loads": 400}
+    return (line_study("lines-of-figure-22", scale, table, lines=LINES, points=POINTS, **forces),)
 
 
 def averages(lines: xarray.Dataset) -> xarray.Dataset:

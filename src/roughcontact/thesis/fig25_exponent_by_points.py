@@ -36,11 +36,9 @@ _LAW, _SIDE, _AREA, _WHITE = "#c8290b", "#009e73", "#8e44ad", "0.45"
 
 def studies(scale: Scale) -> Studies:
     """Return a study of lines of many lengths, and those of surfaces that figure 26 is made of."""
+    table = {"points": POINTS[: {"small": 6, "thesis": 8}[scale]]}
     lines = line_study(
-        "lines-of-figure-25",
-        scale,
-        table={"points": POINTS[: {"small": 6, "thesis": 8}[scale]]},
-        parameters={"hurst": HURST, "lowest_force": 7e-5, "highest_force": 0.07, "loads": 73},
+        "lines-of-figure-25", scale, table, hurst=HURST, lowest_force=7e-5, highest_force=0.07, loads=73
     )
     return (lines, *resolution_studies(scale))
 

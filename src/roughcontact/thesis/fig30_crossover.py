@@ -31,11 +31,9 @@ SIZE = (6.2, 5.6)
 
 def studies(scale: Scale) -> Studies:
     """Return a study of lines at the Hurst exponents of figure 21, and that of its surfaces."""
+    table = {"hurst": Range(start=0.0, stop=1.0, step=0.2)}
     lines = line_study(
-        "lines-of-figure-30",
-        scale,
-        table={"hurst": Range(start=0.0, stop=1.0, step=0.2)},
-        parameters={"points": POINTS, "lowest_force": 7e-6, "highest_force": 70.0, "loads": 85},
+        "lines-of-figure-30", scale, table, points=POINTS, lowest_force=7e-6, highest_force=70.0, loads=85
     )
     return lines, full_contact_study(scale)
 

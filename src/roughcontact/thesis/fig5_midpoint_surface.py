@@ -36,14 +36,10 @@ _CENTRE, _EDGE, _DIAMOND, _NEXT = "#c8290b", "#0047b2", "#9ccbee", "#8fd08f"
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return the surface after each of `LEVELS` levels; each holds the nodes of the one before."""
+    grids = (rc.Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2) for level in LEVELS)
     return tuple(
-        rc.midpoint_surface(
-            rc.Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2),
-            HURST,
-            np.random.default_rng(seed),
-            displacement=RELATIVE * LENGTH,
-        )
-        for level in LEVELS
+        rc.midpoint_surface(grid, HURST, np.random.default_rng(seed), displacement=RELATIVE * LENGTH)
+        for grid in grids
     )
 
 

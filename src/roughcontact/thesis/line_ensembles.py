@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -43,27 +42,17 @@ WINDOWED = (
 
 def line_studies(scale: Scale) -> Studies:
     """Return the one study of rough lines: 27 Hurst exponents, three numbers of points, 1000 lines of each."""
-    return (line_study("lines", scale, table={"points": POINTS, "hurst": HURST}),)
+    return (line_study("lines", scale, {"points": POINTS, "hurst": HURST}),)
 
 
 def line_study(
-    name: str,
-    scale: Scale,
-    *,
-    table: Mapping[str, Range | Sequence[float]],
-    parameters: Mapping[str, float] | None = None,
-    lines: int = 1000,
+    name: str, scale: Scale, table: dict[str, Any], *, lines: int = 1000, **parameters: Any
 ) -> Study:
     """Return a study of rough lines: that many of every combination, on the small scale a fifth."""
     if scale == "small":
         name, lines = f"{name}-small", lines // 5
-    return Study(
-        name=name,
-        case="lines",
-        samples=lines // LINES,
-        parameters={"lines": LINES} | dict(parameters or {}),
-        table=dict[str, Any](table),
-    )
+    every = {"lines": LINES} | parameters
+    return Study(name=name, case="lines", samples=lines // LINES, parameters=every, table=table)
 
 
 def each_line(exported: xarray.Dataset) -> xarray.Dataset:

@@ -13,13 +13,12 @@ from scipy.special import erf
 from roughcontact.plot.level import level
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import CELLS
-from roughcontact.study.study import Study
 from roughcontact.theory import persson
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, plus_minus
 
-__all__ = ["averages", "cutoff_study", "draw", "studies", "verdicts"]
+__all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "contact area and stiffness with ever shorter waves, on ever finer grids"
 HURST = (0.0, 0.2, 0.4, 0.7)
@@ -40,17 +39,15 @@ _SAMPLES = {"small": 12, "thesis": 20}
 
 
 def studies(scale: Scale) -> Studies:
-    """Return the one study, of every shortest wave on every grid that has four cells for it."""
-    return (cutoff_study(scale),)
+    """Return the one study, of every shortest wave on every grid that has four cells for it.
 
-
-def cutoff_study(scale: Scale) -> Study:
-    """Return the study, which outlook-scale shares; its last row is the finest grid with all waves."""
+    Its last row is the finest grid with all waves. The figure outlook-scale shares it.
+    """
     sizes = _SIZES[scale]
     waves = [8 * 2**i for i in range(5)]
     pairs = [(points, count) for points in sizes for count in waves if points >= LEAST * count]
     forces = {"lowest_force": 1e-3, "highest_force": 0.3, "loads": 16, "tolerance": 1e-6}
-    return averaging.outlook_study(
+    return averaging.outlook_studies(
         "cutoff",
         scale,
         {"drawn_on": sizes[-1]} | forces,
@@ -83,7 +80,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     )
     common = on_common(curves, FORCES, at="force")
     changes = {f"{name}_change": common[name] / common[name].isel(row=-1) for name in ("stiffness", "area")}
-    found = averaging.means({name: common[name] for name in ("stiffness", "area", "spread")} | changes)
+    found = averaging.means(**{name: common[name] for name in ("stiffness", "area", "spread")}, **changes)
     slope = averaging.same_for_all(given["rms_slope"]) * whole
     found["slope"] = slope.assign_attrs(long_name="rms slope", units="1")
     found["cell_stiffness"] = averaging.same_for_all(given["cell_stiffness"])

@@ -57,7 +57,7 @@ def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
     points = _POINTS[scale]
     forces = {"lowest_force": 1e-3, "highest_force": 3.0, "loads": 17, "tolerance": 1e-6}
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "flat",
         scale,
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
@@ -67,7 +67,6 @@ def studies(scale: Scale) -> Studies:
         table={"periodic": (False, True)},
         rows=[*({"long_cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -95,17 +94,15 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     alone = xarray.apply_ufunc(single_cell_stiffness, length, force, HURST)
     nearest = abs(logarithm(force / length / pohrt_popov.FORCE_LIMIT)).argmin("load")
     found = averaging.means(
-        {
-            "stiffness": given["stiffness"],
-            "interfacial": interfacial,
-            "area": area,
-            "cells": cells,
-            "decay": decay,
-            "exponent": averaging.slope(logarithm(held), logarithm(force), "load"),
-            "level": exponential(logarithm(held / force).mean("load")),
-            "over_decay": exponential(logarithm(held / force / decay).mean("load")),
-            "alone": (given["stiffness"] / alone).isel(load=nearest),
-        }
+        stiffness=given["stiffness"],
+        interfacial=interfacial,
+        area=area,
+        cells=cells,
+        decay=decay,
+        exponent=averaging.slope(logarithm(held), logarithm(force), "load"),
+        level=exponential(logarithm(held / force).mean("load")),
+        over_decay=exponential(logarithm(held / force / decay).mean("load")),
+        alone=(given["stiffness"] / alone).isel(load=nearest),
     )
     for name, values in _theories(exported, force.values).items():
         found[name] = ("row", "load"), values

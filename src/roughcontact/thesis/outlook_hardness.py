@@ -56,10 +56,9 @@ def studies(scale: Scale) -> Studies:
         rows.append({"short_cutoff": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
     depths = {"lowest_depth": 0.2, "highest_depth": 2.8, "loads": 16}
     parameters = {"points": points, "hurst": HURST} | depths
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "hardness", scale, parameters, case="yielding", seed=SEED, samples=_SAMPLES, rows=rows
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -97,7 +96,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         for name in ("region_stiffness", "area"):
             first, last = (common[name].isel(row=rows[i], drop=True) for i in (0, -1))
             values[f"{kind}_{name}_grown"] = last / first - 1
-    every = averaging.without_parameters(averaging.means(values))
+    every = averaging.without_parameters(averaging.means(**values))
     ceilings = [np.inf, *CEILINGS]
     found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
     waves = (1 / given["short_cutoff"].values).round().astype(int)

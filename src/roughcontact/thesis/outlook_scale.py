@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.averaging import exponential, logarithm
-from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.outlook_cutoff import cutoff_study
+from roughcontact.thesis.outlook_cutoff import studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, plus_minus
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -31,11 +30,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SHOWN = (0.0, 0.7)
-
-
-def studies(scale: Scale) -> Studies:
-    """Return the study of outlook-cutoff."""
-    return (cutoff_study(scale),)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -67,15 +61,13 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     octave = mean_log + logarithm(share / share.isel(waves=-1)) / (hurst + 1)
     sizes, forces = logarithm(waves), logarithm(loads.isel(load=inside))
     found = averaging.means(
-        {
-            "zeta_at": zeta,
-            "same_force": _at_one_force(log_zeta, logarithm(loads)),
-            "zeta": exponential(mean_log),
-            "zeta_octave": exponential(octave),
-            "growth": averaging.slope(mean_log, sizes, "waves"),
-            "growth_octave": averaging.slope(octave, sizes, "waves"),
-            "steepness": averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
-        }
+        zeta_at=zeta,
+        same_force=_at_one_force(log_zeta, logarithm(loads)),
+        zeta=exponential(mean_log),
+        zeta_octave=exponential(octave),
+        growth=averaging.slope(mean_log, sizes, "waves"),
+        growth_octave=averaging.slope(octave, sizes, "waves"),
+        steepness=averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
     )
     found["force"] = loads * waves.astype(float) ** (hurst + 1)
     found["dimensionless_force"] = loads

@@ -42,7 +42,7 @@ _SAMPLES = {"small": 10, "thesis": 20}
 def studies(scale: Scale) -> Studies:
     """Return the one study: three Hurst exponents, three Poisson's ratios."""
     forces = {"lowest_force": 3e-3, "highest_force": 0.3, "loads": 9, "pulls": 10}
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "tangential",
         scale,
         {"points": _POINTS[scale], "friction": FRICTION} | forces,
@@ -51,7 +51,6 @@ def studies(scale: Scale) -> Studies:
         samples=_SAMPLES[scale],
         table={"hurst": HURST, "poisson_ratio": POISSON},
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -73,16 +72,14 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     moved = given["tangential_displacement"] / (FRICTION * disc * depth)
     principal = given["principal_stiffness"]
     found = averaging.means(
-        {
-            "ratio": given["stiffness"] / given["tangential_stiffness"] / disc,
-            "axes": principal.isel(principal=1) / principal.isel(principal=0),
-            "stiffness": given["dimensionless_stiffness"],
-            "tangential": given["tangential_stiffness"],
-            "slip": given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
-            "slip_by_depth": moved.isel(pull=-1),
-            "path": moved,
-            "path_by_depth": _by_depth(given),
-        }
+        ratio=given["stiffness"] / given["tangential_stiffness"] / disc,
+        axes=principal.isel(principal=1) / principal.isel(principal=0),
+        stiffness=given["dimensionless_stiffness"],
+        tangential=given["tangential_stiffness"],
+        slip=given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
+        slip_by_depth=moved.isel(pull=-1),
+        path=moved,
+        path_by_depth=_by_depth(given),
     )
     shape = ("hurst", "poisson_ratio", "load")
     for name, values in _laws(given["hurst"].values, disc.values, force.values).items():
@@ -136,14 +133,11 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.family(first, bare, "poisson_ratio", ratios, r"$\nu$ = {:g}", markersize=3.5)
     drawing.key(first, "--", "larger over smaller axis of $k_t$")
     drawing.label(first, drawing.FORCE, rf"$(k/k_t)\,/\,C_m$, H = {SHOWN:g}", xscale="log", ylim=(0.96, 1.25))
+    sticking = {"by_7_5": "eqs 7.5 and 4.74"}
+    sliding = {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"}
     for axes, name, laws, words in (
-        (second, "tangential", {"by_7_5": "eqs 7.5 and 4.74"}, r"tangential stiffness $k_t\,/\,(E^* L)$"),
-        (
-            third,
-            "slip",
-            {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"},
-            r"largest displacement $u_{max}\,/\,(\mu h)$",
-        ),
+        (second, "tangential", sticking, r"tangential stiffness $k_t\,/\,(E^* L)$"),
+        (third, "slip", sliding, r"largest displacement $u_{max}\,/\,(\mu h)$"),
     ):
         styles = dict(zip(laws, ("-", "--"), strict=False))
         drawing.family(axes, middle, "hurst", {name: "o"} | styles, "H = {:g}", markersize=3.5)
