@@ -29,7 +29,6 @@ from roughcontact.validation import Array
 
 __all__ = ["area_curve", "depth_curve", "resistance_curve", "resistance_figure", "stiffness_curve"]
 
-
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
 _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
 # Colours that every eye tells from the points and from each other, and dashes for eyes that see no colours. Five

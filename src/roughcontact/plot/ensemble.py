@@ -17,7 +17,6 @@ from roughcontact.validation import Array
 
 __all__ = ["fitted_values", "mean_curves"]
 
-
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 _BAND = 0.25  # opacity
@@ -59,10 +58,8 @@ def mean_curves(
         )
     half = 0.0 * mean if error is None else error
     inside = mean.notnull() if resolved is None else resolved
-    rows = [
-        np.atleast_2d(each.transpose(*groups, points).to_numpy())
-        for each in xarray.broadcast(force, mean, half, inside)
-    ]
+    every = xarray.broadcast(force, mean, half, inside)
+    rows = [np.atleast_2d(each.transpose(*groups, points).to_numpy()) for each in every]
     names = [_named(mean, groups[0], i) for i in range(len(rows[0]))] if groups else [""]
     for x, y, band, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
         _curve(axes, (x, y, band), kept, name, colour)

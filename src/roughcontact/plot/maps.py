@@ -19,7 +19,6 @@ from roughcontact.validation import Array
 
 __all__ = ["contact_map", "height_map", "pressure_map"]
 
-
 _CONTACT = "#c8290b"
 
 

@@ -15,7 +15,6 @@ from roughcontact.validation import Array
 
 __all__ = ["contact_window", "faint_spots"]
 
-
 Mask = npt.NDArray[np.bool_]
 
 _FAINT = 0.02  # a smaller share of the cells in contact is lost on the page

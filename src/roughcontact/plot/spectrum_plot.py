@@ -18,7 +18,6 @@ from roughcontact.validation import Array
 
 __all__ = ["SpectrumScales", "spectrum_axes", "spectrum_curve"]
 
-
 _POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
 _DRAWN = 40.0  # bins to a decade: more are a band of ink
 _ROOM = 2.0  # space beyond the lowest density of a logarithmic axis, as a factor

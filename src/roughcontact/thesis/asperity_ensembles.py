@@ -33,7 +33,6 @@ __all__ = [
     "studies",
 ]
 
-
 HURST = (0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95)
 POINTS = {"small": 256, "thesis": 512}
 SPOTS = 10.0  # on the average: below, it is the shape of single summits that speaks
@@ -93,12 +92,9 @@ def _laws(one: xarray.Dataset, points: int) -> xarray.Dataset:
     classical = greenwood_williamson_stiffness(force, float(one["hurst"]), points)
     low = float(force[np.flatnonzero(one["spots"] >= SPOTS)[0]])
     laws = xarray.Dataset({"classical": ("load", classical), "window_low": low, "window_high": HIGHEST})
-    for stiffness, prefix in (
-        (one["stiffness"], ""),
-        (one["independent"], "independent_"),
-        # The same fit of a curve that has no samples.
-        (laws["classical"].expand_dims("sample"), "classical_"),
-    ):
+    # The last is the same fit of a curve that has no samples.
+    every = one["stiffness"], one["independent"], laws["classical"].expand_dims("sample")
+    for stiffness, prefix in zip(every, ("", "independent_", "classical_"), strict=True):
         curves = {"dimensionless_force": one["force"], "dimensionless_stiffness": stiffness}
         rng = np.random.default_rng(0)
         fit = fit_power_laws(xarray.Dataset(curves), force_window(low, HIGHEST), rng=rng)

@@ -9,7 +9,6 @@ from roughcontact.validation import Array
 
 __all__ = ["cells_stiffness", "exponential_rate", "single_cell_stiffness"]
 
-
 _DEEPEST = 20.0  # over h; far beyond what eq. 4.74 is about
 
 

@@ -16,7 +16,6 @@ from roughcontact.validation import Array
 
 __all__ = ["Shape", "case", "draw", "verdicts"]
 
-
 TITLE = "cylinders whose radii and heights follow the fractal law, C = 2, H = 0.5"
 COUNT = 4
 SEED = 0

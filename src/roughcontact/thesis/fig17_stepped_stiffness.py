@@ -16,7 +16,6 @@ from roughcontact.validation import Array
 
 __all__ = ["Stiffening", "case", "draw", "verdicts"]
 
-
 TITLE = "stiffness of the stepped indenter against load, schematic and computed"
 COUNT = 7
 POINTS = 160

@@ -19,7 +19,6 @@ from roughcontact.validation import Array
 
 __all__ = ["Gedankenexperiment", "case", "draw", "verdicts"]
 
-
 TITLE = "one contact of a rough square and of the larger one that it is a part of"
 POINTS = 256
 HURST = 0.7

@@ -20,7 +20,6 @@ from roughcontact.validation import Array
 
 __all__ = ["WavyLine", "case", "draw", "verdicts"]
 
-
 TITLE = "a rough line with three scales, H = 0.9, C = 7, and depths of indentation"
 WAVES = Hierarchy(amplitude=1.0, wavenumber=2 * np.pi, ratio=7.0, hurst=0.9)
 COUNT = 3
@@ -101,9 +100,8 @@ def verdicts(data: WavyLine) -> Verdicts:
     first, last = _one_spot(data)
     beyond = np.abs(data.line.grid.coordinates[0] - data.line.grid.lengths[0] / 2) > 0.5 / WAVES.ratio
     crests = -float(data.line.heights[beyond].max())
-    ends = loading_curves(
-        data.line.heights, data.line.grid.spacing[0], 1.0, depths=2 * data.amplitudes[:0:-1], energy=False
-    )
+    depths, spacing = 2 * data.amplitudes[:0:-1], data.line.grid.spacing[0]
+    ends = loading_curves(data.line.heights, spacing, 1.0, depths=depths, energy=False)
     stiffness, force = ends.stiffness[0], ends.force[0]
     exponent = float(np.log(stiffness[1] / stiffness[0]) / np.log(force[1] / force[0]))
     asymptotic = float(WAVES.corners(1, 1.0)[1][0])

@@ -48,10 +48,8 @@ def case(seed: int = SEED) -> tuple[Roughness, ...]:
     plain = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid)
     limit = LIMIT * LENGTH
     spectra = plain, replace(plain, rolloff=limit), replace(plain, long_cutoff=limit)
-    return tuple(
-        Roughness(name, spectrum, rc.synthesise(grid, spectrum, np.random.default_rng(seed)))
-        for name, spectrum in zip(_NAMES, spectra, strict=True)
-    )
+    lines = (rc.synthesise(grid, each, np.random.default_rng(seed)) for each in spectra)
+    return tuple(map(Roughness, _NAMES, spectra, lines))
 
 
 def draw(figure: Figure, data: tuple[Roughness, ...]) -> None:

@@ -14,7 +14,6 @@ from roughcontact.validation import Array
 
 __all__ = ["Deflection", "case", "draw", "verdicts"]
 
-
 TITLE = "deflection under a ring-shaped force, and its logarithmic approximation"
 REACH = 3.0  # r/a up to which it is drawn
 WIDTH = 2e-4  # of the loaded ring over its radius

@@ -14,7 +14,6 @@ from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
 
-
 TITLE = "matrix of deflections under pressures on strips, N = 40"
 STRIPS = 40
 SEED = 0

@@ -17,7 +17,6 @@ from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
 
-
 TITLE = "factor of the spectrum of a line for the rms height of a discrete surface, against H"
 HURST = np.linspace(0, 2, 81)
 MODES = (2, 8, 64, 1024, None)  # None: the limit
@@ -56,10 +55,8 @@ def verdicts(data: Array) -> Verdicts:
     points = 129
     surface, own = rc.SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
     variance = rc.grid_moments(rc.Grid((points, points), 1 / points), surface).m0
-    shares = [
-        rc.grid_moments(rc.Grid(points, 1 / points), line_spectrum(surface, factor)).m0 / variance
-        for factor in (own, own / 2)
-    ]
+    lines = (line_spectrum(surface, factor) for factor in (own, own / 2))
+    shares = [rc.grid_moments(rc.Grid(points, 1 / points), line).m0 / variance for line in lines]
     yield Verdict(
         "lambda approaches pi for H = 1 and many grid points, and for no other H",
         f"{math.pi:.4f} at H = 1",

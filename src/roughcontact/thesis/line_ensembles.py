@@ -22,6 +22,7 @@ __all__ = [
     "POINTS",
     "WINDOWED",
     "each_line",
+    "fits_beside_white",
     "line_averages",
     "line_fits",
     "line_studies",
@@ -59,9 +60,8 @@ def each_line(exported: xarray.Dataset) -> xarray.Dataset:
     """Return what a study of lines exports with every line as a sample, as the statistics of a study want it."""
     stacked = exported["dimensionless_stiffness"].stack(one=("sample", "line"))
     lines = stacked.drop_vars(["one", "sample", "line"]).rename(one="sample")
-    return xarray.Dataset(
-        {"dimensionless_force": exported["dimensionless_force"], "dimensionless_stiffness": lines}
-    )
+    force = exported["dimensionless_force"]
+    return xarray.Dataset({"dimensionless_force": force, "dimensionless_stiffness": lines})
 
 
 def line_averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -121,10 +121,15 @@ def white_exponent(force: xarray.DataArray, fits: xarray.Dataset) -> xarray.Data
         stiffness = gaussian_heights.stiffness(inside, 1.0, 1.0, 1.0)
         return float(np.polyfit(np.log(inside), np.log(stiffness), 1)[0])
 
-    found: xarray.DataArray = xarray.apply_ufunc(
-        fitted, fits["window_low"], fits["window_high"], vectorize=True
-    )
+    windows = fits["window_low"], fits["window_high"]
+    found: xarray.DataArray = xarray.apply_ufunc(fitted, *windows, vectorize=True)
     return found
+
+
+def fits_beside_white(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return the exponents of lines with their windows, see `line_fits`, and `white_exponent` in these windows."""
+    fits = line_fits(exported)
+    return fits[list(WINDOWED)].assign(white=white_exponent(exported["dimensionless_force"], fits))
 
 
 def resolution_exponent(points: float) -> float:

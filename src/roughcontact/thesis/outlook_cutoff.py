@@ -34,8 +34,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 11
-_SIZES = {"small": (64, 128, 256), "thesis": (128, 256, 512)}
-_SAMPLES = {"small": 12, "thesis": 20}
 
 
 def studies(scale: Scale) -> Studies:
@@ -43,7 +41,7 @@ def studies(scale: Scale) -> Studies:
 
     Its last row is the finest grid with all waves. The figure outlook-scale shares it.
     """
-    sizes = _SIZES[scale]
+    sizes, samples = {"small": ((64, 128, 256), 12), "thesis": ((128, 256, 512), 20)}[scale]
     waves = [8 * 2**i for i in range(5)]
     pairs = [(points, count) for points in sizes for count in waves if points >= LEAST * count]
     forces = {"lowest_force": 1e-3, "highest_force": 0.3, "loads": 16, "tolerance": 1e-6}
@@ -53,7 +51,7 @@ def studies(scale: Scale) -> Studies:
         {"drawn_on": sizes[-1]} | forces,
         case="refined",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"hurst": HURST},
         rows=[{"points": points, "short_cutoff": 1 / count} for points, count in pairs],
     )
@@ -112,9 +110,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     for style, words in (("o-", "stiffness"), ("s--", "area")):
         drawing.key(changes, style, words)
     drawing.named_ticks(changes, fine["waves"].values, "L/{}")
-    drawing.label(
-        changes, "shortest wave", f"over that with all waves, at a force of {FORCE:g}", yscale="log"
-    )
+    words = f"over that with all waves, at a force of {FORCE:g}"
+    drawing.label(changes, "shortest wave", words, yscale="log")
     changes.legend()
     for axes in (stiffness, changes):
         drawing.readable(axes)

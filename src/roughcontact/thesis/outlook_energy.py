@@ -30,14 +30,12 @@ CHOSEN = (
 SIZE = (8.8, 7.2)
 SEED = 13
 ROUNDING = 1e-3  # of the work: what cubics through a staircase of the stiffness may miss
-_POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = {"small": 6, "thesis": 24}
 _STYLES = ((ROLLOFF[0], "-", ""), (ROLLOFF[1], "--", f", roll-off at L/{1 / ROLLOFF[1]:g}"))
 
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: free and periodic, with and without a roll-off."""
-    points = _POINTS[scale]
+    points, samples = {"small": (128, 6), "thesis": (256, 24)}[scale]
     forces = {"lowest_force": LOADS[0], "highest_force": LOADS[1], "loads": 41, "tolerance": 1e-8}
     return averaging.outlook_studies(
         "energy",
@@ -45,7 +43,7 @@ def studies(scale: Scale) -> Studies:
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="curve",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"periodic": (False, True), "rolloff": ROLLOFF},
     )
 

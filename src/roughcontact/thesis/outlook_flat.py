@@ -25,7 +25,6 @@ from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
-
 TITLE = "nominally flat surfaces, finite and periodic, beside theories and the law of their cells' maxima"
 HURST = 0.8
 CUTOFF = (1, 2, 4, 8, 16)  # L over the longest wave; a cut-off at L is none
@@ -44,8 +43,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 15
-_POINTS = {"small": 128, "thesis": 512}
-_SAMPLES = {"small": 16, "thesis": 10}
 _THEORIES = ("persson", "gw")
 _SHOWN = 8  # L over the longest wave, of the surface beside all laws
 _COLOURS = {1: "black", 2: "#0072b2", 4: "#009e73", 8: "#e69f00", 16: "#d55e00"}  # by L over the longest wave
@@ -55,7 +52,7 @@ _BODIES = ((True, "o", "black"), (False, "s", "0.55"))  # periodic, free
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
-    points = _POINTS[scale]
+    points, samples = {"small": (128, 16), "thesis": (512, 10)}[scale]
     forces = {"lowest_force": 1e-3, "highest_force": 3.0, "loads": 17, "tolerance": 1e-6}
     return averaging.outlook_studies(
         "flat",
@@ -63,7 +60,7 @@ def studies(scale: Scale) -> Studies:
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="cells",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"periodic": (False, True)},
         rows=[*({"long_cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
     )

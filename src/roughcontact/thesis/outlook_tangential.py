@@ -18,7 +18,6 @@ from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
-
 TITLE = "tangential stiffness of rough contacts, and how far they move before they slide"
 HURST = (0.4, 0.7, 1.0)
 POISSON = (0.0, 0.3, 0.5)
@@ -35,20 +34,19 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 14
-_POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = {"small": 10, "thesis": 20}
 
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: three Hurst exponents, three Poisson's ratios."""
+    points, samples = {"small": (128, 10), "thesis": (256, 20)}[scale]
     forces = {"lowest_force": 3e-3, "highest_force": 0.3, "loads": 9, "pulls": 10}
     return averaging.outlook_studies(
         "tangential",
         scale,
-        {"points": _POINTS[scale], "friction": FRICTION} | forces,
+        {"points": points, "friction": FRICTION} | forces,
         case="slip",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"hurst": HURST, "poisson_ratio": POISSON},
     )
 
@@ -182,10 +180,9 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     path = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
 
     def by_law(claim: str, thesis: str, law: str) -> Verdict:
-        spread = (
-            f"{spanned(off[law].sel(hurst=h), '+.0%')} from it at H = {h:g}" for h in off[law]["hurst"].values
-        )
-        return Verdict(claim, thesis, f"{', '.join(spread)}; {told}", judged(off[law], errors[law], 0.15))
+        each = ((spanned(off[law].sel(hurst=h), "+.0%"), h) for h in off[law]["hurst"].values)
+        found = ", ".join(f"{spread} from it at H = {h:g}" for spread, h in each)
+        return Verdict(claim, thesis, f"{found}; {told}", judged(off[law], errors[law], 0.15))
 
     yield Verdict(
         "k/k_t = C_m = (2 - nu)/(2(1 - nu)) on rough surfaces (eqs 4.5 and 7.4)",

@@ -10,7 +10,6 @@ from roughcontact.theory.stepped import SteppedIndenter
 
 __all__ = ["INDENTER", "MODULUS", "RINGS", "full_steps", "stepped_body"]
 
-
 INDENTER = SteppedIndenter(radius=1.0, height=1.0, ratio=2.0, hurst=0.5)
 """C and H as the thesis states them; lengths in units of r0, heights in units of h0."""
 MODULUS = 1.0  # forces in units of E* r0 h0, stiffnesses in units of E* r0
