@@ -66,7 +66,7 @@ def stiffness_curve(
         level(axes, value * y.factor, words, (0, (6, 3)), **place)
     if axes.get_legend_handles_labels()[0]:
         # The corner between the curve and its upper limit is the one that stays free.
-        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if _FULL in limits else 1.0
+        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if len(limits) > 1 else 1.0
         axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
     _outer(axes, curve, (x, y))
 
