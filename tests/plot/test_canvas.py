@@ -15,6 +15,7 @@ from matplotlib.text import Text
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
 from roughcontact.plot.canvas import curve_figure, save, solution_figure, surface_figure
+from roughcontact.plot.engineering_units import written
 
 MODULUS = 1e11
 
@@ -81,6 +82,25 @@ def test_the_frame_shows_what_is_enlarged():
     low, high = enlarged.get_xlim()
     assert low < 30.5 < high
     assert "0.0061 %" in figure.get_suptitle()
+
+
+def test_the_largest_pressure_is_told_where_it_lies_beside_the_frame():
+    """A lone tower, higher than the many that carry the most load."""
+    heights = np.zeros((128, 128))
+    heights[20:41:5, 20:41:5] = 1e-6
+    heights[100, 110] = 1.2e-6
+    solution = rc.press(rc.Surface(heights, rc.Grid((128, 128), 1e-6)), MODULUS, depth=4e-7)
+    assert solution.pressure.argmax() == 100 * 128 + 110
+    figure = solution_figure(solution)
+    low, high = figure.axes[1].get_xlim()
+    assert not low < 110.5 < high
+    inside, beside = figure.axes[1].get_title().split("\n")
+    shown = solution.pressure[:64, :64].max()
+    assert inside == f"pressure in the frame, at most {written(float(shown), 'Pa')}"
+    assert beside.startswith(
+        f"on the map at most {written(float(solution.pressure.max()), 'Pa')}, at x = 110 µm"
+    )
+    assert overlaps(figure) == []
 
 
 @pytest.mark.parametrize(

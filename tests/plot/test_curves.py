@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.plot.canvas import curve_figure
 from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
 from roughcontact.plot.ticks import readable_ticks
 
@@ -168,3 +170,26 @@ def test_on_a_line_no_stiffness_tells_what_is_resolved(axes):
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
     stiffness_curve(axes, rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)))
     assert [text.get_text() for text in axes.texts] == ["full contact"]
+
+
+@pytest.mark.parametrize(
+    ("lowest", "highest"), [(1e-3, 1.0), (1e-5, 3e-3), (1e-4, 2e-3), (3e-2, 1.0), (1e-6, 1e-5)]
+)
+def test_no_point_lies_under_words(lowest, highest):
+    """Wherever the curve crosses the stiffness of twenty cells, and where it does not."""
+    grid = rc.Grid((48, 48), (1e-7, 1e-7))
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    scale = MODULUS * 1e-7 * 48e-7
+    curve = rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(lowest, highest, 30))
+    figure = curve_figure(curve, curve.fit((float(curve.force[0]), float(curve.force[-1]))))
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    axes = figure.axes[0]
+    points = np.concatenate([each.get_xydata() for each in axes.lines if each.get_marker() == "o"])
+    assert len(points) == 30
+    pixels = axes.transData.transform(points)
+    boxes = [text.get_window_extent(canvas.get_renderer()) for text in axes.texts]
+    assert len(boxes) == 2
+    for box in boxes:
+        inside = (pixels > (box.x0 - 2, box.y0 - 2)) & (pixels < (box.x1 + 2, box.y1 + 2))
+        assert not inside.all(axis=1).any()

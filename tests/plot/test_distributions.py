@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.distributions import pressure_distribution
+from roughcontact.plot.distributions import height_distribution, pressure_distribution
 
 MODULUS = 2.0
 
@@ -43,3 +43,25 @@ def test_without_contact_there_is_none(axes):
     surface, operator = body("line")
     with pytest.raises(ValueError, match="nothing is in contact"):
         pressure_distribution(axes, rc.press(surface, MODULUS, depth=0.0, operator=operator))
+
+
+def bars(axes):
+    [drawn] = axes.patches
+    return len(drawn.get_data().values)
+
+
+def test_few_values_make_few_bars_and_many_as_many_as_asked_for():
+    """Few: as NumPy counts them by the rule of Rice."""
+    grid = rc.Grid((200, 200), 1e-6)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    for depth in (3e-7, 1e-6):
+        solution = rc.press(surface, 1e9, depth=depth)
+        cells = np.count_nonzero(solution.contact)
+        assert 5 < cells < 2000
+        axes = Figure().subplots()
+        pressure_distribution(axes, solution)
+        assert bars(axes) == len(np.histogram_bin_edges(np.arange(cells), "rice")) - 1 < 60
+    for part, expected in ((surface, 60), (rc.Surface(surface.heights[:5, :5], rc.Grid((5, 5), 1e-6)), 6)):
+        axes = Figure().subplots()
+        height_distribution(axes, part)
+        assert bars(axes) == expected

@@ -15,9 +15,9 @@ from roughcontact.thesis import (
 from roughcontact.thesis.asperity_ensembles import (
     HURST,
     asperity_averages,
-    asperity_study,
     greenwood_williamson_stiffness,
     law_exponent,
+    studies,
 )
 from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
@@ -25,13 +25,13 @@ from thesis.computed import exported
 
 @pytest.fixture(scope="module")
 def asperities():
-    study = asperity_study("small")
+    [study] = studies("small")
     parameters = study.parameters | {"loads": 13}
     return exported(Study(**(dict(study) | {"samples": 3, "parameters": parameters})))
 
 
 def test_the_study_is_that_of_the_thesis():
-    study = asperity_study("thesis")
+    [study] = studies("thesis")
     assert study.samples == 25
     assert {fig31.HURST, fig32.HURST, *fig33.HURST} == set(HURST)
     assert law_exponent(fig31.HURST) == pytest.approx(0.5128, abs=5e-5)

@@ -16,12 +16,12 @@ from roughcontact.thesis.verdict import plus_minus
 
 
 def test_a_mean_has_its_error():
-    found = means({"k": xarray.DataArray([[1.0, 2.0, 3.0]], dims=("load", "sample"))})
+    found = means(k=xarray.DataArray([[1.0, 2.0, 3.0]], dims=("load", "sample")))
     assert float(found["k"][0]) == 2.0
     assert float(found["k_error"][0]) == pytest.approx(1 / np.sqrt(3))
     assert plus_minus(found.isel(load=0), "k") == "2.00 ± 0.58"
     assert plus_minus(found.isel(load=0), "k", "+.1%") == "+200.0% ± 57.7%"
-    alone = means({"k": xarray.DataArray([2.0], dims="sample")})
+    alone = means(k=xarray.DataArray([2.0], dims="sample"))
     assert plus_minus(alone, "k", ".1f") == "2.0"
 
 

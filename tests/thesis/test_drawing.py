@@ -8,7 +8,8 @@ import xarray
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
+from roughcontact.plot.level import level
+from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import drawn
 
@@ -70,7 +71,7 @@ def test_each_hurst_exponent_has_its_colour_and_the_key_all_of_them(axes, averag
     [({}, 0.01, True), ({"ha": "right"}, 0.99, True), ({"va": "top"}, 0.01, False)],
 )
 def test_words_stand_beside_their_level(axes, given, place, above):
-    drawing.level(axes, 2.0, "two", **given)
+    level(axes, 2.0, "two", **given)
     (line,), (words,) = axes.lines, axes.texts
     assert set(line.get_ydata()) == {2.0}
     assert words.xy == (place, 2.0)

@@ -99,13 +99,8 @@ def test_white_heights_are_fitted_in_the_same_windows(lines):
 
 
 def test_lines_of_white_heights_have_its_exponent():
-    study = line_study(
-        "white",
-        "thesis",
-        table={"points": [2**12]},
-        parameters={"hurst": -1.0, "lowest_force": 1e-3, "highest_force": 0.07, "loads": 20},
-        lines=200,
-    )
+    forces = {"lowest_force": 1e-3, "highest_force": 0.07, "loads": 20}
+    study = line_study("white", "thesis", {"points": [2**12]}, lines=200, hurst=-1.0, **forces)
     lines = exported(study)
     fits = line_fits(lines)
     white = white_exponent(lines["dimensionless_force"], fits)

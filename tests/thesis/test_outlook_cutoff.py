@@ -8,6 +8,7 @@ import roughcontact as rc
 from roughcontact.study.study import Study
 from roughcontact.theory import persson
 from roughcontact.thesis import outlook_cutoff
+from roughcontact.thesis.averaging import rms_heights
 from roughcontact.thesis.figures import drawn, verdicts
 from thesis.computed import exported
 
@@ -16,7 +17,7 @@ ROWS = [(16, 1 / 4), (32, 1 / 4), (32, 1 / 8)]
 
 @pytest.fixture(scope="module")
 def export():
-    study = outlook_cutoff.cutoff_study("small")
+    [study] = outlook_cutoff.studies("small")
     parameters = study.parameters | {"drawn_on": 32, "loads": 8}
     rows = [{"points": points, "short_cutoff": shortest} for points, shortest in ROWS]
     table = {"hurst": (0.2, 0.7)}
@@ -44,7 +45,8 @@ def heights(hurst, shortest):
 def test_curves_are_those_of_one_surface_without_its_short_waves(export, hurst, waves, row):
     # Rows have one rms height; what belongs to one surface follows by proportion.
     one = export.sel(hurst=hurst, sample=0).isel(row=[0, row])
-    part = outlook_cutoff._whole(export).sel(row=row).isel(hurst=int(hurst == 0.7))
+    every = rms_heights(32, export["hurst"], export["short_cutoff"]).sel(hurst=hurst)
+    part = every.isel(row=row) / every.isel(row=-1)
     surface = heights(hurst, 1 / waves)
     assert float(part) == pytest.approx(surface.rms / 0.01, rel=1e-9)
     load = 6
@@ -66,10 +68,11 @@ def test_means_stand_at_common_forces_and_changes_are_over_all_waves(found):
     np.testing.assert_allclose(one["spread"], one["area"] * one["slope"] / pressure, rtol=1e-3)
     # Slopes are the roots of sums of squares: shorter waves only add to them.
     assert (one["slope"].sel(waves=8) > one["slope"].sel(waves=4)).all()
-    law = persson.contact_fraction(0.01 * outlook_cutoff.FORCES, 1.0, rc.Moments(1.0, 0.5 * 0.3**2, 1.0))
-    np.testing.assert_allclose(
-        outlook_cutoff._persson(pressure, 0.0 * one["slope"] + 0.3).sel(waves=8, hurst=0.2), law, rtol=1e-12
-    )
+    for waves in (4, 8):
+        here = one.sel(waves=waves, hurst=0.2)
+        moments = rc.Moments(1.0, 0.5 * float(here["slope"]) ** 2, 1.0)
+        law = persson.contact_fraction(0.01 * outlook_cutoff.FORCES, 1.0, moments)
+        np.testing.assert_allclose(here["persson"], law, rtol=1e-12)
 
 
 def test_it_is_drawn_and_judged(found):

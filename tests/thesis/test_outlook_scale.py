@@ -59,7 +59,8 @@ def test_a_power_of_the_size_is_found(growth):
 
 
 def test_the_longest_octave_is_that_of_the_waves_between_l_and_half_of_it():
-    octave = outlook_scale._octave(export())
+    found = outlook_scale.averages(export())
+    octave = (found["zeta_octave"] / found["zeta"]) ** (found["hurst"] + 1)
     grid = rc.Grid((128, 128), 1 / 128)
     for hurst in HURST:
         long, all_waves, few = (

@@ -5,23 +5,22 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.figure import Figure
 
+from roughcontact.contact.compare import Law
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
 from roughcontact.plot.engineering_units import written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window
+from roughcontact.plot.raster import Window
 from roughcontact.plot.ticks import LABEL
-
-if TYPE_CHECKING:
-    from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve
-    from roughcontact.contact.solution import Solution
-    from roughcontact.statistics.power_law import PowerLaw
-    from roughcontact.surface.surface import Surface
+from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.surface.surface import Surface
 
 __all__ = ["curve_figure", "save", "solution_figure", "surface_figure"]
 
@@ -42,8 +41,7 @@ def solution_figure(solution: Solution) -> Figure:
     contact_map(first, solution, frame=window)
     pressure_map(second, solution, window)
     first.set_title("contact over the heights", fontsize=LABEL)
-    shown, where = (solution.pressure, "") if window is None else (solution.pressure[window], " in the frame")
-    second.set_title(f"pressure{where}, at most {written(float(shown.max()), 'Pa')}", fontsize=LABEL)
+    second.set_title(_peak(solution, window), fontsize=LABEL)
     figure.suptitle(_summary(solution), fontsize=LABEL + 1)
     return figure
 
@@ -80,13 +78,25 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
         figure.savefig(aside, format=ending, dpi=200)
 
 
+def _peak(solution: Solution, window: Window | None) -> str:
+    """Return the largest pressure of what is shown, and where that of the map is if it is larger."""
+    pressure, grid = solution.pressure, solution.problem.grid
+    largest = float(pressure.max())
+    if window is None:
+        return f"pressure, at most {written(largest, 'Pa')}"
+    shown = float(pressure[window].max())
+    words = f"pressure in the frame, at most {written(shown, 'Pa')}"
+    if shown == largest:
+        return words
+    cell = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    y, x = (written((i + 0.5) * step, "m") for i, step in zip(cell, grid.spacing, strict=True))
+    return f"{words}\non the map at most {written(largest, 'Pa')}, at x = {x}, y = {y}"
+
+
 def _summary(solution: Solution) -> str:
     spots = solution.spots.count
-    return ",  ".join(
-        (
-            f"force {written(solution.force, 'N')}",
-            f"depth {written(solution.depth, 'm')}",
-            f"stiffness {written(solution.stiffness, 'N m-1')}",
-            f"contact {100 * solution.contact_fraction:.3g} % in {spots} spot{'s' if spots != 1 else ''}",
-        )
+    return (
+        f"force {written(solution.force, 'N')},  depth {written(solution.depth, 'm')},  "
+        f"stiffness {written(solution.stiffness, 'N m-1')},  "
+        f"contact {100 * solution.contact_fraction:.3g} % in {spots} spot{'s' if spots != 1 else ''}"
     )

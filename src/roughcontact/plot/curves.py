@@ -8,37 +8,36 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import cycle
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.contact.compare import Law
+from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, scale
+from roughcontact.plot.level import level
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
-
-    from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve
-    from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.validation import Array
 
 __all__ = ["area_curve", "depth_curve", "resistance_curve", "resistance_figure", "stiffness_curve"]
 
-Array = npt.NDArray[Any]
-
-_POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
+_POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
 _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
 # Colours that every eye tells from the points and from each other, and dashes for eyes that see no colours. Five
 # colours and four dashes have no common period: of twenty laws no two look the same.
 _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
 _SMOOTH = 200  # points of a line
+_FULL = "full contact"
+_WORDS = (0.25, 0.06, 0.015)  # of the axes: width and height of words on a level, and of a point beside them
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
@@ -55,22 +54,19 @@ def stiffness_curve(
     x, y = _draw(axes, curve, "stiffness")
     values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
     limits = _limits(curve)
-    levels = [*values, *(level for level, *_ in limits)] or [1.0]
+    levels = [*values, *limits.values()] or [1.0]
     low, high = min(levels) / _ROOM, max(levels) * _ROOM
     axes.set_ylim(low * y.factor, high * y.factor)
     readable_ticks(axes.yaxis, high / low)
     if law is not None:
         _draw_law(axes, curve, law, (x, y))
     _draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
-    beside = axes.get_yaxis_transform()
-    for level, place, side, text in limits:
-        axes.axhline(level * y.factor, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
-        axes.text(
-            place, level * y.factor, text, transform=beside, ha=side, va="bottom", fontsize=TICK, color=_LIMIT
-        )
+    for words, value in limits.items():
+        place = {"ha": "left", "va": "bottom"} if words == _FULL else _free_corner(axes, value * y.factor)
+        level(axes, value * y.factor, words, (0, (6, 3)), **place)
     if axes.get_legend_handles_labels()[0]:
         # The corner between the curve and its upper limit is the one that stays free.
-        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if limits[1:] else 1.0
+        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if len(limits) > 1 else 1.0
         axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
     _outer(axes, curve, (x, y))
 
@@ -99,25 +95,34 @@ def resistance_figure(dataset: xarray.Dataset) -> Figure:
 def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
     """Draw one resistance against force, both logarithmic; what is infinite has no place on the axis."""
     numbers = (dataset["force"].to_numpy(), dataset[name].to_numpy())
-    words = [
-        (VARIABLES["force"].label, VARIABLES["force"].unit),
-        (name.replace("_", " "), VARIABLES[name].unit),
-    ]
+    labels = {"force": VARIABLES["force"].label, name: name.replace("_", " ")}
+    words = [(label, VARIABLES[each].unit) for each, label in labels.items()]
     _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), _RESISTANCES[name])
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)
 
 
-def _limits(curve: Curve) -> list[tuple[float, float, Literal["left", "right"], str]]:
-    """Return the stiffnesses between which a curve is resolved: level [N/m], place along the axis, side, text."""
-    limits: list[tuple[float, float, Literal["left", "right"], str]] = [
-        (CELLS * curve.cell_stiffness, 0.985, "right", f"{CELLS} x one cell"),
-        (curve.full_contact_stiffness, 0.015, "left", "full contact"),
-    ]
-    if curve.geometry is Geometry.LINE:  # there it is the width that counts
-        limits = limits[1:]
+def _limits(curve: Curve) -> dict[str, float]:
+    """Return the stiffnesses [N/m] between which a curve is resolved, by what they are called."""
+    limits = {_FULL: curve.full_contact_stiffness}
+    if curve.geometry is not Geometry.LINE:  # there it is the width that counts
+        limits = {f"{CELLS} x one cell": CELLS * curve.cell_stiffness} | limits
     # A periodic surface in full contact is infinitely stiff: that limit has no line.
-    return [limit for limit in limits if math.isfinite(limit[0])]
+    return {words: value for words, value in limits.items() if math.isfinite(value)}
+
+
+def _free_corner(axes: Axes, value: float) -> dict[str, str]:
+    """Return how words on a level are aligned, at one of its ends above or below it, to have no point under them."""
+    to_axes = axes.transData + axes.transAxes.inverted()
+    points = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
+    x, y = to_axes.transform(np.concatenate([*points, [[1.0, value]]])).T
+    x, above = x[:-1], y[:-1] - y[-1]
+    wide, high, near = _WORDS
+    ends, sides = {"right": x > 1 - wide, "left": x < wide}, {"bottom": above, "top": -above}
+    for ha, va in (("right", "bottom"), ("right", "top"), ("left", "top"), ("left", "bottom")):
+        if not (ends[ha] & (sides[va] > -near) & (sides[va] < high)).any():
+            break
+    return {"ha": ha, "va": va}
 
 
 def _forces(curve: Curve) -> tuple[float, float]:
@@ -154,17 +159,9 @@ def _draw_points(
     size = 4.5 if loads.size <= 60 else 3.0
     for chosen, fill, text in ((resolved, colour, "resolved"), (~resolved, "white", "not resolved")):
         points = shown & chosen
+        style: Any = {"markersize": size, "color": colour, "markerfacecolor": fill, "zorder": 3}
         if points.any():
-            axes.plot(
-                loads[points] * x.factor,
-                values[points] * y.factor,
-                "o",
-                markersize=size,
-                color=colour,
-                markerfacecolor=fill,
-                label=text,
-                zorder=3,
-            )
+            axes.plot(loads[points] * x.factor, values[points] * y.factor, "o", label=text, **style)
     for axis, drawn in ((axes.xaxis, loads[shown]), (axes.yaxis, values[shown])):
         if drawn.size:
             readable_ticks(axis, float(drawn.max() / drawn.min()))
@@ -189,28 +186,20 @@ def _draw_laws(
             continue
         values = law.predict(quantity, force)
         shown = np.isfinite(values) & (values > 0)
-        axes.plot(
-            force[shown] * x.factor,
-            values[shown] * y.factor,
-            color=colour,
-            linestyle=dashes,
-            linewidth=1.4,
-            zorder=2.5,
-            label=law.name,
-        )
+        style: Any = {"color": colour, "linestyle": dashes, "linewidth": 1.4, "zorder": 2.5}
+        axes.plot(force[shown] * x.factor, values[shown] * y.factor, label=law.name, **style)
     axes.set_ylim(limits)
 
 
 def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scale]) -> None:
     x, y = scales
     within = np.array(law.window)
-    loads = curve.force[curve.force > 0]
-    beyond = np.array([min(loads.min(), within[0]), max(loads.max(), within[1])])
+    loads = np.append(_forces(curve), within)
+    beyond = np.array([loads.min(), loads.max()])
     text = rf"$\bar{{k}} = {law.prefactor:.3g}\;\bar{{F}}^{{\;{law.exponent:.3f}}}$"
-    axes.plot(beyond * x.factor, law.stiffness(beyond) * y.factor, color=_LAW, linewidth=0.8, zorder=2)
-    axes.plot(
-        within * x.factor, law.stiffness(within) * y.factor, color=_LAW, linewidth=2, zorder=4, label=text
-    )
+    for force, width, order, name in ((beyond, 0.8, 2, None), (within, 2, 4, text)):
+        stiffness = law.stiffness(force) * y.factor
+        axes.plot(force * x.factor, stiffness, color=_LAW, linewidth=width, zorder=order, label=name)
 
 
 def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:

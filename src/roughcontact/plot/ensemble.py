@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import xarray
+from matplotlib import colormaps
+from matplotlib.axes import Axes
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import pretty
 from roughcontact.plot.ticks import TICK, label_axes
-
-if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
+from roughcontact.validation import Array
 
 __all__ = ["fitted_values", "mean_curves"]
-
-Array = npt.NDArray[Any]
 
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -51,8 +49,6 @@ def mean_curves(
     ValueError
         If there is more than one dimension of groups.
     """
-    import xarray
-
     points = force.dims[-1]
     groups = [d for d in mean.dims if d != points]
     if len(groups) > 1 or points not in mean.dims:
@@ -62,13 +58,11 @@ def mean_curves(
         )
     half = 0.0 * mean if error is None else error
     inside = mean.notnull() if resolved is None else resolved
-    rows = [
-        np.atleast_2d(each.transpose(*groups, points).to_numpy())
-        for each in xarray.broadcast(force, mean, half, inside)
-    ]
+    every = xarray.broadcast(force, mean, half, inside)
+    rows = [np.atleast_2d(each.transpose(*groups, points).to_numpy()) for each in every]
     names = [_named(mean, groups[0], i) for i in range(len(rows[0]))] if groups else [""]
-    for *numbers, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
-        _curve(axes, (numbers[0], numbers[1], numbers[2]), kept, name, colour)
+    for x, y, band, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
+        _curve(axes, (x, y, band), kept, name, colour)
     axes.set(xscale="log", yscale="log")
     label_axes(axes, _words(force), _words(mean), grid=True)
     if groups and len(names) <= len(_COLOURS):
@@ -115,18 +109,8 @@ def fitted_values(
     shown = np.isfinite(y)
     # Of one sample there is a value and no interval.
     arms = np.nan_to_num(np.stack([y - low, high - y])[:, shown])
-    axes.errorbar(
-        x[shown] + shift,
-        y[shown],
-        yerr=np.maximum(arms, 0.0),
-        fmt="o",
-        markersize=4,
-        capsize=2,
-        linewidth=1.0,
-        color=colour,
-        label=label or None,
-        zorder=3,
-    )
+    style: Any = {"fmt": "o", "markersize": 4, "capsize": 2, "linewidth": 1.0, "color": colour, "zorder": 3}
+    axes.errorbar(x[shown] + shift, y[shown], np.maximum(arms, 0.0), label=label or None, **style)
     label_axes(axes, _words(fits[along]), _words(fits[name]), grid=True)
 
 
@@ -142,16 +126,13 @@ def _curve(
     axes.plot(x[kept], y[kept], "-", color=colour, linewidth=1.5, label=name or None, zorder=3)
     lower = np.where(half < y, y - half, np.nan)
     if (half[shown] > 0).any():
-        axes.fill_between(
-            x[shown], lower[shown], (y + half)[shown], color=colour, alpha=_BAND, linewidth=0, zorder=1
-        )
+        band: Any = {"color": colour, "alpha": _BAND, "linewidth": 0, "zorder": 1}
+        axes.fill_between(x[shown], lower[shown], (y + half)[shown], **band)
 
 
 def _shades(count: int) -> list[Any]:
     if count <= len(_COLOURS):
         return list(_COLOURS[:count])
-    from matplotlib import colormaps
-
     # The last of viridis is too pale for a line on white.
     return list(colormaps["viridis"](np.linspace(0, 0.9, count)))
 

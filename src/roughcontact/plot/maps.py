@@ -2,34 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 
+from roughcontact.contact.solution import Solution
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.marks import faint_spots
-from roughcontact.plot.raster import Window, colour_bar, extent, heights_image, length_scale, part, show
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from roughcontact.contact.solution import Solution
-    from roughcontact.surface.surface import Surface
+from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_image, length_scale, part, show
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = ["contact_map", "height_map", "pressure_map"]
-
-Array = npt.NDArray[Any]
 
 _CONTACT = "#c8290b"
 
 
 def height_map(axes: Axes, surface: Surface) -> None:
     """Draw the heights of a surface, with a colour bar; points that were not measured are hatched."""
-    import matplotlib
-
-    image, unit = heights_image(axes, surface.heights, surface.grid, None, matplotlib.colormaps["viridis"])
+    image, unit = heights_image(axes, surface.heights, surface.grid, None, "viridis")
     colour_bar(axes, image, f"{VARIABLES['heights'].label} [{unit}]")
 
 
@@ -39,28 +34,16 @@ def pressure_map(axes: Axes, solution: Solution, window: Window | None = None) -
     Spots too small to be seen at this scale get a dot in the colour of their largest pressure. A
     `window` of cells (two slices) shows a part of the map; see `contact_window`.
     """
-    import matplotlib
-
     _backdrop(axes, solution, window)
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
     chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
     pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
     highest, cut = _limit(pressure[~np.isnan(pressure)])
     end = written(highest / chosen.factor, VARIABLES["pressure"].unit) if cut else ""
-    colours = matplotlib.colormaps["inferno"]
-    image = show(axes, pressure, grid, cells, colours, (0.0, highest))
+    image = show(axes, pressure, grid, cells, "inferno", (0.0, highest))
     x, y, peaks, _ = _marks(solution, cells)
-    axes.scatter(
-        x,
-        y,
-        s=16,
-        c=peaks * chosen.factor,
-        cmap=colours,
-        vmin=0.0,
-        vmax=highest,
-        linewidths=0.5,
-        edgecolors="white",
-    )
+    dots: Any = {"s": 16, "cmap": image.cmap, "norm": image.norm, "linewidths": 0.5, "edgecolors": "white"}
+    axes.scatter(x, y, c=peaks * chosen.factor, **dots)
     colour_bar(axes, image, f"{VARIABLES['pressure'].label} [{chosen.unit}]", end)
 
 
@@ -72,8 +55,6 @@ def contact_map(
     Spots too small to be seen at this scale are ringed, the larger the load the larger the ring. A
     `window` of cells (two slices) shows a part; a `frame` outlines a part that is shown elsewhere.
     """
-    from matplotlib.colors import ListedColormap
-
     _backdrop(axes, solution, window)
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
     touched = np.where(solution.contact[cells], 1.0, np.nan)
@@ -83,9 +64,7 @@ def contact_map(
     axes.scatter(x, y, s=sizes, facecolors="none", edgecolors=_CONTACT, linewidths=0.9)
     if frame is not None:
         left, right, bottom, top = extent(grid, frame)
-        axes.plot(
-            (left, right, right, left, left), (top, top, bottom, bottom, top), color="black", linewidth=1
-        )
+        box(axes, (left, right), (top, bottom), color="black", linewidth=1)
 
 
 def _limit(pressures: Array) -> tuple[float, bool]:
@@ -100,12 +79,9 @@ def _limit(pressures: Array) -> tuple[float, bool]:
 
 def _backdrop(axes: Axes, solution: Solution, window: Window | None) -> None:
     """Draw the heights in a light grey that no colour of a contact meets."""
-    import matplotlib
-    from matplotlib.colors import ListedColormap
-
     surface = solution.problem.surface
     if surface is not None:
-        greys = ListedColormap(matplotlib.colormaps["gray"](np.linspace(0.6, 1.0, 128)))
+        greys = ListedColormap(colormaps["gray"](np.linspace(0.6, 1.0, 128)))
         heights_image(axes, surface.heights, surface.grid, window, greys)
 
 

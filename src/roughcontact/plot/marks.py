@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
+from roughcontact.contact.solution import Solution
 from roughcontact.plot.raster import Window, part
-
-if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
+from roughcontact.validation import Array
 
 __all__ = ["contact_window", "faint_spots"]
 
-Array = npt.NDArray[Any]
+Mask = npt.NDArray[np.bool_]
 
 _FAINT = 0.02  # a smaller share of the cells in contact is lost on the page
 _NARROW = 0.01  # a spot narrower than this share of the side cannot be told from dust
@@ -89,7 +87,7 @@ def contact_window(solution: Solution) -> Window | None:
     return _smaller(heavy, contact.shape)
 
 
-def _surroundings(contact: Array, window: Window) -> tuple[list[float], float]:
+def _surroundings(contact: Mask, window: Window) -> tuple[list[float], float]:
     """Return the centre of the contact in `window`, and which share of the map shows it with a margin."""
     spans = [np.flatnonzero(contact[window].any(axis=axis)) for axis in (1, 0)]
     centre = [cells.start + (s[0] + s[-1] + 1) / 2 for cells, s in zip(window, spans, strict=True)]

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.ticks import label_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.surface import Surface
 
 __all__ = ["profile_curve"]
 

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.colorbar import Colorbar
+from matplotlib.colors import Colormap
+from matplotlib.image import AxesImage
 
+from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.colors import Colormap
-    from matplotlib.image import AxesImage
-
-    from roughcontact.grid import AnyGrid
+from roughcontact.validation import Array
 
 __all__ = [
-    "LABEL",
-    "TICK",
     "Window",
+    "box",
     "colour_bar",
     "extent",
     "heights_image",
@@ -31,8 +28,8 @@ __all__ = [
     "show",
 ]
 
-Array = npt.NDArray[Any]
 Window = tuple[slice, slice]
+Colours = Colormap | str
 
 # More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
 # leaves out some rows could leave out the contact.
@@ -67,8 +64,14 @@ def extent(grid: AnyGrid, window: Window) -> tuple[float, float, float, float]:
     return x0, x1, y1, y0
 
 
+def box(axes: Axes, across: tuple[float, float], upright: tuple[float, float], **style: Any) -> None:
+    """Draw a rectangle between two places along each axis."""
+    (left, right), (low, high) = across, upright
+    axes.plot((left, right, right, left, left), (low, low, high, high, low), **style)
+
+
 def show(
-    axes: Axes, values: Array, grid: AnyGrid, window: Window, colours: Colormap, limits: tuple[float, float]
+    axes: Axes, values: Array, grid: AnyGrid, window: Window, colours: Colours, limits: tuple[float, float]
 ) -> AxesImage:
     """Draw `values`, the cells of `window`, each cell as it is; NaN stays transparent."""
     values = pooled(values)
@@ -78,15 +81,9 @@ def show(
     stride = [-(-(cells.stop - cells.start) // n) for cells, n in zip(window, (rows, columns), strict=True)]
     high = (bottom - top) * rows * stride[0] / (window[0].stop - window[0].start)
     wide = (right - left) * columns * stride[1] / (window[1].stop - window[1].start)
-    image = axes.imshow(
-        values,
-        cmap=colours,
-        vmin=limits[0],
-        vmax=limits[1],
-        interpolation="nearest",
-        origin="upper",
-        extent=(left, left + wide, top + high, top),
-    )
+    place: Any = {"origin": "upper", "extent": (left, left + wide, top + high, top)}
+    lowest, highest = limits
+    image = axes.imshow(values, colours, vmin=lowest, vmax=highest, interpolation="nearest", **place)
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     unit = length_scale(grid).unit
     label_axes(axes, f"x [{unit}]", f"y [{unit}]")
@@ -104,7 +101,7 @@ def pooled(values: Array) -> Array:
 
 
 def heights_image(
-    axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colormap
+    axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colours
 ) -> tuple[AxesImage, str]:
     """Draw heights, hatched where they are missing; return the image and the unit."""
     window = part(grid, window)
@@ -114,10 +111,8 @@ def heights_image(
     chosen = scale(float(max(abs(low), abs(high))), VARIABLES["heights"].unit)
     if measured.size < inside.size:
         axes.patch.set(facecolor="white", edgecolor="0.55", hatch="//////")
-    image = show(
-        axes, inside * chosen.factor, grid, window, colours, (low * chosen.factor, high * chosen.factor)
-    )
-    return image, chosen.unit
+    limits = low * chosen.factor, high * chosen.factor
+    return show(axes, inside * chosen.factor, grid, window, colours, limits), chosen.unit
 
 
 def colour_bar(axes: Axes, image: AxesImage, label: str, end: str = "") -> None:
@@ -125,8 +120,6 @@ def colour_bar(axes: Axes, image: AxesImage, label: str, end: str = "") -> None:
 
     Where larger values than the last colour occur, the bar is pointed and says at which value it does `end`.
     """
-    from matplotlib.colorbar import Colorbar
-
     bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if end else "neither")
     bar.set_label(f"{label}\n(colours end at {end})" if end else label, fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
 
 from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from roughcontact.surface.analysis.hurst import HurstFit
-    from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.hurst import HurstFit
+from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.validation import Array
 
 __all__ = ["SpectrumScales", "spectrum_axes", "spectrum_curve"]
-
-Array = npt.NDArray[Any]
 
 _POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
 _DRAWN = 40.0  # bins to a decade: more are a band of ink
@@ -69,16 +65,8 @@ def spectrum_curve(
     axes.fill_between(
         q[reliable], low[reliable], (density + width)[reliable], color=_POINTS, alpha=0.2, linewidth=0
     )
-    axes.plot(
-        q[reliable],
-        density[reliable],
-        ".-",
-        color=_POINTS,
-        markersize=4,
-        linewidth=0.8,
-        zorder=3,
-        label=label,
-    )
+    style: Any = {"color": _POINTS, "markersize": 4, "linewidth": 0.8, "zorder": 3}
+    axes.plot(q[reliable], density[reliable], ".-", label=label, **style)
     if law is not None:
         _draw_law(axes, law, scales)
     # Last, since a limit that is set ends the fitting of the axis to what is drawn.
@@ -97,11 +85,9 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
         All that will be drawn [m; m^4 or m^3]; they choose the units.
     """
     length = scale(math.sqrt(float(wavelengths.min()) * float(wavelengths.max())), "m")
-    power = {"C2D": 4, "C1D": 3}[kind]
-    density = scale(float(densities.max()), f"m{power}")
+    density = scale(float(densities.max()), {"C2D": "m4", "C1D": "m3"}[kind])
     axes.set(xscale="log", yscale="log")
-    dimension = kind[1:]
-    power_name = rf"power spectrum $C_{{\mathrm{{{dimension}}}}}$ [{density.unit}]"
+    power_name = rf"power spectrum $C_{{\mathrm{{{kind[1:]}}}}}$ [{density.unit}]"
     label_axes(axes, f"wavenumber q [rad/{length.unit}]", power_name, grid=True)
     low, high = (2 * math.pi / (w * length.factor) for w in (wavelengths.max(), wavelengths.min()))
     axes.set_xlim(low / 1.3, high * 1.3)
@@ -119,37 +105,21 @@ def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
     values = law(q)
     drawn = values > 0
     label = f"H = {law.hurst:.3f} ± {law.standard_error:.3f}"
-    axes.plot(
-        q[drawn] * scales.wavenumber,
-        values[drawn] * scales.density.factor,
-        color=_LAW,
-        linewidth=1.8,
-        zorder=4,
-        label=label,
-    )
+    x, y = q[drawn] * scales.wavenumber, values[drawn] * scales.density.factor
+    axes.plot(x, y, color=_LAW, linewidth=1.8, zorder=4, label=label)
     for wavelength, name in zip(ends, ("roll-off", "long cut-off", "short cut-off"), strict=True):
         if wavelength is not None:
             text = f"{name} {wavelength * scales.length.factor:.3g} {scales.length.unit}"
             # Where the spectrum leaves room: below it at its long waves, above it at its short ones.
-            place: tuple[float, Literal["top", "bottom"]] = (
-                (0.98, "top") if name == "short cut-off" else (0.2, "bottom")
-            )
-            _mark(axes, 2 * math.pi / wavelength * scales.wavenumber, text, place)
+            height, side = (0.98, "top") if name == "short cut-off" else (0.2, "bottom")
+            _mark(axes, (2 * math.pi / wavelength * scales.wavenumber, height), text, va=side)
 
 
-def _mark(axes: Axes, q: float, text: str, place: tuple[float, Literal["top", "bottom"]]) -> None:
-    axes.axvline(q, color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
-    axes.annotate(
-        text,
-        (q, place[0]),
-        xycoords=axes.get_xaxis_transform(),
-        xytext=(3, 0),
-        textcoords="offset points",
-        rotation=90,
-        va=place[1],
-        fontsize=TICK,
-        color=_LIMIT,
-    )
+def _mark(axes: Axes, place: tuple[float, float], words: str, **given: Any) -> None:
+    """Draw an upright line with words beside it, at a wavenumber and a part of the height of the axes."""
+    axes.axvline(place[0], color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
+    style: Any = {"rotation": 90, "fontsize": TICK, "color": _LIMIT} | given
+    axes.annotate(words, place, (3, 0), axes.get_xaxis_transform(), "offset points", **style)
 
 
 def _other(value: npt.ArrayLike) -> Array:

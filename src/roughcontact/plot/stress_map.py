@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.contact.below import half_space_grid, loaded_part, ratio_of
+from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.subsurface.fields_below import stress
+from roughcontact.material import Solid
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.raster import colour_bar, length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from roughcontact.contact.solution import Solution
-    from roughcontact.material import Solid
 
 __all__ = ["von_mises_figure", "von_mises_section"]
 
@@ -53,8 +48,6 @@ def von_mises_section(
     ValueError
         If the solution is not that of a half-space under a surface, nothing is in contact, or the row is not one.
     """
-    import matplotlib
-
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
     if row is None:
@@ -75,32 +68,18 @@ def von_mises_section(
     unit, length = scale(float(values.max()), "Pa"), length_scale(grid)
     left = first[1] * grid.spacing[1] * length.factor
     right = left + part.lengths[1] * length.factor
+    edges = (left, right, bottom * length.factor, 0.0)
     image = axes.imshow(
-        values * unit.factor,
-        cmap=matplotlib.colormaps["inferno"],
-        vmin=0.0,
-        interpolation="nearest",
-        origin="upper",
-        extent=(left, right, bottom * length.factor, 0.0),
+        values * unit.factor, "inferno", vmin=0.0, interpolation="nearest", origin="upper", extent=edges
     )
     x = np.linspace(left, right, part.shape[1] + 1)
     touching = np.flatnonzero(pressure[here] > 0)
-    axes.hlines(
-        np.zeros(len(touching)), x[touching], x[touching + 1], color="#0072b2", linewidth=4, clip_on=False
-    )
+    axes.hlines(0 * touching, x[touching], x[touching + 1], color="#0072b2", linewidth=4, clip_on=False)
     deep, across = np.unravel_index(int(values.argmax()), values.shape)
-    axes.plot(
-        (x[across] + x[across + 1]) / 2,
-        depths[deep] * length.factor,
-        marker="+",
-        color="black",
-        markersize=9,
-        markeredgewidth=1.5,
-    )
-    axes.set_title(
-        f"largest in this section {written(float(values.max()), 'Pa')}, {written(float(depths[deep]), 'm')} deep",
-        fontsize=LABEL,
-    )
+    place = (x[across] + x[across + 1]) / 2, depths[deep] * length.factor
+    axes.plot(*place, "+", color="black", markersize=9, markeredgewidth=1.5)
+    largest, below = written(float(values.max()), "Pa"), written(float(depths[deep]), "m")
+    axes.set_title(f"largest in this section {largest}, {below} deep", fontsize=LABEL)
     label_axes(axes, f"x [{length.unit}]", f"depth [{length.unit}]")
     colour_bar(axes, image, f"von Mises stress [{unit.unit}]")
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
+from matplotlib import ticker
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 
 __all__ = ["LABEL", "TICK", "label_axes", "outer_axis", "readable_ticks"]
 
@@ -18,8 +18,6 @@ _STEPS = 5.0  # below it, not even 1, 2 and 5 times a power of ten are sure to o
 
 def readable_ticks(axis: Axis, ratio: float) -> None:
     """Choose the ticks of a logarithmic axis whose largest number is `ratio` times its smallest."""
-    from matplotlib import ticker
-
     axis.set_minor_formatter(ticker.NullFormatter())
     if ratio >= _DECADES:
         axis.set_major_locator(ticker.LogLocator())

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import LightSource
+from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
-
-if TYPE_CHECKING:
-    from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
-
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.surface import Surface
 
 __all__ = ["surface_view"]
 
@@ -42,9 +41,6 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     ValueError
         If the surface is a line.
     """
-    import matplotlib
-    from matplotlib.colors import LightSource
-
     if surface.grid.ndim != 2:
         raise ValueError("a profile has no view from aside: draw it with profile_curve")
     small = _reduced(surface)
@@ -57,23 +53,16 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     low, high = float(np.nanmin(heights)), float(np.nanmax(heights))
     # A flat surface has one colour, the middle one.
     level = (heights - low) / (high - low) if high > low else np.full(heights.shape, 0.5)
-    colours = matplotlib.colormaps["viridis"](np.nan_to_num(level, nan=0.5))
+    colours = colormaps["viridis"](np.nan_to_num(level, nan=0.5))
     # Slopes as they look in the box, so that light falls alike on tall and on flat surfaces.
     tall = np.nan_to_num(level, nan=0.5) * _HEIGHT * max(grid.lengths)
     light = LightSource(azdeg=315, altdeg=45)
     shaded = light.shade_rgb(
         colours[..., :3], tall, dx=grid.spacing[1], dy=grid.spacing[0], blend_mode="soft"
     )
-    axes.plot_surface(
-        *np.meshgrid(x, y),
-        heights,
-        facecolors=np.dstack([shaded, np.ones(heights.shape)]),
-        rstride=1,
-        cstride=1,
-        linewidth=0,
-        antialiased=False,
-        shade=False,
-    )
+    opaque = np.dstack([shaded, np.ones(heights.shape)])
+    every = {"rstride": 1, "cstride": 1, "linewidth": 0, "antialiased": False, "shade": False}
+    axes.plot_surface(*np.meshgrid(x, y), heights, facecolors=opaque, **every)
     _box(axes, surface, (length.factor, length.unit), (low, high, z.unit), frame)
 
 
@@ -83,12 +72,8 @@ def _reduced(surface: Surface) -> Surface:
     if max(factors) == 1:
         return surface
     # Blocks need not fit the period of a picture.
-    whole = surface if not any(surface.grid.periodic) else _as_free(surface)
-    return whole.averaged(factors)
-
-
-def _as_free(surface: Surface) -> Surface:
-    return replace(surface, grid=replace(surface.grid, periodic=(False, False)))
+    free = replace(surface, grid=replace(surface.grid, periodic=(False, False)))
+    return free.averaged(factors)
 
 
 def _box(

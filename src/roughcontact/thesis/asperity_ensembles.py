@@ -7,12 +7,12 @@ surfaces of our own: slopes can be compared, numbers cannot.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact import statistics
+from roughcontact.plot.ticks import TICK
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
@@ -20,11 +20,11 @@ from roughcontact.theory import greenwood_williamson
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict
+from roughcontact.validation import Array
 
 __all__ = [
     "CHOSEN",
     "asperity_averages",
-    "asperity_study",
     "draw_realisations",
     "exponent_words",
     "greenwood_williamson_stiffness",
@@ -32,8 +32,6 @@ __all__ = [
     "linear_model",
     "studies",
 ]
-
-Array = npt.NDArray[np.float64]
 
 HURST = (0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95)
 POINTS = {"small": 256, "thesis": 512}
@@ -49,20 +47,11 @@ CHOSEN = (
 
 
 def studies(scale: Scale) -> Studies:
-    """Return the one study, which figures 31 to 33 share."""
-    return (asperity_study(scale),)
-
-
-def asperity_study(scale: Scale) -> Study:
-    """Return the study: 25 surfaces of each of seven fractal dimensions."""
-    forces = {"lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
-    return Study(
-        name={"small": "asperities-small", "thesis": "asperities"}[scale],
-        case="asperities",
-        samples={"small": 8, "thesis": 25}[scale],
-        parameters={"points": POINTS[scale]} | forces,
-        table={"hurst": HURST},
-    )
+    """Return the one study, which figures 31 to 33 share: 25 surfaces of each of seven fractal dimensions."""
+    name, samples = {"small": ("asperities-small", 8), "thesis": ("asperities", 25)}[scale]
+    parameters = {"points": POINTS[scale], "lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
+    table = {"hurst": HURST}
+    return (Study(name=name, case="asperities", samples=samples, parameters=parameters, table=table),)
 
 
 def law_exponent(hurst: float) -> float:
@@ -82,15 +71,9 @@ def asperity_averages(exported: xarray.Dataset) -> xarray.Dataset:
         and ``window_high``.
     """
     force = exported["dimensionless_force"]
-    found = xarray.Dataset(
-        {
-            "force": force,
-            "stiffness": exported["dimensionless_stiffness"],
-            "independent": exported["independent_stiffness"],
-            "spots": statistics.mean(exported["spots"]),
-            "merged": statistics.mean(exported["merged"]) / statistics.mean(exported["spots"]),
-        }
-    )
+    spots, merged = (statistics.mean(exported[name]) for name in ("spots", "merged"))
+    found = xarray.Dataset({"force": force, "stiffness": exported["dimensionless_stiffness"]})
+    found = found.assign(independent=exported["independent_stiffness"], spots=spots, merged=merged / spots)
     laws = [_laws(found.sel(hurst=hurst), int(exported["points"])) for hurst in found["hurst"]]
     return found.merge(xarray.concat(laws, "hurst"))
 
@@ -109,12 +92,9 @@ def _laws(one: xarray.Dataset, points: int) -> xarray.Dataset:
     classical = greenwood_williamson_stiffness(force, float(one["hurst"]), points)
     low = float(force[np.flatnonzero(one["spots"] >= SPOTS)[0]])
     laws = xarray.Dataset({"classical": ("load", classical), "window_low": low, "window_high": HIGHEST})
-    for stiffness, prefix in (
-        (one["stiffness"], ""),
-        (one["independent"], "independent_"),
-        # The same fit of a curve that has no samples.
-        (laws["classical"].expand_dims("sample"), "classical_"),
-    ):
+    # The last is the same fit of a curve that has no samples.
+    every = one["stiffness"], one["independent"], laws["classical"].expand_dims("sample")
+    for stiffness, prefix in zip(every, ("", "independent_", "classical_"), strict=True):
         curves = {"dimensionless_force": one["force"], "dimensionless_stiffness": stiffness}
         rng = np.random.default_rng(0)
         fit = fit_power_laws(xarray.Dataset(curves), force_window(low, HIGHEST), rng=rng)
@@ -145,7 +125,7 @@ def draw_realisations(figure: Figure, averages: xarray.Dataset) -> None:
     axes.plot(x, here * (x / middle) ** alpha, "--", color=_SLOPE, linewidth=2.0, label=f"slope {alpha:.4f}")
     axes.axvspan(force[0] * aside[0], low, color="0.95", zorder=0)
     words = f"fewer than {SPOTS:g} summits\nin contact"
-    axes.text(force[0], means[-1], words, fontsize=drawing.TICK, color="0.4", va="top")
+    axes.text(force[0], means[-1], words, fontsize=TICK, color="0.4", va="top")
     drawing.stiffness_axes(axes, xlim=(force[0] * aside[0], force[-1] * aside[-1]))
     axes.legend(loc="lower right")
 

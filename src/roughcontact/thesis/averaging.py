@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
 import xarray
 
+import roughcontact as rc
 from roughcontact.solver.control import Status
 from roughcontact.statistics.samples import mean, scatter, standard_error
 from roughcontact.study.study import Study
+from roughcontact.thesis.figures import Scale, Studies
 
 __all__ = [
     "RMS",
@@ -20,7 +21,8 @@ __all__ = [
     "exponential",
     "logarithm",
     "means",
-    "outlook_study",
+    "outlook_studies",
+    "rms_heights",
     "same_for_all",
     "slope",
     "surface_study",
@@ -37,9 +39,9 @@ def surface_study(name: str, parameters: dict[str, Any], **given: Any) -> Study:
     return Study(name=name, parameters=common | parameters, **given)
 
 
-def outlook_study(name: str, scale: str, parameters: dict[str, Any], **given: Any) -> Study:
-    """Return the study of a question of the outlook, see `surface_study`."""
-    return surface_study(f"outlook-{name}{'-small' if scale == 'small' else ''}", parameters, **given)
+def outlook_studies(name: str, scale: Scale, parameters: dict[str, Any], **given: Any) -> Studies:
+    """Return the one study of a question of the outlook, see `surface_study`."""
+    return (surface_study(f"outlook-{name}{'-small' if scale == 'small' else ''}", parameters, **given),)
 
 
 def converged(exported: xarray.Dataset) -> xarray.Dataset:
@@ -53,7 +55,7 @@ def converged(exported: xarray.Dataset) -> xarray.Dataset:
     return exported.assign({name: exported[name].where(met) for name in numbers})
 
 
-def means(values: Mapping[str, xarray.DataArray]) -> xarray.Dataset:
+def means(**values: xarray.DataArray) -> xarray.Dataset:
     """Return the mean of each variable over the samples and, as ``NAME_error``, its standard error."""
     found = {}
     for name, each in values.items():
@@ -63,7 +65,7 @@ def means(values: Mapping[str, xarray.DataArray]) -> xarray.Dataset:
 
 def curve_statistics(force: xarray.DataArray, stiffness: xarray.DataArray) -> xarray.Dataset:
     """Return the mean stiffness at every force, its standard error and its scatter."""
-    found = means({"stiffness": stiffness}).assign(scatter=scatter(stiffness))
+    found = means(stiffness=stiffness).assign(scatter=scatter(stiffness))
     return xarray.Dataset({"force": force}).assign(found.data_vars)
 
 
@@ -90,6 +92,17 @@ def logarithm(values: xarray.DataArray) -> xarray.DataArray:
 def exponential(values: xarray.DataArray) -> xarray.DataArray:
     """Return the exponential, with its labels."""
     return cast("xarray.DataArray", np.exp(values))
+
+
+def rms_heights(points: int, hurst: xarray.DataArray, shortest: xarray.DataArray) -> xarray.DataArray:
+    """Return the rms height of waves on a square of unit side down to the shortest, with one factor of the spectrum."""
+    grid = rc.Grid((points, points), 1 / points)
+
+    def height(hurst: float, shortest: float) -> float:
+        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
+
+    found: xarray.DataArray = xarray.apply_ufunc(height, hurst, shortest, vectorize=True, keep_attrs=False)
+    return found
 
 
 def slope(values: xarray.DataArray, places: xarray.DataArray, along: str) -> xarray.DataArray:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.theory import pohrt_popov
+from roughcontact.validation import Array
 
 __all__ = ["cells_stiffness", "exponential_rate", "single_cell_stiffness"]
-
-Array = npt.NDArray[np.float64]
 
 _DEEPEST = 20.0  # over h; far beyond what eq. 4.74 is about
 

@@ -16,8 +16,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from roughcontact.plot.raster import LABEL, TICK
-from roughcontact.plot.ticks import readable_ticks
+from roughcontact.plot.ticks import LABEL, TICK, readable_ticks
 
 __all__ = [
     "COLOURS",
@@ -29,11 +28,9 @@ __all__ = [
     "STIFFNESS",
     "STYLE",
     "SURFACES",
-    "TICK",
     "arrow",
     "band",
     "both_methods",
-    "box",
     "by_hurst",
     "colour_key",
     "exponent_laws",
@@ -43,7 +40,6 @@ __all__ = [
     "hurst_colours",
     "key",
     "label",
-    "level",
     "lines_words",
     "named_ticks",
     "panels",
@@ -96,12 +92,6 @@ def frameless(axes: Axes, **given: Any) -> None:
     axes.spines[:].set_visible(False)
 
 
-def box(axes: Axes, across: Place, upright: Place, **style: Any) -> None:
-    """Draw a rectangle between two places along each axis."""
-    (left, right), (low, high) = across, upright
-    axes.plot((left, right, right, left, left), (low, low, high, high, low), **style)
-
-
 def arrow(axes: Axes, start: Place, end: Place, style: str = "->", **given: Any) -> None:
     """Draw an arrow; further keywords are those of its line."""
     line = {"arrowstyle": style, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0} | given
@@ -134,17 +124,6 @@ def named_ticks(axes: Axes, values: npt.NDArray[Any], words: str) -> None:
 def key(axes: Axes, style: str, words: str, **given: Any) -> None:
     """Add to the legend what a style of curve means, whatever its colour."""
     axes.plot([], [], style, label=words, **({"color": "0.3"} | given))
-
-
-def level(axes: Axes, value: float, words: str = "", style: Any = "--", **given: Any) -> None:
-    """Draw a level across the axes, with words above its left end, or as the keywords `ha` and `va` align them."""
-    axes.axhline(value, color="0.35", linewidth=0.9, linestyle=style, zorder=1)
-    aligned = {"ha": "left", "va": "bottom"} | given
-    place = 0.01 if aligned["ha"] == "left" else 0.99
-    above = 2 if aligned["va"] == "bottom" else -3
-    at: Any = ("axes fraction", "data")
-    text: Any = {"fontsize": TICK, "color": "0.3"} | aligned
-    axes.annotate(words, (place, value), (0, above), at, "offset points", **text)
 
 
 def with_errors(axes: Axes, one: xarray.Dataset, name: str, x: str = "force", **style: Any) -> None:

@@ -71,12 +71,8 @@ def full_contact_study(scale: Scale) -> Study:
 def resolution_studies(scale: Scale) -> Studies:
     """Return the studies of figure 26: low Hurst exponents on several numbers of cells."""
     forces = {"lowest_force": 1e-3, "loads": 40}
-    if scale == "thesis":
-        counts = {257: 500, 513: 500, 1025: 200}
-        name = "resolution"
-    else:
-        counts = {257: 20, 513: 20}
-        name = "resolution-small"
+    small, thesis = {257: 20, 513: 20}, {257: 500, 513: 500, 1025: 200}
+    name, counts = {"small": ("resolution-small", small), "thesis": ("resolution", thesis)}[scale]
     return tuple(
         _study(f"{name}-{points}", samples, forces | {"points": points}, {"hurst": LOW_HURST})
         for points, samples in counts.items()
@@ -85,14 +81,8 @@ def resolution_studies(scale: Scale) -> Studies:
 
 def sphere_study(scale: Scale) -> Study:
     """Return the study of figure 37: a paraboloid with roughness."""
-    parameters = {
-        "hurst": SPHERE_HURST,
-        "rms": SPHERE_RMS,
-        "radius": RADIUS,
-        "lowest_force": FORCES[0] / SPHERE_RMS,
-        "highest_force": FORCES[1] / SPHERE_RMS,
-        "loads": 33,
-    }
+    forces = {"lowest_force": FORCES[0] / SPHERE_RMS, "highest_force": FORCES[1] / SPHERE_RMS, "loads": 33}
+    parameters = {"hurst": SPHERE_HURST, "rms": SPHERE_RMS, "radius": RADIUS} | forces
     if scale == "thesis":
         return _study("rough-sphere", 50, parameters | {"points": 513}, {})
     return _study("rough-sphere-small", 20, parameters | {"points": 257}, {})

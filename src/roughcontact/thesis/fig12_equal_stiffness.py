@@ -17,10 +17,10 @@ import roughcontact as rc
 from roughcontact.theory import punch
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["PunchShape", "case", "draw", "verdicts"]
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 TITLE = "contact regions of equal stiffness: a disc, two discs, a square, a triangle"
@@ -37,7 +37,7 @@ CHOSEN = (
 SIZE = (7.4, 2.2)
 
 # Stiffnesses over 2 E* sqrt(A/pi) in the thesis' source of the figure; the square's stands in eqs 4.7 and 4.14, too.
-_PRINTED = {"square": 1.012, "triangle": 1.034}
+_PRINTED = {"square": (1.012, "eqs 4.7, 4.14"), "triangle": (1.034, "source of the figure")}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,44 +79,30 @@ def case(seed: int = SEED) -> tuple[PunchShape, ...]:
     middle = FIELD / 2
     turn = np.linspace(0, 2 * math.pi, 241)
     circle = np.stack([np.cos(turn), np.sin(turn)])
+    circles = tuple(radius * circle + np.array([[x], [0.0]]) for x in places)
     square = side / 2 * np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
     # Its corners are equally far from the centroid, one of them above it.
     corners = math.pi / 2 + 2 * math.pi / 3 * np.arange(4)
     triangle = edge / math.sqrt(3) * np.stack([np.cos(corners), np.sin(corners)])
+    area = math.sqrt(3) / 4 * edge**2
 
     def discs(grid: rc.Grid) -> Mask:
         first, second = (rc.shapes.flat_disc(grid, radius, (middle, middle + x)).measured for x in places)
         return np.asarray(first | second)
 
     return (
-        _region("disc", (1.0, math.pi), (circle,), lambda grid: rc.shapes.flat_disc(grid, 1.0).measured),
-        _region(
-            "two discs",
-            (radius, 2 * math.pi * radius**2),
-            tuple(radius * circle + np.array([[x], [0.0]]) for x in places),
-            discs,
-        ),
-        _region(
-            "square", (side, side**2), (square,), lambda grid: rc.shapes.flat_square(grid, side).measured
-        ),
-        _region(
-            "triangle",
-            (edge, math.sqrt(3) / 4 * edge**2),
-            (triangle,),
-            lambda grid: rc.shapes.flat_triangle(grid, edge).measured,
-        ),
+        _region("disc", (1.0, math.pi), (circle,), lambda g: rc.shapes.flat_disc(g, 1.0).measured),
+        _region("two discs", (radius, 2 * math.pi * radius**2), circles, discs),
+        _region("square", (side, side**2), (square,), lambda g: rc.shapes.flat_square(g, side).measured),
+        _region("triangle", (edge, area), (triangle,), lambda g: rc.shapes.flat_triangle(g, edge).measured),
     )
 
 
 def draw(figure: Figure, data: tuple[PunchShape, ...]) -> None:
     """Draw the regions to one scale, with their pressures and sizes."""
     panels = figure.subplots(1, len(data), width_ratios=[2 * _reach(region) for region in data])
-    words = (
-        "radius a",
-        f"radii {data[1].size:.3f} a, {SPACING:g} a apart",
-        f"side {data[2].size:.3f} a",
-        f"side {data[3].size:.3f} a",
-    )
+    two, square, triangle = (f"{region.size:.3f} a" for region in data[1:])
+    words = "radius a", f"radii {two}, {SPACING:g} a apart", f"side {square}", f"side {triangle}"
     for letter, axes, region, text in zip("abcd", panels, data, words, strict=True):
         image = _region_view(axes, region)
         axes.set(xlabel=text, title=f"({letter})")
@@ -127,23 +113,18 @@ def draw(figure: Figure, data: tuple[PunchShape, ...]) -> None:
 def verdicts(data: tuple[PunchShape, ...]) -> Verdicts:
     """Return the shape factors of square and triangle, and what two discs lose by each other."""
     one, two, *angular = data
-    exact = (
-        punch.shape_factor(punch.square(1.0, 1.0), 1.0, 1.0),
-        punch.shape_factor(punch.triangle(1.0, 1.0), 1.0, math.sqrt(3) / 4),
-    )
+    stiffnesses = punch.square(1.0, 1.0), punch.triangle(1.0, 1.0)
+    exact = map(punch.shape_factor, stiffnesses, (1.0, 1.0), (1.0, math.sqrt(3) / 4))
     apart = float(punch.two_discs(1.0, two.size, SPACING) / (2 * punch.disc(1.0, two.size)))
     far = float(brentq(lambda s: float(punch.two_discs(1.0, 1.0, s)) - 0.99 * 4, 3.0, 1e3))
-    yield from (
-        Verdict(
-            f"stiffness of a {region.name} over that of a disc of its area"
-            + (" (eqs 4.7, 4.14)" if region.name == "square" else " (source of the figure)"),
-            f"{_PRINTED[region.name]:.3f}",
-            f"{float(factor):.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² "
-            f"cells",
-            bool(abs(float(factor) / _PRINTED[region.name] - 1) < 5e-4),
+    for region, factor in zip(angular, map(float, exact), strict=True):
+        printed, source = _PRINTED[region.name]
+        yield Verdict(
+            f"stiffness of a {region.name} over that of a disc of its area ({source})",
+            f"{printed:.3f}",
+            f"{factor:.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² cells",
+            abs(factor / printed - 1) < 5e-4,
         )
-        for region, factor in zip(angular, exact, strict=True)
-    )
     yield Verdict(
         "two distant circles act in parallel",
         "k = k1 + k2",

@@ -77,13 +77,9 @@ def draw(figure: Figure, data: Configurations) -> None:
 def verdicts(data: Configurations) -> Verdicts:
     """Return the ratios of the stiffnesses."""
     _, enlarged, along_x, along_y = data.stiffness
+    shapes = ((1.0, 1.0), (STRETCH, 1.0)), ((10.0, 1.0), (10 * STRETCH, 1.0)), ((10.0, 1.0), (10.0, STRETCH))
     disc, along, across = (
-        float(punch.ellipse(1.0, after) / punch.ellipse(1.0, before))
-        for after, before in (
-            ((STRETCH, 1.0), (1.0, 1.0)),
-            ((10 * STRETCH, 1.0), (10.0, 1.0)),
-            ((10.0, STRETCH), (10.0, 1.0)),
-        )
+        float(punch.ellipse(1.0, after) / punch.ellipse(1.0, before)) for before, after in shapes
     )
     yield Verdict(
         "the stiffness grows as the lateral extension, not as the area",

@@ -117,9 +117,8 @@ def _measured(surface: rc.Surface, instrument: Instrument, law: rc.SelfAffineSpe
         seen = seen.averaged(instrument.pixel)
         shortest = _CELLS * seen.grid.spacing[0]
     else:
-        seen = seen.scanned(instrument.tip_radius, "paraboloid").downsampled(
-            instrument.pixel, anti_alias=False
-        )
+        seen = seen.scanned(instrument.tip_radius, "paraboloid")
+        seen = seen.downsampled(instrument.pixel, anti_alias=False)
         shortest = max(_followed(law, instrument.tip_radius), _CELLS * seen.grid.spacing[0])
     found = rc.power_spectrum(seen, per_decade=_FINE)
     return replace(found, q_max=2 * math.pi / shortest)

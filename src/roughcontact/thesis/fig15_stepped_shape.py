@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -13,10 +12,9 @@ from roughcontact.theory.stepped import SteppedIndenter
 from roughcontact.thesis import drawing
 from roughcontact.thesis.stepped_body import INDENTER
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["Shape", "case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "cylinders whose radii and heights follow the fractal law, C = 2, H = 0.5"
 COUNT = 4

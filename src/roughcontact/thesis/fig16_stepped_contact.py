@@ -13,10 +13,9 @@ import roughcontact as rc
 from roughcontact.thesis import drawing
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "the stepped indenter against a wall: contact areas and deformations"
 COUNT = 3
@@ -86,9 +85,7 @@ def _area(axes: Axes, state: rc.Solution) -> None:
 def _runs(contact: npt.NDArray[np.bool_], edges: Array) -> list[tuple[float, float]]:
     """Return the radii between which rings touch without a break."""
     turns = np.flatnonzero(np.diff(np.concatenate([[False], contact, [False]]).astype(int)))
-    return [
-        (float(edges[start]), float(edges[end])) for start, end in zip(turns[::2], turns[1::2], strict=True)
-    ]
+    return list(zip(edges[turns[::2]].tolist(), edges[turns[1::2]].tolist(), strict=True))
 
 
 def _cut(axes: Axes, state: rc.Solution) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 import roughcontact as rc
@@ -13,10 +12,9 @@ from roughcontact.theory.power_law_indenter import contact
 from roughcontact.thesis import drawing, fig15_stepped_shape
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["Stiffening", "case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "stiffness of the stepped indenter against load, schematic and computed"
 COUNT = 7

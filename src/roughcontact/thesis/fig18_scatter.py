@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.level import level
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.thesis import drawing
 from roughcontact.thesis.averaging import without_parameters
@@ -59,7 +60,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
             scatter, resolved = one[f"{prefix}scatter"], one[f"{prefix}resolved"]
             axes.plot(force, scatter, color=colour, linewidth=0.7, alpha=0.3, zorder=2)
             axes.plot(force, scatter.where(resolved), color=colour, zorder=3)
-        drawing.level(axes, CLAIM, "30 %", ha="right")
+        level(axes, CLAIM, "30 %", ha="right")
         axes.set_title(title, loc="center")
         drawing.label(axes, f"dimensionless {drawing.FORCE}", "", xscale="log")
     left.set(ylabel="standard deviation / mean of the stiffness", ylim=(0, 0.6))

@@ -6,19 +6,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from scipy.ndimage import uniform_filter
 
 import roughcontact as rc
+from roughcontact.plot.raster import box
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
+from roughcontact.validation import Array
 
 __all__ = ["Gedankenexperiment", "case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "one contact of a rough square and of the larger one that it is a part of"
 POINTS = 256
@@ -89,7 +88,7 @@ def draw(figure: Figure, data: Gedankenexperiment) -> None:
         numbers = rf"$\bar{{F}}$ = {force:.4f},  $\bar{{k}}$ = {stiffness:.4f}"
         axes.text(centre, bottom + 0.02, numbers, ha="center", va="top")
         drawing.frameless(axes, xlim=(left, right), ylim=(middle + 0.58, middle - 0.58))  # one scale for both
-    drawing.box(panels[1], (x, x + 1 / SCALE), (y, y + 1 / SCALE), color="black", linewidth=1.4)
+    box(panels[1], (x, x + 1 / SCALE), (y, y + 1 / SCALE), color="black", linewidth=1.4)
     panels[1].text(x + 0.015, y + 0.015, "(1)", va="top")
 
 

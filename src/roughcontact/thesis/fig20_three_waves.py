@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.mdr.line_curves import LineCurves
 from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.plot.raster import box
 from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["WavyLine", "case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "a rough line with three scales, H = 0.9, C = 7, and depths of indentation"
 WAVES = Hierarchy(amplitude=1.0, wavenumber=2 * np.pi, ratio=7.0, hurst=0.9)
@@ -82,7 +82,7 @@ def draw(figure: Figure, data: WavyLine) -> None:
     across, upright = (-0.05, 0.05), (-0.23, 0.015)
     _line(left, data, (-0.5, 0.5), (float(data.line.heights.min()) - 0.1, 0.15))
     _line(right, data, across, upright)
-    drawing.box(left, across, upright, color="0.35", linewidth=0.8)
+    box(left, across, upright, color="0.35", linewidth=0.8)
     left.text(across[1] + 0.015, upright[1], "(b)", va="center")
     for axes in (left, right):
         axes.set_xlabel(r"$x\,/\,\lambda_0$")
@@ -100,9 +100,8 @@ def verdicts(data: WavyLine) -> Verdicts:
     first, last = _one_spot(data)
     beyond = np.abs(data.line.grid.coordinates[0] - data.line.grid.lengths[0] / 2) > 0.5 / WAVES.ratio
     crests = -float(data.line.heights[beyond].max())
-    ends = loading_curves(
-        data.line.heights, data.line.grid.spacing[0], 1.0, depths=2 * data.amplitudes[:0:-1], energy=False
-    )
+    depths, spacing = 2 * data.amplitudes[:0:-1], data.line.grid.spacing[0]
+    ends = loading_curves(data.line.heights, spacing, 1.0, depths=depths, energy=False)
     stiffness, force = ends.stiffness[0], ends.force[0]
     exponent = float(np.log(stiffness[1] / stiffness[0]) / np.log(force[1] / force[0]))
     asymptotic = float(WAVES.corners(1, 1.0)[1][0])

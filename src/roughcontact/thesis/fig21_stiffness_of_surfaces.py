@@ -8,6 +8,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.level import level
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.theory.punch.polygon import SQUARE
 from roughcontact.thesis import drawing
@@ -34,11 +35,8 @@ def studies(scale: Scale) -> Studies:
 
 def averages(squares: xarray.Dataset) -> xarray.Dataset:
     """Return mean stiffnesses, and power laws where three forces lie in their window."""
-    found = curve_averages(squares)
-    fits = curve_fits(squares)
-    for name in ("exponent", "exponent_error", "prefactor", "prefactor_error", "window_low", "window_high"):
-        found[name] = fits[name]
-    return found
+    names = ["exponent", "exponent_error", "prefactor", "prefactor_error", "window_low", "window_high"]
+    return curve_averages(squares).assign(curve_fits(squares)[names].data_vars)
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
@@ -54,8 +52,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
             axes.plot(force, points, "o", color=colour, markersize=3, fillstyle=fill, zorder=3)
         if hurst in places:
             axes.plot(law, places[hurst] * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
-    drawing.level(axes, SQUARE.value, f"square punch, {SQUARE.value:.4f}", "-")
-    drawing.level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)))
+    level(axes, SQUARE.value, f"square punch, {SQUARE.value:.4f}", "-")
+    level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)))
     drawing.key(axes, "--", "slopes 1/(H + 1) of H = 0 and 1")
     axes.legend(loc="lower right")
     lowest = float(averages["stiffness"].min())
@@ -68,9 +66,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     last = averages["stiffness"].isel(load=-1)
     plateau, spread = float(last.mean()), float(last.max() - last.min())
     alpha = averages["exponent"].dropna("hurst")
-    listed = (
-        ", ".join(f"{float(a):.2f} (H = {float(a['hurst']):g})" for a in alpha) or "too few forces resolved"
-    )
+    each = ", ".join(f"{float(a):.2f} (H = {float(a['hurst']):g})" for a in alpha)
     law = alpha * (alpha["hurst"] + 1) - 1
     error = averages["exponent_error"].sel(hurst=alpha["hurst"]) * (alpha["hurst"] + 1)
     yield Verdict(
@@ -83,7 +79,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     yield Verdict(
         "a power law for smaller forces",
         "1/(H + 1) in section 4.4, read from newer data",
-        f"exponents {listed}; {counted(averages, 'surfaces')} a value",
+        f"exponents {each or 'too few forces resolved'}; {counted(averages, 'surfaces')} a value",
         judged(law, error, 0.1) if alpha.size else None,
     )
     yield Verdict(

@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.level import level
 from roughcontact.study.ranges import Range
 from roughcontact.thesis import drawing
 from roughcontact.thesis.figures import Scale, Studies
@@ -26,15 +27,9 @@ SIZE = (6.4, 4.4)
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: 11 Hurst exponents, 400 forces, 1500 lines of 500 points."""
-    return (
-        line_study(
-            "lines-of-figure-22",
-            scale,
-            table={"hurst": Range(start=0.0, stop=2.0, step=0.2)},
-            parameters={"points": POINTS, "lowest_force": 1e-8, "highest_force": 10.0, "loads": 400},
-            lines=LINES,
-        ),
-    )
+    table = {"hurst": Range(start=0.0, stop=2.0, step=0.2)}
+    forces = {"lowest_force": 1e-8, "highest_force": 10.0, "loads": 400}
+    return (line_study("lines-of-figure-22", scale, table, lines=LINES, points=POINTS, **forces),)
 
 
 def averages(lines: xarray.Dataset) -> xarray.Dataset:
@@ -56,8 +51,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         if hurst in laws:
             place, law = laws[hurst]
             axes.plot(law, place * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
-    drawing.level(axes, 1.0, "every spring carries load", ":", va="top")
-    drawing.level(axes, 1 / points, "one spring carries load", ":", va="top")
+    level(axes, 1.0, "every spring carries load", ":", va="top")
+    level(axes, 1 / points, "one spring carries load", ":", va="top")
     drawing.key(axes, "--", "slopes 1/(H + 1) at H = 0 and 2")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85))
     drawing.stiffness_axes(axes, xlim=(force[0], force[-1]), ylim=(0.5 / points, 2))

@@ -8,16 +8,9 @@ from matplotlib.figure import Figure
 
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.theory import gaussian_heights
-from roughcontact.thesis import drawing
+from roughcontact.thesis import drawing, line_ensembles
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.line_ensembles import (
-    WINDOWED,
-    line_averages,
-    line_fits,
-    line_studies,
-    resolution_exponent,
-    white_exponent,
-)
+from roughcontact.thesis.line_ensembles import resolution_exponent
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -37,22 +30,20 @@ _COLOURS = {512: "#0072b2", 2048: "#009e73"}
 
 def studies(scale: Scale) -> Studies:
     """Return the study of rough lines that this figure shares with others."""
-    return line_studies(scale)
+    return line_ensembles.line_studies(scale)
 
 
 def averages(lines: xarray.Dataset) -> xarray.Dataset:
     """Return exponents and their intervals, each in its own window and in a common one, and those of white heights."""
     chosen = lines.sel(points=list(POINTS))
-    fits = line_fits(chosen)
-    found = fits[list(WINDOWED)].assign(white=white_exponent(chosen["dimensionless_force"], fits))
-    common = line_fits(chosen, window=force_window(*COMMON))
+    found = line_ensembles.fits_beside_white(chosen)
+    common = line_ensembles.line_fits(chosen, window=force_window(*COMMON))
     found["common"], found["common_error"] = common["exponent"], common["exponent_error"]
-    means = line_averages(chosen)
+    means = line_ensembles.line_averages(chosen)
     force = means["force"]
     inside = means.isel(load=np.flatnonzero((force >= COMMON[0]) & (force <= COMMON[1] * (1 + 1e-9))))
-    return found.merge(inside[["force", "stiffness", "stiffness_error"]]).assign_attrs(
-        lines=means.attrs["lines"]
-    )
+    found = found.merge(inside[["force", "stiffness", "stiffness_error"]])
+    return found.assign_attrs(lines=means.attrs["lines"])
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

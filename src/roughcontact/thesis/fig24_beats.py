@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
+from roughcontact.validation import Array
 
 __all__ = ["BeatLines", "Heights", "beat", "case", "draw", "verdicts"]
 
@@ -35,8 +35,6 @@ SIZE = (7.2, 4.2)
 
 _FEWEST = 30  # heights, below which a count is mostly chance
 _COLOURS = ("black", "#0072b2", "#d55e00", "#009e73")
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

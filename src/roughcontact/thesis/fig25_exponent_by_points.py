@@ -6,17 +6,10 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.thesis import drawing
+from roughcontact.thesis import drawing, line_ensembles
 from roughcontact.thesis.ensembles import curve_fits, resolution_studies
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.line_ensembles import (
-    WINDOWED,
-    line_averages,
-    line_fits,
-    line_study,
-    resolution_exponent,
-    white_exponent,
-)
+from roughcontact.thesis.line_ensembles import resolution_exponent
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -36,33 +29,24 @@ _LAW, _SIDE, _AREA, _WHITE = "#c8290b", "#009e73", "#8e44ad", "0.45"
 
 def studies(scale: Scale) -> Studies:
     """Return a study of lines of many lengths, and those of surfaces that figure 26 is made of."""
-    lines = line_study(
-        "lines-of-figure-25",
-        scale,
-        table={"points": POINTS[: {"small": 6, "thesis": 8}[scale]]},
-        parameters={"hurst": HURST, "lowest_force": 7e-5, "highest_force": 0.07, "loads": 73},
+    table = {"points": POINTS[: {"small": 6, "thesis": 8}[scale]]}
+    lines = line_ensembles.line_study(
+        "lines-of-figure-25", scale, table, hurst=HURST, lowest_force=7e-5, highest_force=0.07, loads=73
     )
     return (lines, *resolution_studies(scale))
 
 
 def averages(lines: xarray.Dataset, *surfaces: xarray.Dataset) -> xarray.Dataset:
     """Return the exponents of lines and of surfaces, and what white heights give in the windows of the lines."""
-    fits = line_fits(lines)
-    found = fits[list(WINDOWED)].assign(white=white_exponent(lines["dimensionless_force"], fits))
-    means = line_averages(lines)
+    found = line_ensembles.fits_beside_white(lines)
+    means = line_ensembles.line_averages(lines)
     last = means.isel(load=-1)
-    for name in ("force", "stiffness", "stiffness_error"):
-        found[name] = last[name]
-    parts = [
-        curve_fits(each)[list(WINDOWED)]
-        .sel(hurst=HURST)
-        .assign_coords(cells=int(each["points"]))
-        .drop_vars("points")
-        for each in surfaces
-    ]
-    squares = xarray.concat(parts, "cells", coords="minimal", compat="override")
+    found = found.assign(last[["force", "stiffness", "stiffness_error"]].data_vars)
     # Surfaces without three forces in the window have no exponent.
-    named = squares.rename({name: f"surface_{name}" for name in WINDOWED})
+    parts = [curve_fits(each)[list(line_ensembles.WINDOWED)].sel(hurst=HURST) for each in surfaces]
+    parts = [each.assign_coords(cells=int(each["points"])).drop_vars("points") for each in parts]
+    squares = xarray.concat(parts, "cells", coords="minimal", compat="override")
+    named = squares.rename({name: f"surface_{name}" for name in line_ensembles.WINDOWED})
     return found.merge(named, compat="override").assign_attrs(lines=means.attrs["lines"])
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray
 from matplotlib.figure import Figure
@@ -46,7 +48,7 @@ def averages(*squares: xarray.Dataset) -> xarray.Dataset:
         common = curve_fits(each, window=force_window(*COMMON))[list(_FITS)]
         at = on_common(curve_averages(each), [FORCE], at="force").isel(force=0, drop=True)
         part = own.assign({f"common_{name}": values for name, values in common.items()})
-        part["stiffness"], part["stiffness_error"] = at["stiffness"], at["stiffness_error"]
+        part = part.assign(at[["stiffness", "stiffness_error"]].data_vars)
         parts.append(without_parameters(part).expand_dims(points=[int(each["points"])]))
     return xarray.concat(parts, "points", combine_attrs="drop")
 
@@ -60,11 +62,10 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         # Side by side, so that bars do not cover each other.
         x = hurst + 0.012 * (place - (len(grids) - 1) / 2)
         words = f"{points}² cells, from {float(one['window_low'].mean()):.2g}"
-        given = {"color": colour, "markersize": 4.5, "linewidth": 1.0}
+        given: Any = {"color": colour, "markersize": 4.5, "linewidth": 1.0}
         drawing.with_intervals(axes, x, one, "exponent", fmt=f"{mark}-", label=words, **given)
-        drawing.with_intervals(
-            axes, x, one, "common_exponent", fmt=f"{mark}:", markerfacecolor="white", **given
-        )
+        given |= {"fmt": f"{mark}:", "markerfacecolor": "white"}
+        drawing.with_intervals(axes, x, one, "common_exponent", **given)
     drawing.key(axes, "o:", f"one window, from {COMMON[0]:g}", color="0.4", markerfacecolor="white")
     x = np.linspace(-0.02, hurst[-1] + 0.05, 50)
     axes.plot(x, 1 / (x + 1), "--", color="black", label="1/(H + 1)")
@@ -80,10 +81,8 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     averages = averages.isel(points=averages["samples"][:, 0].to_numpy() > 1)
     low = averages.sel(hurst=slice(None, -0.2))
     flat = low["exponent"] - low["exponent"].mean("hurst")
-    counts = ", ".join(
-        f"{int(n)} of {points}²"
-        for n, points in zip(averages["samples"][:, 0], averages["points"].values, strict=True)
-    )
+    samples = zip(averages["samples"].values[:, 0], averages["points"].values, strict=True)
+    counts = ", ".join(f"{int(n)} of {points}²" for n, points in samples)
     grid = low["stiffness"].isel(points=-1) / low["stiffness"].isel(points=0) - 1
     yield Verdict(
         "alpha depends on the number of cells for low H",

@@ -43,14 +43,10 @@ def studies(scale: Scale) -> Studies:
 def averages(squares: xarray.Dataset, lines: xarray.Dataset, coarse: xarray.Dataset) -> xarray.Dataset:
     """Return the power laws of surfaces and lines, see `laws`, and stiffnesses at three forces."""
     found = laws(squares, lines)
-    for prefix, means in (
-        ("", curve_averages(squares)),
-        ("coarse_", curve_averages(coarse)),
-        ("line_", line_averages(lines)),
-    ):
+    every = {"": curve_averages(squares), "coarse_": curve_averages(coarse), "line_": line_averages(lines)}
+    for prefix, means in every.items():
         at = on_common(means, FORCES, at="force")
-        if "resolved" in at:
-            at = at.where(at["resolved"])
+        at = at.where(at["resolved"]) if "resolved" in at else at
         for name in ("stiffness", "stiffness_error"):
             found[prefix + name] = without_parameters(at)[name]
     return found.assign_attrs(coarse_cells=int(coarse["points"]))

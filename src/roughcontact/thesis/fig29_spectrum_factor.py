@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import xarray
@@ -53,14 +54,11 @@ def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
         "window_low": "lowest k/(E* L) of the window",
         "window_high": "highest k/(E* L) of the window",
     }
-    return xarray.Dataset(
-        {
-            name: ("hurst", column, {"long_name": words, "units": "1"})
-            for (name, words), column in zip(names.items(), np.transpose(rows), strict=True)
-        },
-        {"hurst": surfaces["hurst"]},
-        {"points": points, "samples": surfaces.sizes["sample"], "lines": longest.sizes["sample"]},
-    )
+    averages = xarray.Dataset(coords={"hurst": surfaces["hurst"]})
+    for (name, words), column in zip(names.items(), np.transpose(rows), strict=True):
+        averages[name] = "hurst", column, {"long_name": words, "units": "1"}
+    sizes = {"samples": surfaces.sizes["sample"], "lines": longest.sizes["sample"]}
+    return averages.assign_attrs(sizes | {"points": points})
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
@@ -75,11 +73,9 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.with_intervals(axes, averages["hurst"], shown, "factor", label=words, **style)
     words = r"$\lambda$ of equal rms heights"
     axes.plot(averages["hurst"], averages["factor_rms"], "--", color=drawing.COLOURS[1], label=words)
-    for value, dashes, words in (
-        (math.pi, "-.", r"$\pi$ (eq. 4.54)"),
-        (SINGLE_WAVE, ":", r"4: a single wave, $H \to \infty$"),
-    ):
-        axes.axhline(value, color="0.35", linewidth=1.0, linestyle=dashes, label=words)
+    limits: Any = {"color": "0.35", "linewidth": 1.0}
+    axes.axhline(math.pi, linestyle="-.", label=r"$\pi$ (eq. 4.54)", **limits)
+    axes.axhline(SINGLE_WAVE, linestyle=":", label=r"4: a single wave, $H \to \infty$", **limits)
     top = 1.4 * max(SINGLE_WAVE, float(shown["factor_high"].max()))
     words = r"factor $\lambda$ of $C_{\mathrm{1D}} = \lambda\, q\, C_{\mathrm{2D}}$"
     drawing.label(axes, "Hurst exponent H", words, ylim=(0, top))

@@ -31,11 +31,9 @@ SIZE = (6.2, 5.6)
 
 def studies(scale: Scale) -> Studies:
     """Return a study of lines at the Hurst exponents of figure 21, and that of its surfaces."""
+    table = {"hurst": Range(start=0.0, stop=1.0, step=0.2)}
     lines = line_study(
-        "lines-of-figure-30",
-        scale,
-        table={"hurst": Range(start=0.0, stop=1.0, step=0.2)},
-        parameters={"points": POINTS, "lowest_force": 7e-6, "highest_force": 70.0, "loads": 85},
+        "lines-of-figure-30", scale, table, points=POINTS, lowest_force=7e-6, highest_force=70.0, loads=85
     )
     return lines, full_contact_study(scale)
 
@@ -49,23 +47,18 @@ def averages(lines: xarray.Dataset, surfaces: xarray.Dataset) -> xarray.Dataset:
         matched = match(line, surface, HIGHEST)
         moved = np.interp(np.log(force / matched.ratio), np.log(line.force), np.log(line.mean()))
         found.append((np.exp(moved), matched.ratio, matched.ratio * matched.error, matched.window[0]))
-    columns = map(np.array, zip(*found, strict=True))
+    line_stiffness, ratio, error, lowest = map(np.array, zip(*found, strict=True))
     whole = curve_averages(surfaces)[["force", "stiffness", "stiffness_error"]]
     whole = whole.rename(stiffness="surface", stiffness_error="surface_error")
-    for (name, words), values in zip(
-        (
-            ("line", "stiffness of lines at matched forces"),
-            ("ratio", "force of surfaces over that of lines"),
-            ("ratio_error", "standard error of it"),
-            ("resolved", "lowest stiffness of the match"),
-        ),
-        columns,
-        strict=True,
+    for name, values, words in (
+        ("line", line_stiffness, "stiffness of lines at matched forces"),
+        ("ratio", ratio, "force of surfaces over that of lines"),
+        ("ratio_error", error, "standard error of it"),
+        ("resolved", lowest, "lowest stiffness of the match"),
     ):
         whole[name] = ("hurst", "load")[: values.ndim], values, {"long_name": words, "units": "1"}
-    return whole.assign_attrs(
-        samples=surfaces.sizes["sample"], lines=every.sizes["sample"], points=int(surfaces["points"])
-    )
+    sizes = {"samples": surfaces.sizes["sample"], "lines": every.sizes["sample"]}
+    return whole.assign_attrs(sizes | {"points": int(surfaces["points"])})
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

@@ -4,14 +4,8 @@ from __future__ import annotations
 
 import xarray
 
-from roughcontact.thesis.asperity_ensembles import (
-    asperity_averages,
-    draw_realisations as draw,
-    exponent_words,
-    law_exponent,
-    linear_model,
-    studies,
-)
+from roughcontact.thesis import asperity_ensembles
+from roughcontact.thesis.asperity_ensembles import draw_realisations as draw, studies
 from roughcontact.thesis.fig31_asperities_smooth import CHOSEN, SIZE
 from roughcontact.thesis.verdict import Verdict, Verdicts
 
@@ -23,7 +17,7 @@ HURST = 0.05
 
 def averages(asperities: xarray.Dataset) -> xarray.Dataset:
     """Return every realisation of this fractal dimension, with means and power laws."""
-    return asperity_averages(asperities.sel(hurst=[HURST])).isel(hurst=0)
+    return asperity_ensembles.asperity_averages(asperities.sel(hurst=[HURST])).isel(hurst=0)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
@@ -31,8 +25,8 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     exponent, error = float(averages["exponent"]), float(averages["exponent_error"])
     yield Verdict(
         "for D_f = 2.95 the slope of eq. 4.31 is too steep for interacting asperities",
-        f"slightly below 1/(4 - D_f) = {law_exponent(HURST):.4f}",
-        f"{exponent_words(averages)}, {averages.sizes['sample']} surfaces",
-        exponent + 2 * error < law_exponent(HURST),
+        f"slightly below 1/(4 - D_f) = {asperity_ensembles.law_exponent(HURST):.4f}",
+        f"{asperity_ensembles.exponent_words(averages)}, {averages.sizes['sample']} surfaces",
+        exponent + 2 * error < asperity_ensembles.law_exponent(HURST),
     )
-    yield linear_model(averages)
+    yield asperity_ensembles.linear_model(averages)

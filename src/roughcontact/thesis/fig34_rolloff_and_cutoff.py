@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.plot.ticks import TICK
 from roughcontact.thesis import drawing
 
 __all__ = ["Roughness", "case", "draw"]
@@ -44,17 +45,11 @@ class Roughness:
 def case(seed: int = SEED) -> tuple[Roughness, ...]:
     """Return the spectrum C1D [m^3] without a limit, with a plateau and with a cut, and a line of each."""
     grid = rc.Grid((POINTS,), (LENGTH / POINTS,), periodic=True)
-    scale = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid).scale
+    plain = rc.SelfAffineSpectrum(HURST, dimension=1).scaled(RMS * LENGTH, grid)
     limit = LIMIT * LENGTH
-    spectra = (
-        rc.SelfAffineSpectrum(HURST, dimension=1, scale=scale),
-        rc.SelfAffineSpectrum(HURST, rolloff=limit, dimension=1, scale=scale),
-        rc.SelfAffineSpectrum(HURST, long_cutoff=limit, dimension=1, scale=scale),
-    )
-    return tuple(
-        Roughness(name, spectrum, rc.synthesise(grid, spectrum, np.random.default_rng(seed)))
-        for name, spectrum in zip(_NAMES, spectra, strict=True)
-    )
+    spectra = plain, replace(plain, rolloff=limit), replace(plain, long_cutoff=limit)
+    lines = (rc.synthesise(grid, each, np.random.default_rng(seed)) for each in spectra)
+    return tuple(map(Roughness, _NAMES, spectra, lines))
 
 
 def draw(figure: Figure, data: tuple[Roughness, ...]) -> None:
@@ -95,7 +90,7 @@ def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
         top = base - 0.03
         base = top - float(heights.max())
         axes.plot(x, heights + base, color=colour, linewidth=0.9)
-        axes.text(0.0, top + 0.004, each.name, fontsize=drawing.TICK, color=colour, va="bottom")
+        axes.text(0.0, top + 0.004, each.name, fontsize=TICK, color=colour, va="bottom")
         base += float(heights.min())
     # The wavelength of the cut, below the line that has it.
     y = base - 0.02

@@ -39,9 +39,8 @@ def draw(figure: Figure, data: rc.Surface) -> None:
     axes: Any = figure.add_subplot(projection="3d")
     tall = SIZE[0] / SIZE[1]
     axes.set_position((0.0, 0.61 - tall / 2, 1.0, tall))
-    y, x = (
-        place - length / 2 for place, length in zip(data.grid.coordinates, data.grid.lengths, strict=True)
-    )
+    grid = data.grid
+    y, x = (place - length / 2 for place, length in zip(grid.coordinates, grid.lengths, strict=True))
     inside = np.hypot(*np.meshgrid(y, x, indexing="ij")) <= LENGTH / 2
-    surface_view(axes, rc.Surface(np.where(inside, data.heights, np.nan), data.grid), frame=False)
+    surface_view(axes, rc.Surface(np.where(inside, data.heights, np.nan), grid), frame=False)
     axes.set_box_aspect((1, 1, 0.3), zoom=1.15)

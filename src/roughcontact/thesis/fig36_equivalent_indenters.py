@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -31,8 +31,7 @@ CHOSEN = (
 SIZE = (7.2, 2.8)
 
 
-@dataclass(frozen=True, slots=True)
-class Indenters:
+class Indenters(NamedTuple):
     """The three bodies of revolution."""
 
     parabola: Profile
@@ -53,12 +52,8 @@ def draw(figure: Figure, data: Indenters) -> None:
     r = SHOWN * LENGTH * np.linspace(0, 1, 401) ** 2  # close to the tip, where the slope has no bound
     x = np.concatenate([-r[:0:-1], r])
     top = float(data.both.height(r[-1:])[0]) * 1.12
-    for axes, profile, name in zip(
-        panels,
-        (data.parabola, data.roughness, data.both),
-        ("(a)  $z_p = r^2/2R$", f"(b)  $z_s = Q\\,r^{{{HURST:g}}}$", "(c)  $z_c = z_p + z_s$"),
-        strict=True,
-    ):
+    names = "(a)  $z_p = r^2/2R$", f"(b)  $z_s = Q\\,r^{{{HURST:g}}}$", "(c)  $z_c = z_p + z_s$"
+    for axes, profile, name in zip(panels, data, names, strict=True):
         z = profile.height(np.abs(x))
         axes.fill_between(x, z, top, color="#cfe3f2", linewidth=0)
         axes.plot(x, z, color=drawing.COLOURS[0], linewidth=1.4)
@@ -71,10 +66,7 @@ def draw(figure: Figure, data: Indenters) -> None:
 
 def verdicts(data: Indenters) -> Verdicts:
     """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them."""
-    rough, both, smooth = (
-        indentation_curve(profile, 1.0, forces=FORCES * LENGTH**2)
-        for profile in (data.roughness, data.both, data.parabola)
-    )
+    smooth, rough, both = (indentation_curve(each, 1.0, forces=FORCES * LENGTH**2) for each in data)
     law = pohrt_popov.stiffness(rough.force, HURST, RMS, LENGTH, 1.0)
     force = rough_sphere.force(
         both.stiffness, radius=RADIUS, hurst=HURST, rms=RMS, length=LENGTH, modulus=1.0

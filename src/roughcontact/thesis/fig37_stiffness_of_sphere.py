@@ -8,6 +8,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.plot.ticks import TICK
 from roughcontact.theory import pohrt_popov, rough_sphere
 from roughcontact.theory.hertz import point
 from roughcontact.thesis import drawing
@@ -68,7 +69,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     crossing = float(rough_sphere.crossover_force(*_BODY.values()))
     axes.axvline(crossing, color="0.5", linewidth=0.9, zorder=1)
     words = rf"crossover, ${1e5 * crossing:.2f} \cdot 10^{{-5}}$"
-    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=drawing.TICK, color="0.3")
+    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=TICK, color="0.3")
     limits = {"xlim": (force[0] / 1.2, force[-1] * 1.2), "ylim": (3e-3, 0.6)}
     drawing.label(axes, r"force $F\,/\,(E^* L^2)$", drawing.STIFFNESS, **drawing.LOG, **limits)
     axes.legend(loc="upper left")

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["Deflection", "case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "deflection under a ring-shaped force, and its logarithmic approximation"
 REACH = 3.0  # r/a up to which it is drawn

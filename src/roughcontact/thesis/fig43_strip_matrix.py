@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis.matrix_view import matrix_view
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "matrix of deflections under pressures on strips, N = 40"
 STRIPS = 40

@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.plot.level import level
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "factor of the spectrum of a line for the rms height of a discrete surface, against H"
 HURST = np.linspace(0, 2, 81)
@@ -43,7 +42,7 @@ def draw(figure: Figure, data: Array) -> None:
         name = "limit" if modes is None else f"$N$ = {modes}"
         axes.plot(HURST, curve, color=colour, linewidth=1.8 if modes is None else 1.2, label=name)
     axes.plot(HURST, data[-1] / 2, ":", color="0.35", label="limit of eq. A.76 as printed")
-    drawing.level(axes, math.pi, r"$\pi$", ha="right")
+    level(axes, math.pi, r"$\pi$", ha="right")
     words = r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$"
     drawing.label(axes, "Hurst exponent $H$", words, xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)
@@ -56,10 +55,8 @@ def verdicts(data: Array) -> Verdicts:
     points = 129
     surface, own = rc.SelfAffineSpectrum(1.0), lambda_rms(1.0, (points - 1) // 2)
     variance = rc.grid_moments(rc.Grid((points, points), 1 / points), surface).m0
-    shares = [
-        rc.grid_moments(rc.Grid(points, 1 / points), line_spectrum(surface, factor)).m0 / variance
-        for factor in (own, own / 2)
-    ]
+    lines = (line_spectrum(surface, factor) for factor in (own, own / 2))
+    shares = [rc.grid_moments(rc.Grid(points, 1 / points), line).m0 / variance for line in lines]
     yield Verdict(
         "lambda approaches pi for H = 1 and many grid points, and for no other H",
         f"{math.pi:.4f} at H = 1",

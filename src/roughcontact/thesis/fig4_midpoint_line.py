@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis import drawing
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw"]
 
@@ -23,19 +23,13 @@ SIZE = (6.5, 4.6)
 
 _LINE, _MOVED = "#0072b2", "#d55e00"
 
-Array = npt.NDArray[np.float64]
-
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return the line after each stage, of 3, 5, 9 and 17 nodes; each holds the nodes of the one before."""
+    grids = (rc.Grid((2**stage + 1,), (LENGTH / 2**stage,)) for stage in range(1, STAGES + 1))
     return tuple(
-        rc.midpoint_line(
-            rc.Grid((2**stage + 1,), (LENGTH / 2**stage,)),
-            HURST,
-            np.random.default_rng(seed),
-            displacement=DISPLACEMENT,
-        )
-        for stage in range(1, STAGES + 1)
+        rc.midpoint_line(grid, HURST, np.random.default_rng(seed), displacement=DISPLACEMENT)
+        for grid in grids
     )
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.view import surface_view
 from roughcontact.thesis import drawing
+from roughcontact.validation import Array
 
 __all__ = ["case", "draw"]
 
@@ -27,7 +27,6 @@ CHOSEN = (
 )
 SIZE = (7.2, 5.0)
 
-Array = npt.NDArray[np.float64]
 
 # Of two squares a side: where the nodes of a half step lie.
 _HALVES = np.indices((5, 5)).reshape(2, -1)
@@ -37,14 +36,10 @@ _CENTRE, _EDGE, _DIAMOND, _NEXT = "#c8290b", "#0047b2", "#9ccbee", "#8fd08f"
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:
     """Return the surface after each of `LEVELS` levels; each holds the nodes of the one before."""
+    grids = (rc.Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2) for level in LEVELS)
     return tuple(
-        rc.midpoint_surface(
-            rc.Grid((2**level + 1,) * 2, (LENGTH / 2**level,) * 2),
-            HURST,
-            np.random.default_rng(seed),
-            displacement=RELATIVE * LENGTH,
-        )
-        for level in LEVELS
+        rc.midpoint_surface(grid, HURST, np.random.default_rng(seed), displacement=RELATIVE * LENGTH)
+        for grid in grids
     )
 
 

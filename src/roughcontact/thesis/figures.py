@@ -17,7 +17,7 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact.thesis
-from roughcontact.plot.raster import TICK
+from roughcontact.plot.ticks import TICK
 from roughcontact.study.study import Study
 from roughcontact.thesis.drawing import STYLE
 from roughcontact.thesis.verdict import Verdict
@@ -50,9 +50,8 @@ def _figures() -> dict[str, str]:
 
     The module ``fig27_exponent`` is the figure ``fig27``.
     """
-    found = filter(
-        None, (_FIGURE.fullmatch(m.name) for m in pkgutil.iter_modules(roughcontact.thesis.__path__))
-    )
+    names = (each.name for each in pkgutil.iter_modules(roughcontact.thesis.__path__))
+    found = filter(None, map(_FIGURE.fullmatch, names))
     ordered = sorted(found, key=lambda match: (int(match[2] or 1000), match[0]))
     return {match[1].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ __all__ = [
     "POINTS",
     "WINDOWED",
     "each_line",
+    "fits_beside_white",
     "line_averages",
     "line_fits",
     "line_studies",
@@ -43,36 +43,25 @@ WINDOWED = (
 
 def line_studies(scale: Scale) -> Studies:
     """Return the one study of rough lines: 27 Hurst exponents, three numbers of points, 1000 lines of each."""
-    return (line_study("lines", scale, table={"points": POINTS, "hurst": HURST}),)
+    return (line_study("lines", scale, {"points": POINTS, "hurst": HURST}),)
 
 
 def line_study(
-    name: str,
-    scale: Scale,
-    *,
-    table: Mapping[str, Range | Sequence[float]],
-    parameters: Mapping[str, float] | None = None,
-    lines: int = 1000,
+    name: str, scale: Scale, table: dict[str, Any], *, lines: int = 1000, **parameters: Any
 ) -> Study:
     """Return a study of rough lines: that many of every combination, on the small scale a fifth."""
     if scale == "small":
         name, lines = f"{name}-small", lines // 5
-    return Study(
-        name=name,
-        case="lines",
-        samples=lines // LINES,
-        parameters={"lines": LINES} | dict(parameters or {}),
-        table=dict[str, Any](table),
-    )
+    every = {"lines": LINES} | parameters
+    return Study(name=name, case="lines", samples=lines // LINES, parameters=every, table=table)
 
 
 def each_line(exported: xarray.Dataset) -> xarray.Dataset:
     """Return what a study of lines exports with every line as a sample, as the statistics of a study want it."""
     stacked = exported["dimensionless_stiffness"].stack(one=("sample", "line"))
     lines = stacked.drop_vars(["one", "sample", "line"]).rename(one="sample")
-    return xarray.Dataset(
-        {"dimensionless_force": exported["dimensionless_force"], "dimensionless_stiffness": lines}
-    )
+    force = exported["dimensionless_force"]
+    return xarray.Dataset({"dimensionless_force": force, "dimensionless_stiffness": lines})
 
 
 def line_averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -132,10 +121,15 @@ def white_exponent(force: xarray.DataArray, fits: xarray.Dataset) -> xarray.Data
         stiffness = gaussian_heights.stiffness(inside, 1.0, 1.0, 1.0)
         return float(np.polyfit(np.log(inside), np.log(stiffness), 1)[0])
 
-    found: xarray.DataArray = xarray.apply_ufunc(
-        fitted, fits["window_low"], fits["window_high"], vectorize=True
-    )
+    windows = fits["window_low"], fits["window_high"]
+    found: xarray.DataArray = xarray.apply_ufunc(fitted, *windows, vectorize=True)
     return found
+
+
+def fits_beside_white(exported: xarray.Dataset) -> xarray.Dataset:
+    """Return the exponents of lines with their windows, see `line_fits`, and `white_exponent` in these windows."""
+    fits = line_fits(exported)
+    return fits[list(WINDOWED)].assign(white=white_exponent(exported["dimensionless_force"], fits))
 
 
 def resolution_exponent(points: float) -> float:

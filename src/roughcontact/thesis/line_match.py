@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 
 from roughcontact.mdr.calibration import force_ratio
@@ -14,10 +13,9 @@ from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.thesis.averaging import converged
+from roughcontact.validation import Array
 
 __all__ = ["Ensemble", "Match", "match", "pairs"]
-
-Array = npt.NDArray[np.float64]
 
 _REPLICATES = 200
 
@@ -49,9 +47,15 @@ class Ensemble:
         samples = there.any(axis=1)
         return cls(curves["dimensionless_force"].to_numpy()[loads], stiffness[np.ix_(samples, loads)], cell)
 
-    def mean(self, counts: Array | None = None) -> Array:
-        """Return the mean curve, or that of samples drawn again."""
-        return mean_over_samples(self.stiffness, counts=counts)
+    def mean(self) -> Array:
+        """Return the mean curve."""
+        return mean_over_samples(self.stiffness)
+
+    def resampled(self, rng: np.random.Generator) -> Array:
+        """Return mean curves of samples drawn again, shape (replicates, loads)."""
+        every = np.ones(len(self.stiffness), bool)
+        drawn = rng.random((_REPLICATES, every.size))
+        return mean_over_samples(self.stiffness, counts=counts_of(drawn, every))
 
 
 def pairs(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Iterator[tuple[float, Ensemble, Ensemble]]:
@@ -68,11 +72,8 @@ def pairs(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Iterator[tuple[flo
     cell = float((surfaces["cell_stiffness"] / (surfaces["modulus"] * surfaces["size"])).mean())
     for hurst in surfaces["hurst"].to_numpy():
         line = lines.sel(hurst=hurst, method="nearest", tolerance=1e-9)
-        yield (
-            float(hurst),
-            Ensemble.of(line, 1 / int(lines["points"])),
-            Ensemble.of(curves.sel(hurst=hurst), cell),
-        )
+        both = Ensemble.of(line, 1 / int(lines["points"])), Ensemble.of(curves.sel(hurst=hurst), cell)
+        yield float(hurst), *both
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,17 +112,11 @@ def match(lines: Ensemble, surfaces: Ensemble, highest: float, *, seed: int = 0)
 
     found, window = matched(lines.mean(), surfaces.mean())
     rng = np.random.default_rng(seed)
-    drawn = (
-        each.mean(
-            counts_of(rng.random((_REPLICATES, len(each.stiffness))), np.ones(len(each.stiffness), bool))
-        )
-        for each in (lines, surfaces)
-    )
+    drawn = (each.resampled(rng) for each in (lines, surfaces))
     # With the whole rule: of other samples the window is another.
     again = [matched(line, surface)[0] for line, surface in zip(*drawn, strict=True)]
-    return Match(
-        found, float(np.std(np.log(again), ddof=1)), window, _mismatch(lines, surfaces, found, window)
-    )
+    error = float(np.std(np.log(again), ddof=1))
+    return Match(found, error, window, _mismatch(lines, surfaces, found, window))
 
 
 def _at(force: float, forces: Array, stiffness: Array) -> float:

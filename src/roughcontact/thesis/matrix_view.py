@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 from roughcontact.thesis import drawing
+from roughcontact.validation import Array
 
 __all__ = ["matrix_view"]
-
-Array = npt.NDArray[np.float64]
 
 
 def matrix_view(figure: Figure, matrix: Array, columns: Sequence[int], part: str) -> None:

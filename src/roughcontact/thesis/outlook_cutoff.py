@@ -10,16 +10,15 @@ import xarray
 from matplotlib.figure import Figure
 from scipy.special import erf
 
-import roughcontact as rc
+from roughcontact.plot.level import level
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import CELLS
-from roughcontact.study.study import Study
 from roughcontact.theory import persson
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, plus_minus
 
-__all__ = ["averages", "cutoff_study", "draw", "studies", "verdicts"]
+__all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "contact area and stiffness with ever shorter waves, on ever finer grids"
 HURST = (0.0, 0.2, 0.4, 0.7)
@@ -35,28 +34,24 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 11
-_SIZES = {"small": (64, 128, 256), "thesis": (128, 256, 512)}
-_SAMPLES = {"small": 12, "thesis": 20}
 
 
 def studies(scale: Scale) -> Studies:
-    """Return the one study, of every shortest wave on every grid that has four cells for it."""
-    return (cutoff_study(scale),)
+    """Return the one study, of every shortest wave on every grid that has four cells for it.
 
-
-def cutoff_study(scale: Scale) -> Study:
-    """Return the study, which outlook-scale shares; its last row is the finest grid with all waves."""
-    sizes = _SIZES[scale]
+    Its last row is the finest grid with all waves. The figure outlook-scale shares it.
+    """
+    sizes, samples = {"small": ((64, 128, 256), 12), "thesis": ((128, 256, 512), 20)}[scale]
     waves = [8 * 2**i for i in range(5)]
     pairs = [(points, count) for points in sizes for count in waves if points >= LEAST * count]
     forces = {"lowest_force": 1e-3, "highest_force": 0.3, "loads": 16, "tolerance": 1e-6}
-    return averaging.outlook_study(
+    return averaging.outlook_studies(
         "cutoff",
         scale,
         {"drawn_on": sizes[-1]} | forces,
         case="refined",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"hurst": HURST},
         rows=[{"points": points, "short_cutoff": 1 / count} for points, count in pairs],
     )
@@ -73,7 +68,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``persson`` his A/L^2; ``cell_stiffness`` k/(E* L) of a cell. NaN where a wave has too few cells.
     """
     given = averaging.converged(exported)
-    whole = _whole(given)
+    heights = averaging.rms_heights(int(given["drawn_on"]), given["hurst"], given["short_cutoff"])
+    whole = heights / heights.isel(row=-1)
     # Higher waves on the same body: a surface of any amplitude has the same contact at a force in proportion.
     curves = given[["stiffness"]].assign(
         force=given["dimensionless_force"] * whole,
@@ -82,41 +78,17 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     )
     common = on_common(curves, FORCES, at="force")
     changes = {f"{name}_change": common[name] / common[name].isel(row=-1) for name in ("stiffness", "area")}
-    found = averaging.means({name: common[name] for name in ("stiffness", "area", "spread")} | changes)
+    found = averaging.means(**{name: common[name] for name in ("stiffness", "area", "spread")}, **changes)
     slope = averaging.same_for_all(given["rms_slope"]) * whole
     found["slope"] = slope.assign_attrs(long_name="rms slope", units="1")
     found["cell_stiffness"] = averaging.same_for_all(given["cell_stiffness"])
-    found["persson"] = _persson(found["force"] * float(given["rms"].mean()), slope)
-    waves = (1 / given["short_cutoff"]).round().astype(int)
-    indexed = (
-        averaging.without_parameters(found)
-        .drop_vars("short_cutoff")
-        .assign_coords(waves=("row", waves.values))
-    )
-    rows = indexed.set_index(row=["points", "waves"])
-    return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])
-
-
-def _whole(exported: xarray.Dataset) -> xarray.DataArray:
-    """Return the rms height of every row over that with all waves, of one spectrum."""
-    points = int(exported["drawn_on"])
-    grid = rc.Grid((points, points), 1 / points)
-
-    def height(hurst: float, shortest: float) -> float:
-        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
-
-    rows = [
-        [height(hurst, shortest) for hurst in exported["hurst"].values]
-        for shortest in exported["short_cutoff"].values
-    ]
-    heights = xarray.DataArray(rows, dims=("row", "hurst"))
-    return heights / heights.isel(row=-1)
-
-
-def _persson(pressure: xarray.DataArray, slope: xarray.DataArray) -> xarray.DataArray:
     # persson.contact_fraction for many slopes at once.
-    fraction: xarray.DataArray = xarray.apply_ufunc(erf, np.sqrt(2) * pressure / slope)
-    return fraction
+    pressure = found["force"] * float(given["rms"].mean())
+    found["persson"] = xarray.apply_ufunc(erf, np.sqrt(2) * pressure / slope)
+    waves = (1 / given["short_cutoff"]).round().astype(int)
+    rows = averaging.without_parameters(found).drop_vars("short_cutoff")
+    rows = rows.assign_coords(waves=("row", waves.values)).set_index(row=["points", "waves"])
+    return rows.unstack("row").assign_attrs(surfaces=exported.sizes["sample"])
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:
@@ -127,7 +99,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.family(area, shown, "waves", {"area": "-", "persson": ":"}, "L/{}")
     drawing.key(area, ":", "Persson")
     drawing.family(stiffness, shown, "waves", {"stiffness": "-"}, "L/{}")
-    drawing.level(stiffness, CELLS * float(shown["cell_stiffness"].max()))
+    level(stiffness, CELLS * float(shown["cell_stiffness"].max()))
     for axes, name in ((area, r"contact area $A\,/\,L^2$"), (stiffness, drawing.STIFFNESS)):
         drawing.label(axes, drawing.FORCE, f"{name}, H = {SHOWN:g}", **drawing.LOG)
         axes.legend(title="shortest wave")
@@ -138,9 +110,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     for style, words in (("o-", "stiffness"), ("s--", "area")):
         drawing.key(changes, style, words)
     drawing.named_ticks(changes, fine["waves"].values, "L/{}")
-    drawing.label(
-        changes, "shortest wave", f"over that with all waves, at a force of {FORCE:g}", yscale="log"
-    )
+    words = f"over that with all waves, at a force of {FORCE:g}"
+    drawing.label(changes, "shortest wave", words, yscale="log")
     changes.legend()
     for axes in (stiffness, changes):
         drawing.readable(axes)

@@ -30,25 +30,22 @@ CHOSEN = (
 SIZE = (8.8, 7.2)
 SEED = 13
 ROUNDING = 1e-3  # of the work: what cubics through a staircase of the stiffness may miss
-_POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = {"small": 6, "thesis": 24}
 _STYLES = ((ROLLOFF[0], "-", ""), (ROLLOFF[1], "--", f", roll-off at L/{1 / ROLLOFF[1]:g}"))
 
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: free and periodic, with and without a roll-off."""
-    points = _POINTS[scale]
+    points, samples = {"small": (128, 6), "thesis": (256, 24)}[scale]
     forces = {"lowest_force": LOADS[0], "highest_force": LOADS[1], "loads": 41, "tolerance": 1e-8}
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "energy",
         scale,
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="curve",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"periodic": (False, True), "rolloff": ROLLOFF},
     )
-    return (study,)
 
 
 def work(force: xarray.DataArray, way: xarray.DataArray, stiffness: xarray.DataArray) -> xarray.DataArray:
@@ -93,17 +90,15 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     whole = _grown(energy).sum("interval")
     height = float(exported["rms"].mean())
     found = averaging.means(
-        {
-            "length": energy / force / height,
-            "interfacial_length": interfacial / force / height,
-            "area_length": energy / given["contact_area"] / height,
-            "area": given["contact_area"],
-            "by_approach": _grown(energy) / approaching,
-            "by_gap": _grown(energy) / closing,
-            "by_gap_interfacial": _grown(interfacial) / closing,
-            "whole_by_approach": whole / approaching.sum("interval"),
-            "whole_by_gap": whole / closing.sum("interval"),
-        }
+        length=energy / force / height,
+        interfacial_length=interfacial / force / height,
+        area_length=energy / given["contact_area"] / height,
+        area=given["contact_area"],
+        by_approach=_grown(energy) / approaching,
+        by_gap=_grown(energy) / closing,
+        by_gap_interfacial=_grown(interfacial) / closing,
+        whole_by_approach=whole / approaching.sum("interval"),
+        whole_by_gap=whole / closing.sum("interval"),
     )
     loads = given["dimensionless_force"]
     found["force"] = loads
@@ -144,13 +139,8 @@ def _forces(axes: Axes, averages: xarray.Dataset) -> None:
         ("by_approach", "black", r"$dU/dd$, eq. 3.17"),
     ):
         for rolloff, style, also in _STYLES:
-            axes.plot(
-                averages["between"],
-                averages[name].sel(rolloff=rolloff),
-                style,
-                color=colour,
-                label=None if also else words,
-            )
+            force, label = averages[name].sel(rolloff=rolloff), None if also else words
+            axes.plot(averages["between"], force, style, color=colour, label=label)
     drawing.key(axes, "--", f"with roll-off at L/{1 / ROLLOFF[1]:g}")
     drawing.label(axes, drawing.FORCE, "force from the energy over the force", xscale="log")
     axes.legend(loc="upper left")

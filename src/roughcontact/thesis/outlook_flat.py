@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -18,14 +17,13 @@ import roughcontact as rc
 from roughcontact.theory import pohrt_popov
 from roughcontact.theory.interaction import SQUARE
 from roughcontact.thesis import averaging, drawing
-from roughcontact.thesis.averaging import RMS, logarithm
+from roughcontact.thesis.averaging import RMS, exponential, logarithm
 from roughcontact.thesis.cell_law import cells_stiffness, exponential_rate, single_cell_stiffness
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, judged, listed, spanned
+from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "nominally flat surfaces, finite and periodic, beside theories and the law of their cells' maxima"
 HURST = 0.8
@@ -45,8 +43,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 15
-_POINTS = {"small": 128, "thesis": 512}
-_SAMPLES = {"small": 16, "thesis": 10}
 _THEORIES = ("persson", "gw")
 _SHOWN = 8  # L over the longest wave, of the surface beside all laws
 _COLOURS = {1: "black", 2: "#0072b2", 4: "#009e73", 8: "#e69f00", 16: "#d55e00"}  # by L over the longest wave
@@ -56,19 +52,18 @@ _BODIES = ((True, "o", "black"), (False, "s", "0.55"))  # periodic, free
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the cut-offs, then the roll-offs; each free and periodic."""
-    points = _POINTS[scale]
+    points, samples = {"small": (128, 16), "thesis": (512, 10)}[scale]
     forces = {"lowest_force": 1e-3, "highest_force": 3.0, "loads": 17, "tolerance": 1e-6}
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "flat",
         scale,
         {"points": points, "hurst": HURST, "short_cutoff": 4 / points} | forces,
         case="cells",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"periodic": (False, True)},
         rows=[*({"long_cutoff": 1 / each} for each in CUTOFF), *({"rolloff": 1 / each} for each in ROLLOFF)],
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -89,29 +84,22 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     interfacial, area = given["interfacial_stiffness"], given["contact_area"]
     cutoff, rolloff = given["long_cutoff"], given["rolloff"]
     length = cutoff.fillna(rolloff)
-    model = _of_cells(given["below"].isel(periodic=1, drop=True) / RMS, length, force)
-    cells, decay = model["cells"], model["decay"]
+    cells, decay = _of_cells(given["below"].isel(periodic=1, drop=True) / RMS, length, force)
     floor = 20 * averaging.same_for_all(given["cell_stiffness"])
     window = (force >= MANY * length) & (area.mean("sample") <= FULL) & (interfacial.mean("sample") > floor)
     held = interfacial.where(window)
     alone = xarray.apply_ufunc(single_cell_stiffness, length, force, HURST)
     nearest = abs(logarithm(force / length / pohrt_popov.FORCE_LIMIT)).argmin("load")
-
-    def typical(ratio: xarray.DataArray) -> xarray.DataArray:
-        return averaging.exponential(logarithm(ratio).mean("load"))
-
     found = averaging.means(
-        {
-            "stiffness": given["stiffness"],
-            "interfacial": interfacial,
-            "area": area,
-            "cells": cells,
-            "decay": decay,
-            "exponent": averaging.slope(logarithm(held), logarithm(force), "load"),
-            "level": typical(held / force),
-            "over_decay": typical(held / force / decay),
-            "alone": (given["stiffness"] / alone).isel(load=nearest),
-        }
+        stiffness=given["stiffness"],
+        interfacial=interfacial,
+        area=area,
+        cells=cells,
+        decay=decay,
+        exponent=averaging.slope(logarithm(held), logarithm(force), "load"),
+        level=exponential(logarithm(held / force).mean("load")),
+        over_decay=exponential(logarithm(held / force / decay).mean("load")),
+        alone=(given["stiffness"] / alone).isel(load=nearest),
     )
     for name, values in _theories(exported, force.values).items():
         found[name] = ("row", "load"), values
@@ -122,7 +110,9 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     return found.drop_vars(["long_cutoff", "rolloff"]).assign_attrs(told)
 
 
-def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray) -> xarray.Dataset:
+def _of_cells(
+    below: xarray.DataArray, length: xarray.DataArray, force: xarray.DataArray
+) -> tuple[xarray.DataArray, xarray.DataArray]:
     """Return the stiffness of the sum over cells at every load, and lambda h of their tops, of every row and sample."""
 
     def model(values: Array, side: float, forces: Array) -> tuple[Array, float]:
@@ -131,16 +121,12 @@ def _of_cells(below: xarray.DataArray, length: xarray.DataArray, force: xarray.D
             return np.full(forces.shape, np.nan), np.nan
         return cells_stiffness(tops, side, forces, HURST), exponential_rate(tops)
 
+    read: list[list[str]] = [["cell"], [], ["load"]]
+    found: list[list[str]] = [["load"], []]
     cells, decay = xarray.apply_ufunc(
-        model,
-        below,
-        length,
-        force,
-        input_core_dims=[["cell"], [], ["load"]],
-        output_core_dims=[["load"], []],
-        vectorize=True,
+        model, below, length, force, input_core_dims=read, output_core_dims=found, vectorize=True
     )
-    return xarray.Dataset({"cells": cells, "decay": decay})
+    return cells, decay
 
 
 def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
@@ -150,19 +136,10 @@ def _theories(exported: xarray.Dataset, force: Any) -> dict[str, Any]:
     shape = (exported.sizes["row"], len(force))
     found = {name: np.empty(shape) for each in _THEORIES for name in (each, f"{each}_area")}
     for row in range(shape[0]):
-        longest = {
-            name: float(value)
-            for name in ("long_cutoff", "rolloff")
-            if np.isfinite(value := exported[name].values[row])
-        }
-        surface = rc.self_affine(
-            grid,
-            HURST,
-            RMS,
-            np.random.default_rng(0),
-            short_cutoff=float(exported["short_cutoff"]),
-            **longest,  # type: ignore[arg-type]
-        )
+        ends: dict[str, Any] = {"short_cutoff": exported["short_cutoff"].item()}
+        ends |= {name: exported[name].values[row] for name in ("long_cutoff", "rolloff")}
+        limits = {name: each for name, each in ends.items() if np.isfinite(each)}
+        surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(0), **limits)
         for name, law in zip(_THEORIES, rc.loading_laws(surface, 1.0, _THEORIES), strict=True):
             found[name][row] = law.predict("interfacial_stiffness", force * RMS)
             found[f"{name}_area"][row] = law.predict("contact_area", force * RMS)
@@ -180,9 +157,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     one = one.isel(row=int(np.flatnonzero(one["long"] == _SHOWN)[0]))
     body = one["persson"] / (1 + SQUARE * one["persson"])
     # Over the force: a linear law is level.
-    for (periodic, mark, colour), name, words in zip(
-        _BODIES, ("interfacial", "stiffness"), ("periodic", "free, k"), strict=True
-    ):
+    names = (("interfacial", "periodic"), ("stiffness", "free, k"))
+    for (periodic, mark, colour), (name, words) in zip(_BODIES, names, strict=True):
         _over_force(third, one.sel(periodic=periodic), name, fmt=mark, color=colour, label=words)
     for words, values, colour, style in (
         ("Persson", one["persson"], _PERSSON, "-"),

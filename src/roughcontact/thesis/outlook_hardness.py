@@ -33,8 +33,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 12
-_POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = 10
 _CELLS = 4  # a shortest wave
 _COLOURS = ("black", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00")
 _AREA = "#c8290b"
@@ -43,7 +41,7 @@ _NAMES = ("stiffness", "region_stiffness", "area")
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: its rows are the ceilings with all waves, then the waves without and with a ceiling."""
-    points = _POINTS[scale]
+    points = {"small": 128, "thesis": 256}[scale]
     last = points // _CELLS
     rows: list[dict[str, Any]] = [{"short_cutoff": 1 / last}]
     rows += [{"short_cutoff": 1 / last, "relative_hardness": each} for each in CEILINGS]
@@ -56,10 +54,9 @@ def studies(scale: Scale) -> Studies:
         rows.append({"short_cutoff": 1 / each, "relative_hardness": GIVEN * slope / part.rms_slope})
     depths = {"lowest_depth": 0.2, "highest_depth": 2.8, "loads": 16}
     parameters = {"points": points, "hurst": HURST} | depths
-    study = averaging.outlook_study(
-        "hardness", scale, parameters, case="yielding", seed=SEED, samples=_SAMPLES, rows=rows
+    return averaging.outlook_studies(
+        "hardness", scale, parameters, case="yielding", seed=SEED, samples=10, rows=rows
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -76,20 +73,15 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         stiffness of the region and area grow from the fewest waves to all. ``slope`` along ``waves``.
     """
     given = averaging.converged(exported)
-    points = int(given["points"])
-    heights = {each: _moments(points, each).rms_height for each in np.unique(given["short_cutoff"].values)}
-    whole = given["short_cutoff"].copy(data=[heights[each] for each in given["short_cutoff"].values])
-    whole = whole / whole.isel(row=0)
+    heights = averaging.rms_heights(int(given["points"]), given["hurst"], given["short_cutoff"])
+    whole = heights / heights.isel(row=0)
     scale = float(given["modulus"] * given["size"])
-    curves = xarray.Dataset(
-        {
-            # Higher waves on the same body: contact and stiffness are the same at a force in proportion.
-            "force": given["dimensionless_force"] * whole,
-            "stiffness": given["stiffness"] / scale,
-            "region_stiffness": given["region_stiffness"] / scale,
-            "area": given["contact_area"],
-            "yielded": given["yielded"],
-        }
+    # Higher waves on the same body: contact and stiffness are the same at a force in proportion.
+    curves = given[["yielded"]].assign(
+        force=given["dimensionless_force"] * whole,
+        stiffness=given["stiffness"] / scale,
+        region_stiffness=given["region_stiffness"] / scale,
+        area=given["contact_area"],
     )
     common = on_common(curves.drop_vars(["short_cutoff", "relative_hardness"]), FORCES, at="force")
     values = {name: common[name] for name in (*_NAMES, "yielded")}
@@ -99,15 +91,13 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         for name in ("region_stiffness", "area"):
             first, last = (common[name].isel(row=rows[i], drop=True) for i in (0, -1))
             values[f"{kind}_{name}_grown"] = last / first - 1
-    every = averaging.without_parameters(averaging.means(values))
+    every = averaging.without_parameters(averaging.means(**values))
     ceilings = [np.inf, *CEILINGS]
     found = every.isel(row=slice(0, len(ceilings))).rename(row="ceiling").assign_coords(ceiling=ceilings)
     waves = (1 / given["short_cutoff"].values).round().astype(int)
     along_rows = every[[name for name, each in every.data_vars.items() if "row" in each.dims]]
-    along = xarray.concat(
-        [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)], "kind"
-    )
-    along = along.assign_coords(waves=waves[elastic], kind=["elastic", "ceiling"])
+    kinds = [along_rows.isel(row=rows).drop_vars("row").rename(row="waves") for rows in (elastic, hard)]
+    along = xarray.concat(kinds, "kind").assign_coords(waves=waves[elastic], kind=["elastic", "ceiling"])
     slope = (averaging.same_for_all(given["rms_slope"]) * whole).values[elastic]
     found = found.assign({f"waves_{name}": each for name, each in along.data_vars.items()})
     found["slope"] = "waves", slope, {"long_name": "rms slope", "units": "1"}

@@ -10,11 +10,9 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-import roughcontact as rc
 from roughcontact.thesis import averaging, drawing
-from roughcontact.thesis.averaging import logarithm
-from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.outlook_cutoff import cutoff_study
+from roughcontact.thesis.averaging import exponential, logarithm
+from roughcontact.thesis.outlook_cutoff import studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, plus_minus
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -32,11 +30,6 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SHOWN = (0.0, 0.7)
-
-
-def studies(scale: Scale) -> Studies:
-    """Return the study of outlook-cutoff."""
-    return (cutoff_study(scale),)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -61,18 +54,20 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     inside = np.flatnonzero((loads >= WINDOW[0]) & (loads <= WINDOW[1]))
     log_zeta = logarithm(zeta)
     mean_log = log_zeta.isel(load=inside).mean("load")
-    octave = mean_log + logarithm(_octave(exported)) / (hurst + 1)
+    # The rms height of the longest octave over that of all waves, which is 1 on the largest size.
+    points, octave_alone = int(exported["drawn_on"]), xarray.DataArray(OCTAVE)
+    every, first = (averaging.rms_heights(points, hurst, each) for each in (1 / waves, octave_alone))
+    share = first / every
+    octave = mean_log + logarithm(share / share.isel(waves=-1)) / (hurst + 1)
     sizes, forces = logarithm(waves), logarithm(loads.isel(load=inside))
     found = averaging.means(
-        {
-            "zeta_at": zeta,
-            "same_force": _at_one_force(log_zeta, logarithm(loads)),
-            "zeta": averaging.exponential(mean_log),
-            "zeta_octave": averaging.exponential(octave),
-            "growth": averaging.slope(mean_log, sizes, "waves"),
-            "growth_octave": averaging.slope(octave, sizes, "waves"),
-            "steepness": averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
-        }
+        zeta_at=zeta,
+        same_force=_at_one_force(log_zeta, logarithm(loads)),
+        zeta=exponential(mean_log),
+        zeta_octave=exponential(octave),
+        growth=averaging.slope(mean_log, sizes, "waves"),
+        growth_octave=averaging.slope(octave, sizes, "waves"),
+        steepness=averaging.slope(log_zeta.isel(load=inside, waves=-1, drop=True), forces, "load"),
     )
     found["force"] = loads * waves.astype(float) ** (hurst + 1)
     found["dimensionless_force"] = loads
@@ -89,21 +84,6 @@ def _at_one_force(log_zeta: xarray.DataArray, log_loads: xarray.DataArray) -> xa
         np.interp, place, log_loads, log_zeta, input_core_dims=dims, vectorize=True
     )
     return found - found.isel(waves=0, drop=True)
-
-
-def _octave(exported: xarray.Dataset) -> xarray.DataArray:
-    """Return the rms height of the longest octave over that of all waves, that of the last row being 1."""
-    points = int(exported["drawn_on"])
-    grid = rc.Grid((points, points), 1 / points)
-
-    def height(hurst: float, shortest: float) -> float:
-        return rc.grid_moments(grid, rc.SelfAffineSpectrum(hurst, short_cutoff=shortest)).rms_height
-
-    waves = np.unique((1 / exported["short_cutoff"].values).round().astype(int))
-    every = exported["hurst"].values
-    rows = [[height(hurst, OCTAVE) / height(hurst, 1 / each) for each in waves] for hurst in every]
-    found = xarray.DataArray(rows, {"hurst": every, "waves": waves}, ("hurst", "waves"))
-    return found / found.isel(waves=-1)
 
 
 def draw(figure: Figure, averages: xarray.Dataset) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import xarray
 from matplotlib.figure import Figure
 from scipy.interpolate import CubicHermiteSpline
@@ -15,10 +14,9 @@ from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.averaging import RMS
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, spanned
+from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
-
-Array = npt.NDArray[np.float64]
 
 TITLE = "tangential stiffness of rough contacts, and how far they move before they slide"
 HURST = (0.4, 0.7, 1.0)
@@ -36,23 +34,21 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 14
-_POINTS = {"small": 128, "thesis": 256}
-_SAMPLES = {"small": 10, "thesis": 20}
 
 
 def studies(scale: Scale) -> Studies:
     """Return the one study: three Hurst exponents, three Poisson's ratios."""
+    points, samples = {"small": (128, 10), "thesis": (256, 20)}[scale]
     forces = {"lowest_force": 3e-3, "highest_force": 0.3, "loads": 9, "pulls": 10}
-    study = averaging.outlook_study(
+    return averaging.outlook_studies(
         "tangential",
         scale,
-        {"points": _POINTS[scale], "friction": FRICTION} | forces,
+        {"points": points, "friction": FRICTION} | forces,
         case="slip",
         seed=SEED,
-        samples=_SAMPLES[scale],
+        samples=samples,
         table={"hurst": HURST, "poisson_ratio": POISSON},
     )
-    return (study,)
 
 
 def averages(exported: xarray.Dataset) -> xarray.Dataset:
@@ -74,16 +70,14 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     moved = given["tangential_displacement"] / (FRICTION * disc * depth)
     principal = given["principal_stiffness"]
     found = averaging.means(
-        {
-            "ratio": given["stiffness"] / given["tangential_stiffness"] / disc,
-            "axes": principal.isel(principal=1) / principal.isel(principal=0),
-            "stiffness": given["dimensionless_stiffness"],
-            "tangential": given["tangential_stiffness"],
-            "slip": given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
-            "slip_by_depth": moved.isel(pull=-1),
-            "path": moved,
-            "path_by_depth": _by_depth(given),
-        }
+        ratio=given["stiffness"] / given["tangential_stiffness"] / disc,
+        axes=principal.isel(principal=1) / principal.isel(principal=0),
+        stiffness=given["dimensionless_stiffness"],
+        tangential=given["tangential_stiffness"],
+        slip=given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
+        slip_by_depth=moved.isel(pull=-1),
+        path=moved,
+        path_by_depth=_by_depth(given),
     )
     shape = ("hurst", "poisson_ratio", "load")
     for name, values in _laws(given["hurst"].values, disc.values, force.values).items():
@@ -100,21 +94,14 @@ def _by_depth(given: xarray.Dataset) -> xarray.DataArray:
     """
 
     def gained(depth: Array, stiffness: Array, force: Array, pulled: Array) -> Array:
-        curve = CubicHermiteSpline(
-            np.log(force), np.log(depth), force / (stiffness * depth), extrapolate=False
-        )
+        slope = force / (stiffness * depth)
+        curve = CubicHermiteSpline(np.log(force), np.log(depth), slope, extrapolate=False)
         held = np.where(pulled < 1, force[:, None] * (1 - pulled), np.nan)
         return np.where(pulled < 1, 1 - np.exp(curve(np.log(held))) / depth[:, None], 1.0)
 
-    curves = [given[name] for name in ("depth", "stiffness", "force")]
-    path: xarray.DataArray = xarray.apply_ufunc(
-        gained,
-        *curves,
-        given["pulled"],
-        input_core_dims=[["load"], ["load"], ["load"], ["pull"]],
-        output_core_dims=[["load", "pull"]],
-        vectorize=True,
-    )
+    along: Any = {"input_core_dims": [*[["load"]] * 3, ["pull"]], "output_core_dims": [["load", "pull"]]}
+    curves = [given[name] for name in ("depth", "stiffness", "force", "pulled")]
+    path: xarray.DataArray = xarray.apply_ufunc(gained, *curves, vectorize=True, **along)
     return path
 
 
@@ -144,14 +131,11 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.family(first, bare, "poisson_ratio", ratios, r"$\nu$ = {:g}", markersize=3.5)
     drawing.key(first, "--", "larger over smaller axis of $k_t$")
     drawing.label(first, drawing.FORCE, rf"$(k/k_t)\,/\,C_m$, H = {SHOWN:g}", xscale="log", ylim=(0.96, 1.25))
+    sticking = {"by_7_5": "eqs 7.5 and 4.74"}
+    sliding = {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"}
     for axes, name, laws, words in (
-        (second, "tangential", {"by_7_5": "eqs 7.5 and 4.74"}, r"tangential stiffness $k_t\,/\,(E^* L)$"),
-        (
-            third,
-            "slip",
-            {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"},
-            r"largest displacement $u_{max}\,/\,(\mu h)$",
-        ),
+        (second, "tangential", sticking, r"tangential stiffness $k_t\,/\,(E^* L)$"),
+        (third, "slip", sliding, r"largest displacement $u_{max}\,/\,(\mu h)$"),
     ):
         styles = dict(zip(laws, ("-", "--"), strict=False))
         drawing.family(axes, middle, "hurst", {name: "o"} | styles, "H = {:g}", markersize=3.5)
@@ -196,10 +180,9 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     path = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
 
     def by_law(claim: str, thesis: str, law: str) -> Verdict:
-        spread = (
-            f"{spanned(off[law].sel(hurst=h), '+.0%')} from it at H = {h:g}" for h in off[law]["hurst"].values
-        )
-        return Verdict(claim, thesis, f"{', '.join(spread)}; {told}", judged(off[law], errors[law], 0.15))
+        each = ((spanned(off[law].sel(hurst=h), "+.0%"), h) for h in off[law]["hurst"].values)
+        found = ", ".join(f"{spread} from it at H = {h:g}" for spread, h in each)
+        return Verdict(claim, thesis, f"{found}; {told}", judged(off[law], errors[law], 0.15))
 
     yield Verdict(
         "k/k_t = C_m = (2 - nu)/(2(1 - nu)) on rough surfaces (eqs 4.5 and 7.4)",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import xarray
 
@@ -69,14 +70,9 @@ def _exports(studies: Studies, folder: str | os.PathLike[str]) -> Iterator[xarra
             yield export(store, seconds=True)
 
 
-def _origin(exports: tuple[xarray.Dataset, ...]) -> dict[str, list[str] | list[int] | list[float]]:
+def _origin(exports: tuple[xarray.Dataset, ...]) -> dict[str, Any]:
     """Return what was averaged, see `averages_of`."""
-    counts = {
-        f"cases_{status}": [int((each["case_status"] == status).sum()) for each in exports]
-        for status in ("done", "failed", "missing")
-    }
-    return {
-        "studies": [each.attrs["study"] for each in exports],
-        **counts,
-        "cases_seconds": [float(each["case_seconds"].sum()) for each in exports],
-    }
+    origin: dict[str, Any] = {"studies": [each.attrs["study"] for each in exports]}
+    for status in ("done", "failed", "missing"):
+        origin[f"cases_{status}"] = [int((each["case_status"] == status).sum()) for each in exports]
+    return origin | {"cases_seconds": [float(each["case_seconds"].sum()) for each in exports]}

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 import roughcontact as rc
 from roughcontact.theory.stepped import SteppedIndenter
 
 __all__ = ["INDENTER", "MODULUS", "RINGS", "full_steps", "stepped_body"]
-
-Array = npt.NDArray[np.float64]
 
 INDENTER = SteppedIndenter(radius=1.0, height=1.0, ratio=2.0, hurst=0.5)
 """C and H as the thesis states them; lengths in units of r0, heights in units of h0."""
