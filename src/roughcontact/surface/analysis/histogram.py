@@ -8,11 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["HeightHistogram", "height_histogram"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,8 +59,7 @@ class HeightHistogram:
         ValueError
             If all heights are equal.
         """
-        if self.rms == 0:
-            raise ValueError("all heights are equal: there is no normal distribution of rms 0")
+        require(self.rms != 0, "all heights are equal: there is no normal distribution of rms 0")
         z = np.asarray(height, dtype=np.float64) / self.rms
         return np.asarray(np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * self.rms))
 

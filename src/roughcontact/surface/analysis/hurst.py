@@ -15,11 +15,10 @@ from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
-Array = npt.NDArray[np.float64]
 # Bins narrow enough that a law as steep as q^-8 is straight in each to 1e-3.
 FINE = 200.0
 

@@ -9,7 +9,6 @@ from functools import cache
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import ndtr
 
 from roughcontact.surface.analysis.power import PowerSpectrum
@@ -17,7 +16,6 @@ from roughcontact.surface.analysis.whittle import Slope, likeliest, mean_level
 
 __all__ = ["Limit", "Limits", "clear_bins", "find_limits", "sharpened", "step_at"]
 
-Array = npt.NDArray[np.float64]
 Limit = Literal["auto", "none", "rolloff", "long_cutoff"]
 # Fewer bins than these cannot tell a law from its ends.
 LEAST = 12

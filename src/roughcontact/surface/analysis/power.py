@@ -7,13 +7,10 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.validation import number, numeric, require_numbers
+from roughcontact.validation import Array, number, numeric, require, require_numbers
 
 __all__ = ["PowerSpectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,8 +61,7 @@ class PowerSpectrum:
     smear: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.kind not in ("C2D", "C1D"):
-            raise ValueError(f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
+        require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
         require_numbers(self)
         for name in ("wavenumber", "density", "count", "freedom"):
             value = np.array(number(getattr(self, name), name))
@@ -77,8 +73,7 @@ class PowerSpectrum:
             raise ValueError("wavenumbers must be positive and increase, and there must be at least one")
         if not (np.isfinite(self.density).all() and (self.density >= 0).all()):
             raise ValueError("densities must be finite and not negative")
-        if not (self.freedom > 0).all():
-            raise ValueError("the freedom of every bin must be positive")
+        require((self.freedom > 0).all(), "the freedom of every bin must be positive")
 
     @property
     def wavelength(self) -> Array:
@@ -148,8 +143,7 @@ class PowerSpectrum:
         ValueError
             If `per_decade` is not positive.
         """
-        if not per_decade > 0:
-            raise ValueError(f"per_decade must be positive, not {per_decade}")
+        require(per_decade > 0, f"per_decade must be positive, not {per_decade}")
         logs = np.log(self.wavenumber)
         index = np.floor(logs / math.log(10) * per_decade + 1e-9).astype(np.int64)
         _, group = np.unique(index, return_inverse=True)

@@ -17,10 +17,10 @@ from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array, require
 
 __all__ = ["fit_structure"]
 
-Array = npt.NDArray[np.float64]
 Limit = Literal["none", "rolloff", "long_cutoff"]
 # Quadrature over the waves: directions to a quarter turn (twice this many), and wavenumbers on each.
 ANGLES, WAVES = 12, 1500
@@ -114,12 +114,10 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     if limit not in ("none", "rolloff", "long_cutoff"):
         raise ValueError(f"limit must be 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     steps = _default(min(grid.shape), limit) if lags is None else np.asarray(lags)
-    if steps.size < 5:
-        raise ValueError(f"a fit needs five lags at least, not {steps.size}")
+    require(steps.size >= 5, f"a fit needs five lags at least, not {steps.size}")
     (along_x, share_x), (along_y, share_y) = (tapered_structure(surface, axis, steps) for axis in ("x", "y"))
     data = np.concatenate([along_x, along_y])
-    if not (data > 0).all():
-        raise ValueError("the structure function is zero at some lag: the surface is flat")
+    require((data > 0).all(), "the structure function is zero at some lag: the surface is flat")
     dy, dx = grid.spacing
     distance = np.concatenate([steps * dx, steps * dy])
     is_y = np.arange(data.size) >= steps.size
