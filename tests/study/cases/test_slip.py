@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.slip_case import CASE, SlipParameters
 from roughcontact.study.record import decode, encode, require_record
+from roughcontact.study.study_errors import StudyError
 
 ROUGH = {"points": 32, "size": 2e-3, "modulus": 1e11, "hurst": 0.7, "rms": 1e-6, "loads": 3, "pulls": 4}
 
@@ -133,5 +133,5 @@ def test_everything_tangential_is_in_proportion_to_friction():
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):
-    with pytest.raises(ValidationError, match=says):
+    with pytest.raises(StudyError, match=says):
         run(**wrong)
