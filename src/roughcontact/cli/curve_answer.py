@@ -11,8 +11,16 @@ from roughcontact.cached import cached_property
 from roughcontact.cli.conductance_command import COLUMNS
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, size_of
-from roughcontact.cli.theory_options import deviations
+from roughcontact.cli.report import (
+    CURVE_COLUMNS,
+    emit,
+    load_table,
+    print_facts,
+    print_table,
+    quantity,
+    size_of,
+)
+from roughcontact.cli.theory_options import deviations, parameters
 
 if TYPE_CHECKING:
     import xarray
@@ -44,6 +52,8 @@ class CurveAnswer:
         On the last load.
     laws : mapping of str to LoadingLaw
         Theories, by the names they were asked for.
+    taken : mapping of str to float
+        What they took from the surface, in SI units.
     conductors : Conductors or None
         The conducting bodies.
     """
@@ -54,6 +64,7 @@ class CurveAnswer:
     tolerance: float
     notes: tuple[str, ...]
     laws: Mapping[str, LoadingLaw]
+    taken: Mapping[str, float]
     conductors: Conductors | None
 
     @property
@@ -99,6 +110,7 @@ class CurveAnswer:
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
+            "theory_parameters": dict(self.taken),
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
             "tolerance": self.tolerance,
             "converged": self.converged,
@@ -124,7 +136,7 @@ class CurveAnswer:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
             save(curve_figure(self.curve, self.fit, tuple(self.laws.values())), aside / "curve.png")
-            write_json(self.record, aside / "summary.json", source)
+            write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
@@ -134,11 +146,11 @@ class CurveAnswer:
         else:
             modulus = quantity("modulus", curve.modulus)
             print_facts([("surface", size_of(self.surface.grid)), ("reduced modulus E*", modulus)])
-            columns = {name: self.record[name] for name in COLUMNS if name in self.record}
-            print_table(*curve_table(curve, columns))
+            conducted = [name for name in COLUMNS if name in self.dataset]
+            print_table(*load_table(self.dataset, (*CURVE_COLUMNS, *conducted)))
             print_facts(_fit_facts(self.fit, curve))
             if self.comparisons:
-                print_facts(deviations(self.comparisons))
+                print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -34,6 +35,10 @@ roughcontact surface spectrum scan.csv --out result
 """
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
+_FILTERED = re.compile(r"Gaussian filter: waves (below|above) (\S+) m removed")
+_CLEAR = (
+    3.0  # times its cut-off: there a short-wave filter takes a seventh of the power, a long-wave one 0.4 %
+)
 _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
 _LIMITS = {"rolloff": "roll-off", "long_cutoff": "long cut-off", "short_cutoff": "short cut-off"}
 _UNITS = {
@@ -110,6 +115,8 @@ def spectrum(
             emit(record)
         else:
             print_facts(_facts(surface, record))
+        for line in record["notes"]:
+            note(line)
         note_files(folder, ("spectrum.csv", "spectrum.png"))
 
 
@@ -173,9 +180,32 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
+        "notes": _doubts(surface, law),
         "provenance": list(surface.provenance),
         "units": {name: unit for name, unit in _UNITS.items() if name in values},
     }
+
+
+def _doubts(surface: Surface, law: HurstFit) -> list[str]:
+    """Return a misfit beyond chance in words, with the filters that the fitted band runs into."""
+    if law.misfit <= law.chance:
+        return []
+    longest, shortest = (2 * math.pi / wavenumber for wavenumber in law.band)
+    reasons = []
+    for gone, text in _FILTERED.findall("\n".join(surface.provenance)):
+        name, clear = (
+            ("shortest", float(text) * _CLEAR) if gone == "below" else ("longest", float(text) / _CLEAR)
+        )
+        if shortest < clear if gone == "below" else longest > clear:
+            reasons.append(
+                f"the band runs past the cut-off of a filter that removed waves {gone} "
+                f"{quantity('lengths', float(text))}; give --{name} {clear:.3g}"
+            )
+    why = (
+        " and ".join(reasons)
+        or "no power law holds over the whole band; narrow it by --longest and --shortest"
+    )
+    return [f"the fit is poor, misfit {law.misfit:.3g} where chance stays below {law.chance:.2g}: {why}"]
 
 
 def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -74,7 +74,7 @@ def test_more_lines_are_more_of_the_same_ensemble():
         ({"lowest_force": 8.0}, "lowest_force must be below highest_force"),
         ({"lowest_force": 0.0}, "greater than 0"),
         ({"loads": 1}, "greater than or equal to 2"),
-        ({"rms": 1.0}, "not permitted"),
+        ({"rms": 1.0}, "there is no 'rms'"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):

@@ -129,7 +129,7 @@ def test_everything_tangential_is_in_proportion_to_friction():
         ({"friction": 0.0}, "greater than 0"),
         ({"pulls": 0}, "greater than or equal to 1"),
         ({"highest_force": 1e-4}, "lowest_force must be below highest_force"),
-        ({"hardness": 1.0}, "not permitted"),
+        ({"hardness": 1.0}, "there is no 'hardness'"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):

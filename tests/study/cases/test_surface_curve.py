@@ -121,7 +121,7 @@ def test_a_load_that_misses_its_tolerance_keeps_its_mark(monkeypatch):
         ({"radius": -1.0}, "greater than 0"),
         ({"lowest_force": 1.0}, "lowest_force must be below highest_force"),
         ({"tolerance": 1.0}, "less than 0.01"),
-        ({"colour": 1}, "not permitted"),
+        ({"colour": 1}, "there is no 'colour'"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):

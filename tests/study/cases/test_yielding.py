@@ -88,7 +88,7 @@ def test_it_is_pure_and_survives_as_text():
         ({"lowest_depth": 4.0}, "lowest_depth must be below highest_depth, not 4 and 3"),
         ({"hardness": 1e9, "relative_hardness": 0.2}, "hardness or relative_hardness, not both"),
         ({"relative_hardness": 0.0}, "greater than 0"),
-        ({"lowest_force": 1e-3}, "not permitted"),
+        ({"lowest_force": 1e-3}, "there is no 'lowest_force'"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):
