@@ -77,12 +77,9 @@ class Asked:
     def band(self) -> dict[str, float]:
         """Return the band that was asked for as wavenumbers [rad/m]."""
         band = {
-            name: 2 * math.pi / parse_positive(text, LENGTH, flag, "a wavelength")
-            for name, text, flag in (
-                ("q_min", self.longest, "--longest"),
-                ("q_max", self.shortest, "--shortest"),
-            )
-            if text is not None
+            name: 2 * math.pi / parse_positive(text, LENGTH, f"--{flag}", "a wavelength")
+            for name, flag in (("q_min", "longest"), ("q_max", "shortest"))
+            if (text := getattr(self, flag)) is not None
         }
         if len(band) == 2 and not band["q_min"] < band["q_max"]:
             raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")

@@ -93,9 +93,8 @@ class Theories:
                 )
         known = self.knowns()
         facts = facts_for(surface, names, **known)
-        taken = {
-            name: facts[name] for name in ("hurst", "rms", "rolloff") if name in facts.keys() - known.keys()
-        }
+        new = [name for name in _TAKEN if name in facts.keys() - known.keys()]
+        taken: dict[str, float] = {name: facts[name] for name in new}
         if "spectrum" in facts:
             taken |= {name: getattr(facts["spectrum"], name) for name in ("rms_slope", "m0", "m2", "m4")}
         return dict(zip(names, rc.loading_laws(surface, modulus, names, **facts), strict=True)), taken

@@ -186,13 +186,5 @@ def _with_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
 
 def _like(spectrum: PowerSpectrum, ln_q: Array, density: Array, kind: Literal["C1D", "C2D"]) -> PowerSpectrum:
     """Return `density` at the bins of `spectrum` that hold power, and positive ones only."""
-    source = spectrum.density > 0
-    keep = density > 0
-    return replace(
-        spectrum,
-        wavenumber=np.exp(ln_q)[keep],
-        density=density[keep],
-        kind=kind,
-        count=spectrum.count[source][keep],
-        freedom=spectrum.freedom[source][keep],
-    )
+    source = spectrum.selected(spectrum.density > 0)
+    return replace(source, wavenumber=np.exp(ln_q), density=density, kind=kind).selected(density > 0)

@@ -7,10 +7,13 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact.validation import Array, number, numeric, require, require_numbers
 
 __all__ = ["PowerSpectrum"]
+
+_ARRAYS = ("wavenumber", "density", "count", "freedom")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,7 +66,7 @@ class PowerSpectrum:
     def __post_init__(self) -> None:
         require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
         require_numbers(self)
-        for name in ("wavenumber", "density", "count", "freedom"):
+        for name in _ARRAYS:
             value = np.array(number(getattr(self, name), name))
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
                 raise ValueError(f"{name} must have one value for each wavenumber, not shape {value.shape}")
@@ -112,15 +115,22 @@ class PowerSpectrum:
                 f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has "
                 f"{self.wavenumber[0]:g} to {self.wavenumber[-1]:g} rad/m"
             )
-        return replace(
-            self,
-            wavenumber=self.wavenumber[keep],
-            density=self.density[keep],
-            count=self.count[keep],
-            freedom=self.freedom[keep],
-            q_min=low,
-            q_max=high,
-        )
+        return replace(self.selected(keep), q_min=low, q_max=high)
+
+    def selected(self, keep: npt.NDArray[np.bool_]) -> PowerSpectrum:
+        """Return some of the bins, with the band as it is.
+
+        Parameters
+        ----------
+        keep : bool array, shape (n,)
+            Which of them; at least one.
+
+        Returns
+        -------
+        PowerSpectrum
+        """
+        arrays = {name: getattr(self, name)[keep] for name in _ARRAYS}
+        return replace(self, **arrays)
 
     @numeric
     def rebinned(self, per_decade: float) -> PowerSpectrum:
