@@ -293,4 +293,4 @@ def test_spectrum_says_that_a_fit_is_poor_and_why(invoke, tmp_path):
     assert line.endswith("of a filter that removed waves below 10 µm; give --shortest 3e-05")
     assert ask("filtered.npz", "--shortest", "3e-05") == []
     (line,) = ask("silent.npz")
-    assert line.endswith("no power law holds over the whole band; narrow it by --longest and --shortest")
+    assert line.endswith("the spectrum is no power law; narrow the band by --longest and --shortest")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -136,8 +136,6 @@ def _analysed(
     surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
 ) -> tuple[PowerSpectrum, HurstFit]:
     """Return the spectrum in fine bins, its band set, and the law that fits it."""
-    from dataclasses import replace
-
     import roughcontact as rc
 
     # mypy takes the values of an enum for any text.
@@ -153,8 +151,6 @@ def _analysed(
 
 
 def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
-    from dataclasses import replace
-
     import roughcontact as rc
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
@@ -190,18 +186,13 @@ def _doubts(surface: Surface, law: HurstFit) -> list[str]:
     longest, shortest = (2 * math.pi / wavenumber for wavenumber in law.band)
     reasons = []
     for gone, text in _FILTERED.findall("\n".join(surface.provenance)):
-        name, clear = (
-            ("shortest", float(text) * _CLEAR) if gone == "below" else ("longest", float(text) / _CLEAR)
-        )
-        if shortest < clear if gone == "below" else longest > clear:
-            reasons.append(
-                f"the band runs past the cut-off of a filter that removed waves {gone} "
-                f"{quantity('lengths', float(text))}; give --{name} {clear:.3g}"
-            )
-    why = (
-        " and ".join(reasons)
-        or "no power law holds over the whole band; narrow it by --longest and --shortest"
-    )
+        cutoff, short = float(text), gone == "below"
+        clear = cutoff * _CLEAR if short else cutoff / _CLEAR
+        if shortest < clear if short else longest > clear:
+            what = f"the cut-off of a filter that removed waves {gone} {quantity('lengths', cutoff)}"
+            end = "shortest" if short else "longest"
+            reasons.append(f"the band runs past {what}; give --{end} {clear:.3g}")
+    why = " and ".join(reasons) or "the spectrum is no power law; narrow the band by --longest and --shortest"
     return [f"the fit is poor, misfit {law.misfit:.3g} where chance stays below {law.chance:.2g}: {why}"]
 
 
@@ -219,7 +210,15 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
         ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
         ("waves", band),
-        *(ends or [("limits", "none found: the law holds over the whole band")]),
+        *(
+            ends
+            or [
+                (
+                    "limits",
+                    "none found" if record["notes"] else "none found: the law holds over the whole band",
+                )
+            ]
+        ),
         (
             "rms height",
             f"{quantity('rms', record['rms'])}; {quantity('rms', record['rms_in_band'])} in the band",

@@ -95,8 +95,7 @@ def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     >>> int(histogram.count.sum()), histogram.edges.size
     (4096, 21)
     """
-    if int(bins) != bins or bins < 1:
-        raise ValueError(f"bins must be a positive whole number, not {bins}")
+    require(bins >= 1, f"bins must be a positive whole number, not {bins}")
     heights = surface.heights[surface.measured]
     heights -= heights.mean()
     count, edges = np.histogram(heights, bins=int(bins))
