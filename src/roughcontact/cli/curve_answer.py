@@ -8,18 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
+from roughcontact.cli import report
 from roughcontact.cli.conductance_command import COLUMNS
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.cli.report import (
-    CURVE_COLUMNS,
-    emit,
-    load_table,
-    print_facts,
-    print_table,
-    quantity,
-    size_of,
-)
 from roughcontact.cli.theory_options import deviations, parameters
 
 if TYPE_CHECKING:
@@ -142,15 +134,17 @@ class CurveAnswer:
         """Print the answer on standard output, and what a reader should know on standard error."""
         curve = self.curve
         if json:
-            emit(self.record)
+            report.emit(self.record)
         else:
-            modulus = quantity("modulus", curve.modulus)
-            print_facts([("surface", size_of(self.surface.grid)), ("reduced modulus E*", modulus)])
+            modulus = report.quantity("modulus", curve.modulus)
+            report.print_facts(
+                [("surface", report.size_of(self.surface.grid)), ("reduced modulus E*", modulus)]
+            )
             conducted = [name for name in COLUMNS if name in self.dataset]
-            print_table(*load_table(self.dataset, (*CURVE_COLUMNS, *conducted)))
-            print_facts(_fit_facts(self.fit, curve))
+            report.print_table(*report.load_table(self.dataset, (*report.CURVE_COLUMNS, *conducted)))
+            report.print_facts(_fit_facts(self.fit, curve))
             if self.comparisons:
-                print_facts([*deviations(self.comparisons), *parameters(self.taken)])
+                report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
@@ -164,15 +158,13 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
+    full = report.quantity("full_contact_stiffness", curve.full_contact_stiffness)
     facts = [
-        (
-            "full-contact stiffness",
-            f"{quantity('full_contact_stiffness', curve.full_contact_stiffness)}, every measured cell in contact",
-        ),
+        ("full-contact stiffness", f"{full}, every measured cell in contact"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
     ]
     if law is not None:
-        low, high = (quantity("force", end) for end in law.window)
+        low, high = (report.quantity("force", end) for end in law.window)
         text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
         fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
         facts = [("power law", text), ("fitted to", fitted), *facts]
