@@ -30,6 +30,16 @@ def test_resistance_of_a_curve(invoke, curve):
     assert record["units"]["thermal_resistance"] == "K W-1"
 
 
+def test_loads_that_are_not_resolved_are_marked(invoke, curve):
+    """As in the table of the curve itself."""
+    with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
+        resolved = dataset.resolved.to_numpy().astype(bool).tolist()
+    assert set(resolved) == {True, False}
+    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:]
+    assert [not line.endswith("not resolved") for line in lines] == resolved
+    assert json.loads(invoke("conductance", curve, *COPPER, "--json").stdout)["resolved"] == resolved
+
+
 def test_of_the_interface(invoke, curve):
     total, interface = (
         json.loads(invoke("conductance", curve, *COPPER, "--of", of, "--json").stdout)[

@@ -1,5 +1,6 @@
 import dataclasses
 import json
+import math
 
 import numpy as np
 import pytest
@@ -7,6 +8,7 @@ import xarray
 
 import roughcontact as rc
 from roughcontact.cli.report import quantity
+from roughcontact.theory.waves import Waves
 
 MODULUS = ("--modulus", "110GPa")
 FORCES = ("--forces", "1mN:1N:12")
@@ -95,7 +97,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     out = tmp_path / "result"
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", out, "--json")
     assert answer.exit_code == 0
-    names = ["curve.csv", "curve.nc", "curve.png", "summary.json"]
+    names = ["curve.csv", "curve.json", "curve.nc", "curve.png"]
     assert sorted(path.name for path in out.iterdir()) == names
     record = json.loads(answer.stdout)
     table = np.genfromtxt(out / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
@@ -103,7 +105,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
         for name in ("force", "stiffness"):
             assert table[name].tolist() == record[name]
             assert dataset[name].to_numpy().tolist() == record[name]
-    assert json.loads((out / "summary.json").read_text(encoding="utf-8")).items() >= record.items()
+    assert json.loads((out / "curve.json").read_text(encoding="utf-8")).items() >= record.items()
     assert (out / "curve.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -163,6 +165,32 @@ def test_theories_stand_beside_the_curve(invoke, rough, tmp_path):
     record = json.loads(invoke(*words, "--json").stdout)
     assert record["theories"]["power-law"]["predicted"]["stiffness"][3] > 0
     assert set(record["theories"]) == {"persson", "power-law"}
+
+
+def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
+    words = (
+        "curve",
+        rough,
+        *FORCES,
+        *MODULUS,
+        "--level",
+        "none",
+        "--theory",
+        "persson,power-law,finite-size",
+    )
+    record = json.loads(invoke(*words, "--json").stdout)
+    taken = record["theory_parameters"]
+    assert taken["hurst"] == rc.hurst_exponent(surface).hurst
+    assert taken["rms"] == surface.rms
+    assert taken["rolloff"] == math.sqrt(surface.grid.area)
+    assert taken["rms_slope"] == Waves.of(rc.power_spectrum(surface)).rms_slope
+    line = next(line for line in invoke(*words).stdout.splitlines() if line.startswith("from the surface"))
+    assert f"H (fitted) {taken['hurst']:.4g}, rms height {quantity('rms', surface.rms)}, roll-off" in line
+    assert f"m4 {taken['m4']:.4g} 1/m²" in line
+    # What the user says is not taken.
+    said = invoke(*words, "--hurst", "0.8", "--rolloff", "20um", "--json")
+    assert json.loads(said.stdout)["theory_parameters"].keys() == taken.keys() - {"hurst", "rolloff"}
+    assert "from the surface" not in invoke(*words[:-1], "hertz", "--radius", "1mm").stdout
 
 
 @pytest.mark.parametrize(

@@ -117,11 +117,11 @@ def test_a_file_whose_name_is_no_text(rough, tmp_path):
     words = [*PROGRAM, "press", os.fsdecode(path), "--force", "1mN", "--modulus", "1GPa", "--out", str(out)]
     answer = subprocess.run(words, capture_output=True, encoding="utf-8", timeout=120, check=False)
     assert answer.returncode == 0, answer.stderr
-    record = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    record = json.loads((out / "press.json").read_text(encoding="utf-8"))
     assert record["file"].endswith("r?.npz")
     assert "r?.npz" in record["provenance"]["history"]
     assert record["surface"][0].startswith("read from r?.npz")
-    assert sorted(each.name for each in out.iterdir()) == ["pressure.nc", "pressure.png", "summary.json"]
+    assert sorted(each.name for each in out.iterdir()) == ["press.json", "pressure.nc", "pressure.png"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")

@@ -125,9 +125,9 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     out = tmp_path / "new" / "result"
     answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out, "--json")
     assert answer.exit_code == 0
-    assert sorted(path.name for path in out.iterdir()) == ["pressure.nc", "pressure.png", "summary.json"]
+    assert sorted(path.name for path in out.iterdir()) == ["press.json", "pressure.nc", "pressure.png"]
     record = json.loads(answer.stdout)
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    summary = json.loads((out / "press.json").read_text(encoding="utf-8"))
     assert summary.items() >= record.items()
     assert summary["provenance"]["input_control"] == "force = 0.01 N"
     with xarray.open_dataset(out / "pressure.nc") as dataset:
@@ -154,7 +154,7 @@ class TestMissedTolerance:
         assert answer.exit_code == 1
         record = json.loads(answer.stdout)
         assert (record["converged"], record["status"]) == (False, "stagnated")
-        assert json.loads((tmp_path / "out" / "summary.json").read_text())["converged"] is False
+        assert json.loads((tmp_path / "out" / "press.json").read_text())["converged"] is False
         assert "The residual stopped falling above the tolerance" in answer.stderr
 
     def test_a_person_sees_it_in_the_table(self, invoke, rough):
@@ -168,7 +168,7 @@ class TestNothingHalfWritten:
     def out(self, tmp_path):
         out = tmp_path / "out"
         out.mkdir()
-        (out / "summary.json").write_text("of yesterday")
+        (out / "press.json").write_text("of yesterday")
         return out
 
     @staticmethod
@@ -192,7 +192,7 @@ class TestNothingHalfWritten:
         monkeypatch.setattr(figures, "save", fail)
         answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out)
         assert answer.exit_code == status
-        assert self._left(out) == {"summary.json": "of yesterday"}
+        assert self._left(out) == {"press.json": "of yesterday"}
         assert answer.stdout == ""
 
     def test_a_folder_made_for_a_run_that_fails_goes_again(self, invoke, rough, tmp_path):
@@ -205,8 +205,8 @@ class TestNothingHalfWritten:
         answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out)
         assert answer.exit_code == 2
         assert "it is a folder; choose another --out" in answer.stderr
-        assert sorted(path.name for path in out.iterdir()) == ["pressure.nc", "summary.json"]
-        assert (out / "summary.json").read_text() == "of yesterday"
+        assert sorted(path.name for path in out.iterdir()) == ["press.json", "pressure.nc"]
+        assert (out / "press.json").read_text() == "of yesterday"
 
     def test_the_folder_is_tried_before_the_work(self, invoke, rough, monkeypatch):
         monkeypatch.setattr(rc, "read", lambda *_, **__: pytest.fail("it went to work"))

@@ -271,3 +271,26 @@ def test_prepare_neither_overwrites_what_was_measured_nor_writes_what_it_cannot(
     answer = invoke("surface", "prepare", free[0], tmp_path / "out.csv")
     assert answer.exit_code == 2
     assert "written as one of .npz, .nc, .x3p, .txt, .npy, .vti" in answer.stderr
+
+
+def test_spectrum_says_that_a_fit_is_poor_and_why(invoke, tmp_path):
+    """Beyond its cut-off a Gaussian filter leaves a normal distribution of the wavenumber, no power law."""
+    grid = rc.Grid((192, 192), 1e-6)
+    surface = rc.self_affine(grid, 0.8, 1e-7, np.random.default_rng(7), amplitudes="gaussian")
+    rc.write(surface, tmp_path / "whole.npz")
+    rc.write(surface.filtered(short_cutoff=1e-5), tmp_path / "filtered.npz")
+    rc.write(rc.Surface(surface.filtered(short_cutoff=1e-5).heights, grid), tmp_path / "silent.npz")
+
+    def ask(name, *words):
+        answer = invoke("surface", "spectrum", tmp_path / name, *words, "--json")
+        notes = json.loads(answer.stdout)["notes"]
+        assert all(f"Note: {line}" in answer.stderr for line in notes)
+        return notes
+
+    assert ask("whole.npz") == []
+    (line,) = ask("filtered.npz")
+    assert line.startswith("the fit is poor, misfit ")
+    assert line.endswith("of a filter that removed waves below 10 µm; give --shortest 3e-05")
+    assert ask("filtered.npz", "--shortest", "3e-05") == []
+    (line,) = ask("silent.npz")
+    assert line.endswith("the spectrum is no power law; narrow the band by --longest and --shortest")

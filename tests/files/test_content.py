@@ -40,7 +40,7 @@ def test_a_pipe_without_a_writer_keeps_nobody_waiting(tmp_path, monkeypatch):
         ordinary = Path(__file__).stat()
         monkeypatch.setattr(module.os, "stat", lambda _: ordinary)
         with pytest.raises(rc.ReadError, match="a pipe"):
-            content(tmp_path / "a.txt")
+            content(tmp_path / "a.txt").__enter__()
         ended.set()
 
     threading.Thread(target=attempts, daemon=True).start()
@@ -74,12 +74,13 @@ def test_a_file_that_grows_while_it_is_read_is_refused(put, monkeypatch):
 
     monkeypatch.setattr(module, "needed", grow)
     with pytest.raises(rc.ReadError, match="it does not hold the 8 bytes that it should"):
-        content(path)
+        content(path).__enter__()
 
 
 def test_a_link_to_an_ordinary_file_is_followed(tmp_path, put):
     (tmp_path / "b.txt").symlink_to(put("a.txt", "1 2\n3 4\n"))
-    assert content(tmp_path / "b.txt") == ("b.txt", b"1 2\n3 4\n")
+    with content(tmp_path / "b.txt") as found:
+        assert found == ("b.txt", b"1 2\n3 4\n")
 
 
 @pytest.mark.skipif(not Path("/dev/stdin").exists(), reason="no such device")

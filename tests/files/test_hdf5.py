@@ -11,6 +11,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.files import hdf5
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.read import channels
 
@@ -108,7 +109,7 @@ def test_a_block_larger_than_the_memory_is_not_unpacked(monkeypatch):
     with h5py.File(stream, "w") as file:
         file.create_dataset("heights", (6, 8), np.uint8, chunks=(30000, 30000), maxshape=(None, None))
     monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=8e8))
-    with pytest.raises(rc.ReadError, match=r"needs 0\.9 GB"), opened_hdf5(stream.getvalue(), "a.nc"):
+    with pytest.raises(ContentError, match=r"needs 0\.9 GB"), opened_hdf5(stream.getvalue()):
         pass
 
 
@@ -123,8 +124,8 @@ def test_a_block_that_unpacks_to_more_than_it_declares_is_refused(shuffle):
         )
         values.id.write_direct_chunk((0, 0), packed)
     with (
-        pytest.raises(rc.ReadError, match="a block of its /heights unpacks to more than it declares"),
-        opened_hdf5(stream.getvalue(), "a.nc"),
+        pytest.raises(ContentError, match="a block of its /heights unpacks to more than it declares"),
+        opened_hdf5(stream.getvalue()),
     ):
         pass
 

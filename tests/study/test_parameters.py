@@ -1,7 +1,9 @@
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from roughcontact.study.case import Area, Energy, Force, Length, Positive, Pressure, Stiffness
+from roughcontact.study.case import Area, Energy, Force, Length, Parameters, Positive, Pressure, Stiffness
+from roughcontact.study.ranges import Range
+from roughcontact.study.study_errors import StudyError
 
 
 class Body(BaseModel):
@@ -11,6 +13,10 @@ class Body(BaseModel):
     area: Area = 1.0
     stiffness: Stiffness = 1.0
     energy: Energy = 1.0
+
+
+class Square(Parameters):
+    size: Positive[Length]
 
 
 @pytest.mark.parametrize(
@@ -49,3 +55,21 @@ def test_what_is_no_quantity_of_its_kind_is_refused(name, value, complaint):
 
 def test_none_stays_where_it_is_allowed():
     assert Body(force=None).force is None
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: Range(start=0, stop=1), "a range has either a count or a step: give one of them"),
+        (lambda: Square(size="1 N"), "size: '1 N' is not a length; expected a length such as 5um"),
+        (
+            lambda: Square(sise=1),
+            "'size' is missing; there is no 'sise': did you mean 'size'? It may be size",
+        ),
+    ],
+)
+def test_values_are_refused_in_plain_words(make, says):
+    """Without the names of the library that checks them, its prefixes and its address."""
+    with pytest.raises(StudyError) as refused:
+        make()
+    assert str(refused.value) == says

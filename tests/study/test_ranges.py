@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from roughcontact.study.ranges import Range
+from roughcontact.study.study_errors import StudyError
 
 
 def values(**range_):
@@ -52,7 +52,7 @@ def test_the_ends_keep_every_bit():
     ],
 )
 def test_what_is_no_range_is_refused(range_, complaint):
-    with pytest.raises(ValidationError, match=complaint):
+    with pytest.raises(StudyError, match=complaint):
         Range(**range_)
 
 

@@ -59,3 +59,15 @@ def test_levelling_by_the_mean():
 def test_nonsense_is_refused(bad, message):
     with pytest.raises(ValueError, match=message):
         rc.Surface(bad, GRID)
+
+
+def test_other_heights_keep_the_history_and_take_another_grid():
+    surface = rc.Surface(heights(), GRID, ("as measured",))
+    changed = surface.with_heights(2 * surface.heights, "doubled")
+    np.testing.assert_array_equal(changed.heights, 2 * surface.heights)
+    assert changed.grid == GRID
+    assert changed.provenance == ("as measured", "doubled")
+    small = rc.Grid((2, 3), (1.5, 0.75))
+    assert surface.with_heights(surface.heights[::3, ::3], "thinned", small).grid == small
+    with pytest.raises(ValueError, match="do not fit"):
+        surface.with_heights(surface.heights[::3, ::3], "thinned")

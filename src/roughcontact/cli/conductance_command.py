@@ -11,7 +11,7 @@ from roughcontact.cli import options
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import dataset_table, emit, note_files, print_table
+from roughcontact.cli.report import emit, load_table, note_files, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY, parse_pair
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def conductance(
         if json:
             emit(_record(answer, names, path))
         else:
-            print_table(*dataset_table(answer, names))
+            print_table(*load_table(answer, names))
         note_files(folder, ("conductance.csv", "conductance.nc", "conductance.png"))
 
 
@@ -108,7 +108,8 @@ def _read(path: Path) -> xarray.Dataset:
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:
     from roughcontact.labels.labelled import plain_values
 
-    columns = {name: plain_values(answer[name].to_numpy()) for name in names}
+    remarks = [name for name in ("resolved", "status") if name in answer]
+    columns = {name: plain_values(answer[name].to_numpy()) for name in (*names, *remarks)}
     units = {name: answer[name].attrs["units"] for name in names}
     return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}
 

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
+from roughcontact.cli import report
 from roughcontact.cli.conductance_command import COLUMNS
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.cli.report import curve_table, emit, print_facts, print_table, quantity, size_of
-from roughcontact.cli.theory_options import deviations
+from roughcontact.cli.theory_options import deviations, parameters
 
 if TYPE_CHECKING:
     import xarray
@@ -44,6 +44,8 @@ class CurveAnswer:
         On the last load.
     laws : mapping of str to LoadingLaw
         Theories, by the names they were asked for.
+    taken : mapping of str to float
+        What they took from the surface, in SI units.
     conductors : Conductors or None
         The conducting bodies.
     """
@@ -54,6 +56,7 @@ class CurveAnswer:
     tolerance: float
     notes: tuple[str, ...]
     laws: Mapping[str, LoadingLaw]
+    taken: Mapping[str, float]
     conductors: Conductors | None
 
     @property
@@ -99,6 +102,7 @@ class CurveAnswer:
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
+            "theory_parameters": dict(self.taken),
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
             "tolerance": self.tolerance,
             "converged": self.converged,
@@ -124,21 +128,23 @@ class CurveAnswer:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
             save(curve_figure(self.curve, self.fit, tuple(self.laws.values())), aside / "curve.png")
-            write_json(self.record, aside / "summary.json", source)
+            write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
         curve = self.curve
         if json:
-            emit(self.record)
+            report.emit(self.record)
         else:
-            modulus = quantity("modulus", curve.modulus)
-            print_facts([("surface", size_of(self.surface.grid)), ("reduced modulus E*", modulus)])
-            columns = {name: self.record[name] for name in COLUMNS if name in self.record}
-            print_table(*curve_table(curve, columns))
-            print_facts(_fit_facts(self.fit, curve))
+            modulus = report.quantity("modulus", curve.modulus)
+            report.print_facts(
+                [("surface", report.size_of(self.surface.grid)), ("reduced modulus E*", modulus)]
+            )
+            conducted = [name for name in COLUMNS if name in self.dataset]
+            report.print_table(*report.load_table(self.dataset, (*report.CURVE_COLUMNS, *conducted)))
+            report.print_facts(_fit_facts(self.fit, curve))
             if self.comparisons:
-                print_facts(deviations(self.comparisons))
+                report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
@@ -152,15 +158,13 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
+    full = report.quantity("full_contact_stiffness", curve.full_contact_stiffness)
     facts = [
-        (
-            "full-contact stiffness",
-            f"{quantity('full_contact_stiffness', curve.full_contact_stiffness)}, every measured cell in contact",
-        ),
+        ("full-contact stiffness", f"{full}, every measured cell in contact"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
     ]
     if law is not None:
-        low, high = (quantity("force", end) for end in law.window)
+        low, high = (report.quantity("force", end) for end in law.window)
         text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
         fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
         facts = [("power law", text), ("fitted to", fitted), *facts]

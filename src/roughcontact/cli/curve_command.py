@@ -82,17 +82,17 @@ def curve(
         tolerance = asked.residual
         with output(out) as folder:
             surface = reading.surface()
-            laws = theories.laws(surface, modulus)
+            laws, taken = theories.laws(surface, modulus)
             if loads is None:
                 loads = _suggested(surface, modulus)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness}
             computed, notes = _load(surface, modulus, path, loads.size)
-            answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, conductors)
+            answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
                 answer.write(folder, f"{name} {ends}, {loads.size} of them")
         answer.tell(asked.json)
-        note_files(folder, ("curve.csv", "curve.nc", "curve.png", "summary.json"))
+        note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png"))
         if not answer.converged:
             raise typer.Exit(MISSED)
 

@@ -152,11 +152,8 @@ class Reading:
         elif level is None:
             level = Levelling.PLANE
             note("the tilt is removed by a least-squares plane (--level mean or none for another choice)")
-        return (
-            surface
-            if level is Levelling.NONE
-            else surface.levelled("mean" if level is Levelling.MEAN else "plane")
-        )
+        trend: Any = level.value
+        return surface if level is Levelling.NONE else surface.levelled(trend)
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,7 +77,7 @@ def press(
                 _write(solution, record, folder, f"{name} = {value!r} {_KINDS[name].unit}", theory)
         _tell(solution, record, answer.json)
         pictures = ("pressure.png",) if theory is None else ("distribution.png", "pressure.png")
-        note_files(folder, ("pressure.nc", *pictures, "summary.json"))
+        note_files(folder, ("press.json", "pressure.nc", *pictures))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
 
@@ -134,7 +134,7 @@ def _write(
         if theory is not None:
             theories = {"Persson": persson_pressures(solution)}
             save(pressure_distribution_figure(solution, theories), aside / "distribution.png")
-        write_json(record, aside / "summary.json", source)
+        write_json(record, aside / "press.json", source)
 
 
 def _tell(solution: Solution, record: dict[str, Any], json: bool) -> None:

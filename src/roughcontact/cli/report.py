@@ -13,21 +13,21 @@ from rich.console import Console
 from roughcontact.cli.messages import note
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
+from roughcontact.solver.control import Status
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     import xarray
 
-    from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    "curve_table",
-    "dataset_table",
+    "CURVE_COLUMNS",
     "emit",
+    "load_table",
     "note_files",
     "print_facts",
     "print_table",
@@ -41,7 +41,7 @@ __all__ = [
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
-_CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
+CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
 
 
 def screen() -> Console:
@@ -104,14 +104,23 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     ]
 
 
-def dataset_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of the named columns of a dataset, each in one unit."""
+def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
     header, columns = [], []
     for name in names:
-        values = dataset[name].to_numpy()
-        chosen = _scale(values, dataset[name].attrs["units"])
-        header.append(f"{name.replace('_', ' ')} [{chosen.unit}]")
-        columns.append([format(value * chosen.factor, ".4g") for value in values])
+        values, known = dataset[name].to_numpy(), VARIABLES[name]
+        if name == "mean_gap":
+            values = _closed(values, dataset["depth"].to_numpy())
+        plain = known.unit in ("", "1")
+        chosen = _scale(values, known.unit)
+        label = known.label if name in CURVE_COLUMNS else name.replace("_", " ")
+        header.append(label if plain else f"{label} [{chosen.unit or pretty(known.unit)}]")
+        digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
+        columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
+    if {"resolved", "status"} <= dataset.keys():
+        header.append("")
+        points = zip(dataset["resolved"].to_numpy(), dataset["status"].to_numpy(), strict=True)
+        columns.append([_remark(*point) for point in points])
     return header, [list(row) for row in zip(*columns, strict=True)]
 
 
@@ -119,26 +128,6 @@ def note_files(folder: Path | None, names: Sequence[str]) -> None:
     """Say on standard error which files a folder holds now, if there is one."""
     if folder is not None:
         note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
-
-
-def curve_table(
-    curve: Curve, more: Mapping[str, Sequence[float | None]] | None = None
-) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of a curve and `more` columns, one row a load, each column in one unit."""
-    header, columns = [], []
-    further = {name: np.array(values, dtype=np.float64) for name, values in (more or {}).items()}
-    for name in (*_CURVE_COLUMNS, *further):
-        values, known = further[name] if name in further else getattr(curve, name), VARIABLES[name]
-        if name == "mean_gap":
-            values = _closed(values, curve.depth)
-        plain = known.unit in ("", "1")
-        chosen = _scale(values, known.unit)
-        header.append(known.label if plain else f"{known.label} [{chosen.unit or pretty(known.unit)}]")
-        digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
-        columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
-    header.append("")
-    columns.append([_remark(*point) for point in zip(curve.resolved, curve.status, strict=True)])
-    return header, [list(row) for row in zip(*columns, strict=True)]
 
 
 def _scale(values: Any, unit: str) -> Scale:
@@ -151,9 +140,9 @@ def _closed(gap: Any, depth: Any) -> Any:
     return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
 
 
-def _remark(resolved: bool, status: Any) -> str:
-    if not status.converged:
-        return f"MISSED: {status.value}"
+def _remark(resolved: bool, status: str) -> str:
+    if not Status(status).converged:
+        return f"MISSED: {status}"
     return "" if resolved else "not resolved"
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -34,6 +35,10 @@ roughcontact surface spectrum scan.csv --out result
 """
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
+_FILTERED = re.compile(r"Gaussian filter: waves (below|above) (\S+) m removed")
+_CLEAR = (
+    3.0  # times its cut-off: there a short-wave filter takes a seventh of the power, a long-wave one 0.4 %
+)
 _BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
 _LIMITS = {"rolloff": "roll-off", "long_cutoff": "long cut-off", "short_cutoff": "short cut-off"}
 _UNITS = {
@@ -72,12 +77,9 @@ class Asked:
     def band(self) -> dict[str, float]:
         """Return the band that was asked for as wavenumbers [rad/m]."""
         band = {
-            name: 2 * math.pi / parse_positive(text, LENGTH, flag, "a wavelength")
-            for name, text, flag in (
-                ("q_min", self.longest, "--longest"),
-                ("q_max", self.shortest, "--shortest"),
-            )
-            if text is not None
+            name: 2 * math.pi / parse_positive(text, LENGTH, f"--{flag}", "a wavelength")
+            for name, flag in (("q_min", "longest"), ("q_max", "shortest"))
+            if (text := getattr(self, flag)) is not None
         }
         if len(band) == 2 and not band["q_min"] < band["q_max"]:
             raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
@@ -110,6 +112,8 @@ def spectrum(
             emit(record)
         else:
             print_facts(_facts(surface, record))
+        for line in record["notes"]:
+            note(line)
         note_files(folder, ("spectrum.csv", "spectrum.png"))
 
 
@@ -132,8 +136,6 @@ def _analysed(
     surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
 ) -> tuple[PowerSpectrum, HurstFit]:
     """Return the spectrum in fine bins, its band set, and the law that fits it."""
-    from dataclasses import replace
-
     import roughcontact as rc
 
     # mypy takes the values of an enum for any text.
@@ -149,8 +151,6 @@ def _analysed(
 
 
 def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
-    from dataclasses import replace
-
     import roughcontact as rc
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
@@ -173,9 +173,27 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
+        "notes": _doubts(surface, law),
         "provenance": list(surface.provenance),
         "units": {name: unit for name, unit in _UNITS.items() if name in values},
     }
+
+
+def _doubts(surface: Surface, law: HurstFit) -> list[str]:
+    """Return a misfit beyond chance in words, with the filters that the fitted band runs into."""
+    if law.misfit <= law.chance:
+        return []
+    longest, shortest = (2 * math.pi / wavenumber for wavenumber in law.band)
+    reasons = []
+    for gone, text in _FILTERED.findall("\n".join(surface.provenance)):
+        cutoff, short = float(text), gone == "below"
+        clear = cutoff * _CLEAR if short else cutoff / _CLEAR
+        if shortest < clear if short else longest > clear:
+            what = f"the cut-off of a filter that removed waves {gone} {quantity('lengths', cutoff)}"
+            end = "shortest" if short else "longest"
+            reasons.append(f"the band runs past {what}; give --{end} {clear:.3g}")
+    why = " and ".join(reasons) or "the spectrum is no power law; narrow the band by --longest and --shortest"
+    return [f"the fit is poor, misfit {law.misfit:.3g} where chance stays below {law.chance:.2g}: {why}"]
 
 
 def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -192,7 +210,15 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
         ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
         ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
         ("waves", band),
-        *(ends or [("limits", "none found: the law holds over the whole band")]),
+        *(
+            ends
+            or [
+                (
+                    "limits",
+                    "none found" if record["notes"] else "none found: the law holds over the whole band",
+                )
+            ]
+        ),
         (
             "rms height",
             f"{quantity('rms', record['rms'])}; {quantity('rms', record['rms_in_band'])} in the band",

@@ -79,7 +79,7 @@ def steps(wishes: Wishes) -> list[Preparation]:
         if wishes.fill
         else None,
         _tip(wishes.tip, wishes.tip_shape),
-        _filter(wishes.short_cutoff, wishes.long_cutoff),
+        _filter({"short_cutoff": wishes.short_cutoff, "long_cutoff": wishes.long_cutoff}),
         _average(wishes.average),
         _downsample(wishes.downsample, wishes.alias),
         _window(wishes.window, wishes.share),
@@ -146,13 +146,10 @@ def _tip(text: str | None, shape: TipShape | None) -> Preparation | None:
     return Preparation("Scanning by the tip", lambda surface: surface.scanned(radius, chosen))
 
 
-def _filter(short: str | None, long: str | None) -> Preparation | None:
+def _filter(given: dict[str, str | None]) -> Preparation | None:
     cutoffs = {
-        name: parse(text, LENGTH, option)
-        for name, text, option in (
-            ("short_cutoff", short, "--short-cutoff"),
-            ("long_cutoff", long, "--long-cutoff"),
-        )
+        name: parse(text, LENGTH, f"--{name.replace('_', '-')}")
+        for name, text in given.items()
         if text is not None
     }
     return Preparation("Filtering", lambda surface: _filtered(surface, cutoffs)) if cutoffs else None

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import option
+from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
 
 if TYPE_CHECKING:
@@ -15,7 +16,16 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
 
-__all__ = ["Theories", "deviations"]
+__all__ = ["Theories", "deviations", "parameters"]
+
+# In words and units: what a theory takes from the heights where the user does not say it.
+_TAKEN = {
+    "hurst": ("H (fitted)", ""),
+    "rms": ("rms height", "m"),
+    "rolloff": ("roll-off (the side)", "m"),
+    "rms_slope": ("rms slope", ""),
+    **{"m0": ("m0", "m²"), "m2": ("m2", ""), "m4": ("m4", "1/m²")},
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +35,7 @@ class Theories:
     PANEL: ClassVar = "Theories"
     theory: str | None = option(
         "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, power-law, hertz, "
-        "rough-sphere. They take spectrum and moments from the surface.",
+        "rough-sphere. They take spectrum and moments from the surface, and say which.",
         "persson,gw,...",
     )
     hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")
@@ -61,31 +71,43 @@ class Theories:
             raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.theory!r}")
         return names
 
-    def knowns(self) -> dict[str, Any]:
+    def knowns(self) -> dict[str, float]:
         """Return what the user knows better than the surface."""
-        known: dict[str, Any] = {}
-        if self.hurst is not None:
-            known["hurst"] = parse_number(self.hurst, "--hurst", "0.8")
-        if self.rolloff is not None:
-            known["rolloff"] = parse(self.rolloff, LENGTH, "--rolloff")
-        if self.radius is not None:
-            known["radius"] = parse(self.radius, LENGTH, "--radius")
-        return known
+        lengths = {"rolloff": self.rolloff, "radius": self.radius}
+        known = {name: parse(text, LENGTH, f"--{name}") for name, text in lengths.items() if text is not None}
+        return known if self.hurst is None else known | {"hurst": parse_number(self.hurst, "--hurst", "0.8")}
 
-    def laws(self, surface: Surface, modulus: float) -> dict[str, LoadingLaw]:
-        """Return the theories of a surface by the names they were asked for."""
+    def laws(self, surface: Surface, modulus: float) -> tuple[dict[str, LoadingLaw], dict[str, float]]:
+        """Return the theories of a surface by the names they were asked for, and the numbers they took from it."""
         import roughcontact as rc
+        from roughcontact.contact.theories import facts_for
         from roughcontact.theory.laws import LAWS
 
         names = self.checked()
         if not names:
-            return {}
+            return {}, {}
         for name in names:
             if "radius" in LAWS[name].needs and self.radius is None:
                 raise UsageError(
                     f"--theory {name}: give the radius of curvature by --radius, such as --radius 5mm"
                 )
-        return dict(zip(names, rc.loading_laws(surface, modulus, names, **self.knowns()), strict=True))
+        known = self.knowns()
+        facts = facts_for(surface, names, **known)
+        new = [name for name in _TAKEN if name in facts.keys() - known.keys()]
+        taken: dict[str, float] = {name: facts[name] for name in new}
+        if "spectrum" in facts:
+            taken |= {name: getattr(facts["spectrum"], name) for name in ("rms_slope", "m0", "m2", "m4")}
+        return dict(zip(names, rc.loading_laws(surface, modulus, names, **facts), strict=True)), taken
+
+
+def parameters(taken: Mapping[str, float]) -> list[tuple[str, str]]:
+    """Return the line that states what theories took from the surface; none where they took nothing."""
+    words = []
+    for name, value in taken.items():
+        label, unit = _TAKEN[name]
+        shown = quantity("lengths", value) if unit == "m" else f"{value:.4g} {unit}".rstrip()
+        words.append(f"{label} {shown}")
+    return [("from the surface", ", ".join(words))] if words else []
 
 
 def deviations(comparisons: Mapping[str, Comparison]) -> list[tuple[str, str]]:

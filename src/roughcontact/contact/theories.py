@@ -23,7 +23,7 @@ from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.waves import Waves
 
-__all__ = ["loading_laws", "persson_pressures"]
+__all__ = ["facts_for", "loading_laws", "persson_pressures"]
 
 Array = npt.NDArray[np.float64]
 
@@ -78,15 +78,26 @@ def loading_laws(
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
         raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
-    known = {"modulus": value, "area": surface.grid.area} | knowns
-    needs = {need for name in wanted if name in laws.LAWS for need in laws.LAWS[name].needs} - known.keys()
-    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
-        known.setdefault("spectrum", _waves(surface))
-    if "rms" in needs:
-        known["rms"] = surface.rms
-    if "hurst" in needs:
-        known["hurst"] = hurst_exponent(_whole(surface)).hurst
+    known = {"modulus": value, "area": surface.grid.area} | facts_for(surface, wanted, **knowns)
     return _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
+
+
+def facts_for(surface: Surface, names: Sequence[str], **knowns: Any) -> dict[str, Any]:
+    """Return what theories of these names need to know of a surface: the `knowns`, and the rest from its heights.
+
+    The keys are those of `roughcontact.theory.laws.SurfaceFacts`.
+    """
+    needs = {need for name in names if name in laws.LAWS for need in laws.LAWS[name].needs} - knowns.keys()
+    found = dict(knowns)
+    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
+        found.setdefault("spectrum", _waves(surface))
+    if "rms" in needs:
+        found["rms"] = surface.rms
+    if "hurst" in needs:
+        found["hurst"] = hurst_exponent(_whole(surface)).hurst
+    if "rolloff" in needs:
+        found["rolloff"] = math.sqrt(surface.grid.area)
+    return found
 
 
 def persson_pressures(solution: Solution) -> Callable[[Array], Array]:

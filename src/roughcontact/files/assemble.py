@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
@@ -37,15 +37,15 @@ def assemble(
     periodic: bool | tuple[bool, ...] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and the doubts to warn of; what the user states overrides the file."""
-    _require(found, file, unit, size)
-    require_memory(BYTES_TO_LOOK * found.heights.size, file)
+    _require(found, unit, size)
+    require_memory(BYTES_TO_LOOK * found.heights.size)
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)
     contradictions = tuple(remark.text for remark in remarks if remark.contradicts)
     if not all(np.isfinite(step) and step > 0 for step in spacing):
         cells = " x ".join(f"{step:g} m" for step in spacing)
-        raise ReadError(file, f"it states cells of {cells}", f"pass {_size_hint(found)}")
+        raise ContentError(f"it states cells of {cells}", f"pass {_size_hint(found)}")
     grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
     claimed = any(found.periodic) if isinstance(found.periodic, tuple) else found.periodic
     periodic_note = (
@@ -56,15 +56,14 @@ def assemble(
     with np.errstate(over="ignore"):  # what becomes infinite is refused below
         heights = found.heights * factor
     if (peak := highest(heights)) > IMPOSSIBLE:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"it holds heights up to {peak:.3g} m",
             "check that the file is whole and its unit is right (unit=)",
         )
     try:
         surface = Surface(heights, grid)
     except ValueError as error:
-        raise ReadError(file, str(error), "check that it is the right file and channel") from error
+        raise ContentError(str(error), "check that it is the right file and channel") from error
     doubts = (*contradictions, *found.doubts, *doubts_about(surface.heights, grid.spacing))
     channel = "" if found.channel is None else f", channel {found.channel!r}"
     provenance = (
@@ -78,7 +77,7 @@ def assemble(
     return replace(surface, provenance=provenance), doubts
 
 
-def _require(found: HeightMap, file: str, unit: Length | None, size: object) -> None:
+def _require(found: HeightMap, unit: Length | None, size: object) -> None:
     """Refuse a file that leaves open what the user has left open too."""
     problems, hints = [], []
     if unit is None and not is_length(found.unit):
@@ -92,7 +91,7 @@ def _require(found: HeightMap, file: str, unit: Length | None, size: object) -> 
         problems.append("no size")
         hints.append(_size_hint(found))
     if problems:
-        raise ReadError(file, f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")
+        raise ContentError(f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")
 
 
 def _size_hint(found: HeightMap) -> str:

@@ -7,11 +7,13 @@ import stat
 import struct
 import zipfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, BinaryIO
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.numpy_files import read_npy_header
 
 __all__ = ["content", "needed"]
@@ -22,52 +24,58 @@ _TIMES_THE_FILE = BYTES_PER_POINT // 4
 _DAMAGED = (ValueError, OSError, EOFError, RuntimeError, struct.error, zlib.error, zipfile.BadZipFile)
 
 
-def content(path: str | os.PathLike[str]) -> tuple[str, bytes]:
-    """Return the name of a file and its bytes.
+@contextmanager
+def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
+    """Give the name of a file and its bytes; what is found unreadable within becomes an error that names the file.
 
     Raises
     ------
     ReadError
         If it is missing, empty, no ordinary file (a folder, a device, a pipe, what the system makes up while it is
-        read), or if reading it takes more memory than is free.
+        read), if reading it takes more memory than is free, or if what is done with the bytes ends in `ContentError`.
     """
     # A name may hold bytes that are no letters; in messages and provenance they become question marks.
     name = (Path(path).name or str(path)).encode("utf-8", "replace").decode("utf-8")
     try:
+        yield name, _bytes_of(path, Path(name).suffix.casefold())
+    except ContentError as error:
+        raise ReadError(name, error.problem, error.remedy) from error.__cause__
+
+
+def _bytes_of(path: str | os.PathLike[str], kind: str) -> bytes:
+    try:
         # To open a device may set it going.
-        _require_ordinary(os.stat(path), name)
+        _require_ordinary(os.stat(path))
         with open(path, "rb", opener=_without_waiting) as stream:
-            return name, _read(stream, name)
-    except ReadError:
+            return _read(stream, kind)
+    except ContentError:
         raise
     except (OSError, ValueError, MemoryError) as error:  # ValueError: a zero byte in the name
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
-        raise ReadError(
-            name, f"it cannot be opened ({reason})", "check the path and the permissions"
-        ) from error
+        raise ContentError(f"it cannot be opened ({reason})", "check the path and the permissions") from error
 
 
-def _read(stream: BinaryIO, name: str) -> bytes:
+def _read(stream: BinaryIO, kind: str) -> bytes:
     status = os.fstat(stream.fileno())  # another file may have taken the place of the one that was looked at
-    _require_ordinary(status, name)
+    _require_ordinary(status)
     if status.st_size == 0:
         # Files that the system makes up say so too, and some of them have no end.
-        raise ReadError(name, "it is empty, or no ordinary file", _COPY)
-    require_memory(needed(stream, status.st_size, name), name)
+        raise ContentError("it is empty, or no ordinary file", _COPY)
+    require_memory(needed(stream, status.st_size, kind))
     stream.seek(0)
     data = stream.read(status.st_size + 1)
     if len(data) != status.st_size:
-        raise ReadError(
-            name, f"it does not hold the {status.st_size} bytes that it should, or is being written", _COPY
+        raise ContentError(
+            f"it does not hold the {status.st_size} bytes that it should, or is being written", _COPY
         )
     return data
 
 
-def _require_ordinary(status: os.stat_result, name: str) -> None:
+def _require_ordinary(status: os.stat_result) -> None:
     if stat.S_ISDIR(status.st_mode):
-        raise ReadError(name, "it is a folder", "name a file in it")
+        raise ContentError("it is a folder", "name a file in it")
     if not stat.S_ISREG(status.st_mode):
-        raise ReadError(name, "it is a device, a pipe or a socket", "save it as an ordinary file first")
+        raise ContentError("it is a device, a pipe or a socket", "save it as an ordinary file first")
 
 
 def _without_waiting(path: str, flags: int) -> int:
@@ -75,7 +83,7 @@ def _without_waiting(path: str, flags: int) -> int:
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
-def needed(stream: IO[bytes], size: int, file: str) -> int:
+def needed(stream: IO[bytes], size: int, kind: str) -> int:
     """Return an upper estimate of the memory that reading a file of `size` bytes takes [bytes].
 
     Points are counted from the headers of ``.npy`` and ``.npz``. Any other file is taken to need 25 times its size,
@@ -83,19 +91,19 @@ def needed(stream: IO[bytes], size: int, file: str) -> int:
     """
     try:
         stream.seek(0)
-        if Path(file).suffix.casefold() == ".npy":
+        if kind == ".npy":
             return size + BYTES_PER_POINT * _points(stream, size)
         if zipfile.is_zipfile(stream):
-            return _needed_unpacked(stream, size, file)
+            return _needed_unpacked(stream, size, kind)
     except _DAMAGED:
         pass
     return _TIMES_THE_FILE * size
 
 
-def _needed_unpacked(stream: IO[bytes], size: int, file: str) -> int:
+def _needed_unpacked(stream: IO[bytes], size: int, kind: str) -> int:
     with zipfile.ZipFile(stream) as archive:
         unpacked = sum(member.file_size for member in archive.infolist())
-        if Path(file).suffix.casefold() != ".npz":
+        if kind != ".npz":
             return _TIMES_THE_FILE * max(size, unpacked)
         points = 0
         for member in archive.infolist():

@@ -1,12 +1,12 @@
-"""The reader that the extension of a file asks for."""
+"""The reader that the kind of a file, its extension in lower case, asks for."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.foreign import list_foreign, read_foreign
 from roughcontact.files.heightmap import Channel, HeightMap, pick, require_line, require_map
 from roughcontact.files.netcdf import list_netcdf, read_netcdf
@@ -24,20 +24,20 @@ __all__ = ["channels_of", "either", "height_map", "profile_of"]
 class _Reader:
     """How the files of a format are read, and how what they hold is listed."""
 
-    read: Callable[[bytes, str, str | int | None], HeightMap]
-    channels: Callable[[bytes, str], tuple[Channel, ...]]
+    read: Callable[[bytes, str | int | None], HeightMap]
+    channels: Callable[[bytes], tuple[Channel, ...]]
 
 
-def _alone(read: Callable[[bytes, str], HeightMap]) -> _Reader:
+def _alone(read: Callable[[bytes], HeightMap]) -> _Reader:
     """Return the reader of a format whose files hold a single map or profile."""
 
-    def channels(data: bytes, file: str) -> tuple[Channel, ...]:
-        return (read(data, file).as_channel(),)
+    def channels(data: bytes) -> tuple[Channel, ...]:
+        return (read(data).as_channel(),)
 
-    def chosen(data: bytes, file: str, channel: str | int | None) -> HeightMap:
-        found = read(data, file)
+    def chosen(data: bytes, channel: str | int | None) -> HeightMap:
+        found = read(data)
         if channel is not None:
-            pick((found.as_channel(),), channel, file)
+            pick((found.as_channel(),), channel)
         return found
 
     return _Reader(chosen, channels)
@@ -45,7 +45,6 @@ def _alone(read: Callable[[bytes, str], HeightMap]) -> _Reader:
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
 _PROFILE = _alone(read_profile)  # of a text that holds no map
-_FOREIGN = _Reader(read_foreign, list_foreign)
 _OURS = {
     ".npy": _alone(read_npy),
     **dict.fromkeys(_TEXTS, _alone(read_text)),
@@ -57,68 +56,62 @@ _OURS = {
 }
 
 
-def height_map(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def height_map(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its map of heights, by the reader of its extension."""
     try:
-        found = _reader(file).read(data, file, channel)
-    except ReadError as error:
-        if points := _points_on_a_line(data, file):
+        found = _reader(kind).read(data, channel)
+    except ContentError as error:
+        if points := _points_on_a_line(data, kind):
             problem = f"it is a profile of {points} heights, not a map ({error.problem})"
-            raise ReadError(file, problem, "read it by read_line") from None
+            raise ContentError(problem, "read it by read_line") from None
         raise
-    require_map(found, file)
+    require_map(found)
     return found
 
 
-def either(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def either(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return the map of heights of a file, or the line of heights where it holds one instead."""
     try:
-        found = _reader(file).read(data, file, channel)
-    except ReadError:
-        if not _points_on_a_line(data, file):
+        found = _reader(kind).read(data, channel)
+    except ContentError:
+        if not _points_on_a_line(data, kind):
             raise
-        return profile_of(data, file, channel)
-    if found.heights.ndim == 1 or (found.heights.shape[1] == 1 and _suffix(file) in _TEXTS):
-        return profile_of(data, file, channel)
-    require_map(found, file)
+        return profile_of(data, kind, channel)
+    if found.heights.ndim == 1 or (found.heights.shape[1] == 1 and kind in _TEXTS):
+        return profile_of(data, kind, channel)
+    require_map(found)
     return found
 
 
-def profile_of(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
-    kind = _suffix(file)
     if kind not in _OURS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        raise ReadError(file, problem, f"export it as one of {', '.join(_OURS)}")
-    found = (_PROFILE if kind in _TEXTS else _OURS[kind]).read(data, file, channel)
-    require_line(found, file)
+        raise ContentError(problem, f"export it as one of {', '.join(_OURS)}")
+    found = (_PROFILE if kind in _TEXTS else _OURS[kind]).read(data, channel)
+    require_line(found)
     return found
 
 
-def channels_of(data: bytes, file: str) -> tuple[Channel, ...]:
+def channels_of(data: bytes, kind: str) -> tuple[Channel, ...]:
     """Return what the file holds, in its order."""
     try:
-        return _reader(file).channels(data, file)
-    except ReadError:
-        if not _points_on_a_line(data, file):
+        return _reader(kind).channels(data)
+    except ContentError:
+        if not _points_on_a_line(data, kind):
             raise
-        return _PROFILE.channels(data, file)
+        return _PROFILE.channels(data)
 
 
-def _reader(file: str) -> _Reader:
-    return _OURS.get(_suffix(file), _FOREIGN)
+def _reader(kind: str) -> _Reader:
+    return _OURS.get(kind) or _Reader(partial(read_foreign, kind), partial(list_foreign, kind))
 
 
-def _points_on_a_line(data: bytes, file: str) -> int:
+def _points_on_a_line(data: bytes, kind: str) -> int:
     """Return the number of heights of a text that is a profile, or 0."""
-    if _suffix(file) not in _TEXTS:
+    if kind not in _TEXTS:
         return 0
     try:
-        return len(read_profile(data, file).heights)
-    except ReadError:
+        return len(read_profile(data).heights)
+    except ContentError:
         return 0
-
-
-def _suffix(file: str) -> str:
-    """Return the extension in lower case."""
-    return Path(file).suffix.casefold()

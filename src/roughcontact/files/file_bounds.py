@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Callable
-from functools import partial
 from io import BytesIO
 from typing import Any
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.memory import require_free
 
 __all__ = ["BYTES_PER_POINT", "BYTES_TO_LOOK", "BoundedStream", "require_memory", "unzip"]
@@ -25,7 +24,7 @@ _BYTES, _TIMES = 500_000_000, 500
 _CALLS, _BYTES_A_CALL = 100_000, 10
 
 
-def require_memory(need: int, file: str) -> None:
+def require_memory(need: int) -> None:
     """Refuse a file that takes more memory than is free.
 
     Parameters
@@ -37,24 +36,24 @@ def require_memory(need: int, file: str) -> None:
 
     Raises
     ------
-    ReadError
+    ContentError
         If the machine has less free.
     """
-    require_free(need, "reading it", "cut the map or subsample it", partial(ReadError, file))
+    require_free(need, "reading it", "cut the map or subsample it", ContentError)
 
 
-def unzip(data: bytes, file: str, wanted: Callable[[str], bool]) -> dict[str, bytes]:
+def unzip(data: bytes, wanted: Callable[[str], bool]) -> dict[str, bytes]:
     """Return the members whose name is `wanted`, by name, each checked against its size and checksum."""
     try:
         with zipfile.ZipFile(BytesIO(data)) as archive:
             members = [member for member in archive.infolist() if wanted(member.filename)]
-            require_memory(sum(member.file_size for member in members), file)
+            require_memory(sum(member.file_size for member in members))
             return {member.filename: _content(archive, member) for member in members}
-    except ReadError:
+    except ContentError:
         raise
     except Exception as error:  # a damaged archive fails in a dozen ways, from struct.error to zlib.error
-        raise ReadError(
-            file, f"its zip archive is damaged or cut short ({error})", "copy or export the file again"
+        raise ContentError(
+            f"its zip archive is damaged or cut short ({error})", "copy or export the file again"
         ) from error
 
 

@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
-__all__ = ["ReadError", "SurfaceWarning"]
+from dataclasses import dataclass
+
+__all__ = ["ContentError", "ReadError", "SurfaceWarning"]
 
 
+@dataclass(eq=False, repr=False)
+class ContentError(ValueError):
+    """Bytes that a reader cannot turn into heights; `content` makes a `ReadError` of it, which names the file."""
+
+    problem: str
+    remedy: str
+
+
+@dataclass(eq=False, repr=False)
 class ReadError(ValueError):
     """A file that cannot be turned into a surface, or into a curve.
 
@@ -18,11 +29,9 @@ class ReadError(ValueError):
         What the reader of the message can do about it.
     """
 
-    def __init__(self, file: str, problem: str, remedy: str) -> None:
-        super().__init__(file, problem, remedy)  # all three in `args`, so that the error can be pickled
-        self.file = file
-        self.problem = problem
-        self.remedy = remedy
+    file: str
+    problem: str
+    remedy: str
 
     def __str__(self) -> str:
         return f"{self.file}: {self.problem}; {self.remedy}"

@@ -7,16 +7,16 @@ import math
 import re
 import sys
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
-from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import (
     Array,
@@ -32,7 +32,6 @@ from roughcontact.files.length_units import is_length, length_factor
 
 __all__ = ["list_foreign", "read_foreign"]
 
-Result = TypeVar("Result")
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
 _OURS = {
@@ -64,63 +63,55 @@ for _name in _TALKATIVE:
     logging.getLogger(_name).addFilter(_unless_reading)
 
 
-def read_foreign(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap:
     """Return the height channel of a file in any format that SurfaceTopography knows.
 
     The channel is `channel`, or the first whose name and unit are those of a height; the library's default
     is never taken.
     """
-
-    def work(reader: Any, stream: BoundedStream) -> HeightMap:
-        channels = _channels(reader, file)
-        index, doubts = _choose(channels, channel, file)
-        found = _map(reader, index, channels[index], file)
+    with _opened(kind, data) as (reader, stream):
+        channels = _channels(reader)
+        index, doubts = _choose(channels, channel)
+        found = _map(reader, index, channels[index])
         return replace(found, doubts=(*doubts, *_left_over(reader, stream, found.heights.shape[1])))
 
-    return _with_reader(data, file, work)
 
-
-def list_foreign(data: bytes, file: str) -> tuple[Channel, ...]:
+def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:
     """Return the channels of a file in any format that SurfaceTopography knows."""
-    return _with_reader(data, file, lambda reader, _: _channels(reader, file))
+    with _opened(kind, data) as (reader, _):
+        return _channels(reader)
 
 
-def _with_reader(data: bytes, file: str, work: Callable[[Any, BoundedStream], Result]) -> Result:
-    """Open the bytes, let `work` look at them, close; whatever goes wrong becomes a ReadError."""
-    reading = _READING.set(True)
-    try:
-        with np.errstate(all="ignore"):  # of damaged numbers; what is odd about them shows in the heights
-            return _opened(data, file, work)
-    finally:
-        _READING.reset(reading)
-
-
-def _opened(data: bytes, file: str, work: Callable[[Any, BoundedStream], Result]) -> Result:
+@contextmanager
+def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
+    """Give the library's reader of the bytes, and what it reads; whatever goes wrong becomes a ContentError."""
     try:
         from SurfaceTopography.IO import open_topography
     except ImportError as error:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
             f"run: {sys.executable} -m pip install 'roughcontact[formats]'",
         ) from error
-    suffix = Path(file).suffix.casefold()
     # Bytes in memory leave no open file behind when a reader gives up half-way.
-    stream = BoundedStream(data, "surface" + suffix if re.fullmatch(r"\.[a-z0-9_-]+", suffix) else "surface")
+    stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
+    reading = _READING.set(True)
     try:
         if is_hdf5(data):
-            with opened_hdf5(data, file):
+            with opened_hdf5(data):
                 pass
-        reader = open_topography(stream, format=_UNMARKED.get(suffix))
-        try:
-            _accept(str(reader.format()), file)
-            return work(reader, stream)
-        finally:
-            reader.close()
-    except ReadError:
+        # What is odd about damaged numbers shows in the heights.
+        with (
+            np.errstate(all="ignore"),
+            closing(open_topography(stream, format=_UNMARKED.get(kind))) as reader,
+        ):
+            _accept(str(reader.format()), kind)
+            yield reader, stream
+    except ContentError:
         raise
     except Exception as error:  # any reader of forty may fail in any way on a damaged file
-        raise ReadError(file, f"it cannot be read ({_brief(error)})", _REMEDY) from error
+        raise ContentError(f"it cannot be read ({_brief(error)})", _REMEDY) from error
+    finally:
+        _READING.reset(reading)
 
 
 def _brief(error: Exception) -> str:
@@ -130,19 +121,18 @@ def _brief(error: Exception) -> str:
     return f"{type(error).__name__}: {lines[0][:120]}" if lines else type(error).__name__
 
 
-def _accept(format_name: str, file: str) -> None:
+def _accept(format_name: str, kind: str) -> None:
     """Refuse what the other library reads too readily."""
     unmarked = {name: suffix for suffix, name in _UNMARKED.items()}
     suffix = _OURS.get(format_name) or unmarked.get(format_name)
-    if suffix is not None and not (format_name in unmarked and file.casefold().endswith(suffix)):
-        raise ReadError(
-            file,
+    if suffix is not None and not (format_name in unmarked and kind == suffix):
+        raise ContentError(
             f"its extension hides its format: it can only be taken for {suffix}",
             f"rename it to {suffix} if that is what it is; {_REMEDY}",
         )
 
 
-def _channels(reader: Any, file: str) -> tuple[Channel, ...]:
+def _channels(reader: Any) -> tuple[Channel, ...]:
     """Return the channels with units that are checked; heights are known by name and unit."""
     found: list[Channel] = []
     seen: Counter[str] = Counter()
@@ -165,7 +155,7 @@ def _channels(reader: Any, file: str) -> tuple[Channel, ...]:
         label = name if seen[name] == 1 else f"{name}#{seen[name]}"
         found.append(Channel(label, shape, unit, size, is_height=False))
     if not found:
-        raise ReadError(file, "it holds no channel", _REMEDY)
+        raise ContentError("it holds no channel", _REMEDY)
     return tuple(replace(c, is_height=_is_height(c, found)) for c in found)
 
 
@@ -191,14 +181,13 @@ def _is_map(channel: Channel) -> bool:
     return len(channel.shape) == 2 and min(channel.shape) >= 2
 
 
-def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) -> tuple[int, tuple[str, ...]]:
+def _choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, tuple[str, ...]]:
     """Return the position of the channel to read, and a doubt where another would do as well."""
     if wanted is not None:
-        index = pick(channels, wanted, file)
+        index = pick(channels, wanted)
         return index, _doubts(channels[index])
     if not any(map(_is_map, channels)):
-        raise ReadError(
-            file,
+        raise ContentError(
             f"it holds no map but {describe(channels)}: a profile cannot be pressed as a surface",
             "give a two-dimensional map of heights",
         )
@@ -206,8 +195,7 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None, file: str) ->
     if not heights:  # without a unit they need the user's, which is asked for later
         heights = [k for k, c in enumerate(channels) if c.is_height]
     if not heights:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"no channel is a height by its name and unit: {describe(channels)}",
             "pass channel= with a name from this list, and unit= where its unit is no length",
         )
@@ -252,29 +240,25 @@ def _heights(reader: Any, index: int) -> Array:
     return np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), math.nan)
 
 
-def _map(reader: Any, index: int, channel: Channel, file: str) -> HeightMap:
+def _map(reader: Any, index: int, channel: Channel) -> HeightMap:
     if len(channel.shape) != 2:
-        raise ReadError(
-            file, f"channel {channel.name!r} is a profile", "give a two-dimensional map of heights"
-        )
-    require_memory(BYTES_PER_POINT * math.prod(channel.shape), file)
+        raise ContentError(f"channel {channel.name!r} is a profile", "give a two-dimensional map of heights")
+    require_memory(BYTES_PER_POINT * math.prod(channel.shape))
     info = reader.channels[index]
     if reader.format() in _UPRIGHT and not info.height_scale_factor > 0:
-        raise ReadError(
-            file, f"its header states a factor of {info.height_scale_factor:g} for heights", _REMEDY
-        )
+        raise ContentError(f"its header states a factor of {info.height_scale_factor:g} for heights", _REMEDY)
     heights = _heights(reader, index)
     if reader.format() not in _MATRICES:
         heights = heights.T
     if heights.shape != channel.shape:
-        raise ReadError(
-            file, f"its header announces {channel.shape} points and its data hold {heights.shape}", _REMEDY
+        raise ContentError(
+            f"its header announces {channel.shape} points and its data hold {heights.shape}", _REMEDY
         )
     spacing = None
     if channel.size is not None:
         spacing = (channel.size[0] / channel.shape[0], channel.size[1] / channel.shape[1])
     return HeightMap(
-        as_heights(heights, file),
+        as_heights(heights),
         f"{reader.format()} by SurfaceTopography",
         channel=channel.name,
         unit=channel.unit,

@@ -10,7 +10,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 
 if TYPE_CHECKING:
     import h5py
@@ -33,7 +33,7 @@ def is_hdf5(data: bytes) -> bool:
 
 
 @contextmanager
-def opened_hdf5(data: bytes, file: str) -> Iterator[h5py.File]:
+def opened_hdf5(data: bytes) -> Iterator[h5py.File]:
     """Yield an HDF5 file; one that leads to other files, or whose blocks do not fit in memory, is refused.
 
     External links, external storage and virtual datasets name files of the machine that reads: a foreign file would
@@ -45,16 +45,16 @@ def opened_hdf5(data: bytes, file: str) -> Iterator[h5py.File]:
         # What a visitor raises does not come through; what it returns ends the visit and does.
         elsewhere = opened.visititems_links(_linked_elsewhere) or opened.visititems(_stored_elsewhere)
         if elsewhere is not None:
-            raise ReadError(file, elsewhere, "write the numbers into the file itself")
+            raise ContentError(elsewhere, "write the numbers into the file itself")
         for values in _datasets(opened):
             if values.chunks:
-                _require_blocks(values, file)
+                _require_blocks(values)
         yield opened
 
 
-def require_memory_for(values: h5py.Dataset, file: str) -> None:
+def require_memory_for(values: h5py.Dataset) -> None:
     """Refuse to load what its header declares too large: values that were never written take no room in a file."""
-    require_memory(BYTES_PER_POINT * math.prod(values.shape or ()), file)
+    require_memory(BYTES_PER_POINT * math.prod(values.shape or ()))
 
 
 def _linked_elsewhere(name: str, link: Any) -> str | None:
@@ -86,13 +86,13 @@ def _datasets(opened: h5py.File) -> list[h5py.Dataset]:
     return found
 
 
-def _require_blocks(values: h5py.Dataset, file: str) -> None:
+def _require_blocks(values: h5py.Dataset) -> None:
     """Refuse blocks that do not fit in memory, by their declared size, or by what their bytes unpack to.
 
     HDF5 unpacks a block whole and as far as it goes. Only those large enough to become too large are tried here.
     """
     size = math.prod(values.chunks) * values.dtype.itemsize
-    require_memory(size, file)
+    require_memory(size)
     large: list[tuple[int, ...]] = []
 
     def look(block: Any) -> None:
@@ -105,6 +105,6 @@ def _require_blocks(values: h5py.Dataset, file: str) -> None:
     for place in large:
         packed = values.id.read_direct_chunk(place)[1]
         if len(zlib.decompressobj().decompress(packed, size + 1)) > size:
-            raise ReadError(
-                file, f"a block of its {values.name} unpacks to more than it declares", "copy it again"
+            raise ContentError(
+                f"a block of its {values.name} unpacks to more than it declares", "copy it again"
             )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 
 __all__ = [
     *("Array", "Channel", "HeightMap", "as_heights", "describe", "names_a_height", "names_something_else"),
@@ -99,40 +99,39 @@ class HeightMap:
         return Channel(self.channel or "heights", shape, self.unit, size, is_height=len(shape) == 2)
 
 
-def as_heights(values: npt.NDArray[Any], file: str) -> Array:
+def as_heights(values: npt.NDArray[Any]) -> Array:
     """Return `values` as heights of a map (ny, nx) or of a line (n,), or refuse them."""
     if values.dtype.kind not in "fiu":
-        raise ReadError(file, f"its values are of type {values.dtype}", "save the heights as real numbers")
+        raise ContentError(f"its values are of type {values.dtype}", "save the heights as real numbers")
     if values.ndim not in (1, 2):
         shape = " x ".join(map(str, values.shape)) or "one number"
-        raise ReadError(file, f"it is {values.ndim}-dimensional ({shape})", _MAP)
+        raise ContentError(f"it is {values.ndim}-dimensional ({shape})", _MAP)
     # A damaged file may hold signalling NaN or numbers beyond double precision.
     with np.errstate(all="ignore"):
         return values.astype(np.float64)
 
 
-def require_map(found: HeightMap, file: str) -> None:
+def require_map(found: HeightMap) -> None:
     """Refuse what is no map of at least 2 x 2 heights."""
     shape = found.heights.shape
     if len(shape) == 1:
-        raise ReadError(file, f"it is a profile of {shape[0]} heights", f"{_MAP}, or use read_line")
+        raise ContentError(f"it is a profile of {shape[0]} heights", f"{_MAP}, or use read_line")
     if min(shape) < 2:
         points = " x ".join(map(str, shape))
-        raise ReadError(
-            file,
+        raise ContentError(
             f"it holds {points} heights, a profile at most",
             "give a two-dimensional map of at least 2 x 2 heights, or use read_line",
         )
 
 
-def require_line(found: HeightMap, file: str) -> None:
+def require_line(found: HeightMap) -> None:
     """Refuse what is no line of at least two heights."""
     shape = found.heights.shape
     if len(shape) != 1:
         points = " x ".join(map(str, shape))
-        raise ReadError(file, f"it is a map of {points} heights, no profile", "use read")
+        raise ContentError(f"it is a map of {points} heights, no profile", "use read")
     if shape[0] < 2:
-        raise ReadError(file, f"it holds {shape[0]} heights", "give a profile of at least 2 heights")
+        raise ContentError(f"it holds {shape[0]} heights", "give a profile of at least 2 heights")
 
 
 def names_a_height(name: str) -> bool:
@@ -155,12 +154,12 @@ def describe(channels: Sequence[Channel]) -> str:
     return ", ".join(parts)
 
 
-def pick(channels: Sequence[Channel], wanted: str | int | None, file: str) -> int:
+def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
     """Return the position of the `wanted` channel (a name or a position), or of the only height.
 
     Raises
     ------
-    ReadError
+    ContentError
         If no channel fits, or if several do and none is wanted.
     """
     if wanted is None:
@@ -171,7 +170,7 @@ def pick(channels: Sequence[Channel], wanted: str | int | None, file: str) -> in
         remedy = (
             "pass channel= with the name of one of them" if heights else "give a file with a map of heights"
         )
-        raise ReadError(file, f"{problem}: {describe(channels)}", remedy)
+        raise ContentError(f"{problem}: {describe(channels)}", remedy)
     if isinstance(wanted, int):
         if 0 <= wanted < len(channels):
             return wanted
@@ -180,8 +179,6 @@ def pick(channels: Sequence[Channel], wanted: str | int | None, file: str) -> in
             for k, channel in enumerate(channels):
                 if same(channel.name) == same(wanted):
                     return k
-    raise ReadError(
-        file,
-        f"it has no channel {wanted!r}, only {describe(channels)}",
-        "pass channel= with one of these names",
+    raise ContentError(
+        f"it has no channel {wanted!r}, only {describe(channels)}", "pass channel= with one of these names"
     )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5, require_memory_for
 from roughcontact.files.heightmap import (
     Channel,
@@ -65,20 +65,20 @@ class StoredVariable:
         return result
 
 
-def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
     """Return one variable of two dimensions, or of one for a profile.
 
     It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
     rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
     from the attribute ``length`` of the coordinates, or from coordinates with even steps.
     """
-    with opened(data, file) as (variables, attributes):
+    with opened(data) as (variables, attributes):
         found = _channels(variables)
         if channel is None and "heights" in variables:
             channel = "heights"
-        name = found[pick(found, channel, file)].name
+        name = found[pick(found, channel)].name
         chosen = variables[name]
-        heights = as_heights(_checked(chosen, name, file), file)
+        heights = as_heights(_checked(chosen, name))
         if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
             heights = np.where(variables["mask"].load() != 0, np.nan, heights)
         axes = chosen.dimensions
@@ -89,21 +89,21 @@ def read_netcdf(data: bytes, file: str, channel: str | int | None) -> HeightMap:
             "NetCDF",
             channel=name,
             unit=chosen.word("unit", "units"),
-            spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units"), file),
+            spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units")),
             periodic=_periodic(variables, axes),
             history=_history(attributes),
         )
 
 
-def list_netcdf(data: bytes, file: str) -> tuple[Channel, ...]:
+def list_netcdf(data: bytes) -> tuple[Channel, ...]:
     """Return the variables that can be maps or profiles."""
-    with opened(data, file) as (variables, _):
+    with opened(data) as (variables, _):
         return _channels(variables)
 
 
 @contextmanager
-def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str, Any]]]:
-    """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ReadError."""
+def opened(data: bytes) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str, Any]]]:
+    """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ContentError."""
     try:
         if data.startswith(b"CDF"):
             from scipy.io import netcdf_file
@@ -112,15 +112,15 @@ def opened(data: bytes, file: str) -> Iterator[tuple[dict[str, StoredVariable], 
             with reader(BytesIO(data), "r", mmap=False) as classic:
                 yield _classic(classic), dict(classic._attributes)
         elif is_hdf5(data):
-            with opened_hdf5(data, file) as modern:
-                yield _modern(modern, file), dict(modern.attrs)
+            with opened_hdf5(data) as modern:
+                yield _modern(modern), dict(modern.attrs)
         else:
-            raise ReadError(file, "it is not a NetCDF file", "check its extension; copy it again")
-    except (ReadError, ImportError):  # a library that cannot be imported is no damage of the file
+            raise ContentError("it is not a NetCDF file", "check its extension; copy it again")
+    except (ContentError, ImportError):  # a library that cannot be imported is no damage of the file
         raise
     except Exception as error:  # damaged files fail in a dozen ways, down to OverflowError
         reason = (str(error).strip().splitlines() or [""])[0][:120] or type(error).__name__
-        raise ReadError(file, f"it is damaged ({reason})", _AGAIN) from error
+        raise ContentError(f"it is damaged ({reason})", _AGAIN) from error
 
 
 def _classic(file: Any) -> dict[str, StoredVariable]:
@@ -132,7 +132,7 @@ def _classic(file: Any) -> dict[str, StoredVariable]:
     }
 
 
-def _modern(opened: Any, file: str) -> dict[str, StoredVariable]:
+def _modern(opened: Any) -> dict[str, StoredVariable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
     for name, values in opened.items():
@@ -143,13 +143,13 @@ def _modern(opened: Any, file: str) -> dict[str, StoredVariable]:
         if values.is_scale and values.ndim == 1:
             axes = [name]
         attributes = {key: value for key, value in values.attrs.items() if not key.isupper()}
-        load = partial(_stored, values, file)
+        load = partial(_stored, values)
         found[name] = StoredVariable(tuple(axes), values.shape, values.dtype, attributes, load)
     return found
 
 
-def _stored(values: Any, file: str) -> npt.NDArray[Any]:
-    require_memory_for(values, file)
+def _stored(values: Any) -> npt.NDArray[Any]:
+    require_memory_for(values)
     return _values(values)
 
 
@@ -176,11 +176,11 @@ def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
     )
 
 
-def _checked(variable: StoredVariable, name: str, file: str) -> npt.NDArray[np.float64]:
+def _checked(variable: StoredVariable, name: str) -> npt.NDArray[np.float64]:
     values = variable.numbers()
     if values.shape != variable.shape:
-        raise ReadError(
-            file, f"its {name} holds {values.shape} numbers where {variable.shape} are announced", _AGAIN
+        raise ContentError(
+            f"its {name} holds {values.shape} numbers where {variable.shape} are announced", _AGAIN
         )
     return values
 
@@ -190,7 +190,6 @@ def _spacing(
     axes: tuple[str, ...],
     shape: tuple[int, ...],
     unit: str | None,
-    file: str,
 ) -> tuple[float, ...] | None:
     """Return the cell [m] along `axes`, or None where the file leaves an axis open."""
     own = variables.get("spacing")
@@ -198,14 +197,14 @@ def _spacing(
         factor = length_factor(own.word("unit", "units") or "")
         return tuple(float(step) * factor for step in own.numbers())
     steps = [
-        _step(variables[axis], axis, n, unit, file) if axis in variables else None
+        _step(variables[axis], axis, n, unit) if axis in variables else None
         for axis, n in zip(axes, shape, strict=True)
     ]
     known = tuple(step for step in steps if step is not None)
     return known if len(known) == len(steps) else None
 
 
-def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None, file: str) -> float | None:
+def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None) -> float | None:
     """Return the step [m] of a coordinate from its length or its values, which must not contradict each other."""
     unit = coordinate.word("unit", "units") or unit
     if not is_length(unit) or coordinate.shape != (count,) or count < 2:
@@ -218,14 +217,14 @@ def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None, f
     slack = _EVEN * np.abs(places).max()
     # A zero or NaN step passes here and is refused with the size of a cell.
     if (uneven > slack).any():
-        raise ReadError(
-            file, f"its coordinates along {axis} are not even", "interpolate to a regular grid first"
+        raise ContentError(
+            f"its coordinates along {axis} are not even", "interpolate to a regular grid first"
         )
     if "length" in coordinate.attributes:
         length = float(np.asarray(coordinate.attributes["length"]).reshape(-1)[0])
         if not abs(length / count - abs(step)) <= slack:
-            raise ReadError(
-                file, f"its length {length:g} along {axis} contradicts {count} steps of {step:g}", _AGAIN
+            raise ContentError(
+                f"its length {length:g} along {axis} contradicts {count} steps of {step:g}", _AGAIN
             )
         step = length / count
     return abs(float(step)) * length_factor(unit or "")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Array
 
 __all__ = ["Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]
@@ -30,14 +30,14 @@ class Table:
     doubts: tuple[str, ...]
 
 
-def parse_table(data: bytes, file: str) -> Table:
+def parse_table(data: bytes) -> Table:
     """Return the table in a text separated by blanks, tabs, semicolons or commas.
 
     A decimal comma is understood beside any separator but the comma itself.
 
     Raises
     ------
-    ReadError
+    ContentError
         If a row is longer or shorter than the first, a field is empty or not a number, or an empty line or a
         comment interrupts the rows; the message names the row.
     """
@@ -45,7 +45,7 @@ def parse_table(data: bytes, file: str) -> Table:
     rows: list[tuple[int, str]] = []
     interrupted = False
     interruption = 0  # the line of an empty line or comment after the first row
-    text = decode(data, file)
+    text = decode(data)
     for number, line in enumerate(text.split("\n"), start=1):
         bare = line.strip()
         if bare.startswith("#") or not bare:
@@ -59,25 +59,23 @@ def parse_table(data: bytes, file: str) -> Table:
         else:
             rows.append((number, line))
     if not rows:
-        raise ReadError(file, "it holds no numbers", _PLAIN)
+        raise ContentError("it holds no numbers", _PLAIN)
     # The rows come first: one that holds no numbers says more about the file than the hole after it.
-    values = _numbers(rows, file)
+    values = _numbers(rows)
     if interrupted:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"line {interruption}, empty or a comment, is a hole after row {len(rows)}",
             "keep one uninterrupted table in a file",
         )
-    require_rows(comments, len(rows), file)
+    require_rows(comments, len(rows))
     return Table(values, tuple(comments), unended(text))
 
 
-def require_rows(comments: Iterable[str], found: int, file: str) -> None:
+def require_rows(comments: Iterable[str], found: int) -> None:
     """Refuse a text of fewer rows than a comment states."""
     stated = stated_rows(comments)
     if stated is not None and stated > found:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"{found} rows are there where it states {stated}: it is cut short",
             "copy or export it again, or take out that line if it says something else",
         )
@@ -97,7 +95,7 @@ def unended(text: str) -> tuple[str, ...]:
     return ("its last line has no end: it may be cut short, and its last number may lack digits",)
 
 
-def decode(data: bytes, file: str) -> str:
+def decode(data: bytes) -> str:
     """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
     utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
@@ -105,8 +103,8 @@ def decode(data: bytes, file: str) -> str:
     except UnicodeDecodeError:
         text = data.decode("latin-1")  # older Western exports: only comments are concerned
     if "\0" in text:
-        raise ReadError(
-            file, "it is not a text: it holds zero bytes", "rename it to the extension of its format"
+        raise ContentError(
+            "it is not a text: it holds zero bytes", "rename it to the extension of its format"
         )
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
@@ -117,7 +115,7 @@ def last_digit(number: str) -> float:
     return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
 
-def _numbers(rows: list[tuple[int, str]], file: str) -> Array:
+def _numbers(rows: list[tuple[int, str]]) -> Array:
     separator, decimal_comma = _separator(rows[0][1])
     lines = [line.strip(" ") for _, line in rows]
     # A separator closing every row is a habit of some programs; one closing only some rows leaves holes.
@@ -128,16 +126,15 @@ def _numbers(rows: list[tuple[int, str]], file: str) -> Array:
         if closed:
             fields.pop()
         if decimal_comma:
-            fields = _without_decimal_comma(fields, file, f"row {index + 1} (line {number})")
+            fields = _without_decimal_comma(fields, f"row {index + 1} (line {number})")
         try:
             if "_" in line:  # Python reads 1_000 as a thousand
                 raise ValueError
             table.append([float(field) for field in fields])
         except ValueError:
-            raise _bad_field(fields, file, f"row {index + 1} (line {number})") from None
+            raise _bad_field(fields, f"row {index + 1} (line {number})") from None
         if len(fields) != len(table[0]):
-            raise ReadError(
-                file,
+            raise ContentError(
                 f"row {index + 1} (line {number}) holds {len(fields)} numbers, the first row {len(table[0])}",
                 _HOLE,
             )
@@ -156,17 +153,17 @@ def _separator(line: str) -> tuple[str | None, bool]:
     return (None, True) if blanks else (",", False)
 
 
-def _without_decimal_comma(fields: list[str], file: str, where: str) -> list[str]:
+def _without_decimal_comma(fields: list[str], where: str) -> list[str]:
     if any("." in field for field in fields):
-        raise ReadError(file, f"{where} holds decimal commas and points", "write decimal points throughout")
+        raise ContentError(f"{where} holds decimal commas and points", "write decimal points throughout")
     return [field.replace(",", ".") for field in fields]
 
 
-def _bad_field(fields: list[str], file: str, where: str) -> ReadError:
+def _bad_field(fields: list[str], where: str) -> ContentError:
     """Return the error that names the first field which is not a number."""
     for column, field in enumerate(fields, start=1):
         if not field.strip():
-            return ReadError(file, f"{where}, column {column} is empty", _HOLE)
+            return ContentError(f"{where}, column {column} is empty", _HOLE)
         try:
             if "_" not in field:
                 float(field)
@@ -174,5 +171,5 @@ def _bad_field(fields: list[str], file: str, where: str) -> ReadError:
         except ValueError:
             pass
         shown = field.strip() if len(field.strip()) <= 30 else field.strip()[:27] + "..."
-        return ReadError(file, f"{where}, column {column}: {shown!r} is not a number", _PLAIN)
-    return ReadError(file, f"{where} is not a row of numbers", _PLAIN)
+        return ContentError(f"{where}, column {column}: {shown!r} is not a number", _PLAIN)
+    return ContentError(f"{where} is not a row of numbers", _PLAIN)

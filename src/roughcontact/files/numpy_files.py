@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_bounds import unzip
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
 from roughcontact.surface.surface import Surface
 
@@ -86,44 +86,44 @@ def read_npy_header(stream: IO[bytes]) -> NpyHeader:
     return NpyHeader(dtype, counts, order == "True", offset)
 
 
-def read_npy(data: bytes, file: str) -> HeightMap:
+def read_npy(data: bytes) -> HeightMap:
     """Return the one array of a ``.npy`` file; it states neither unit nor size."""
-    return HeightMap(as_heights(_array(data, file), file), "npy")
+    return HeightMap(as_heights(_array(data)), "npy")
 
 
-def read_npz(data: bytes, file: str, channel: str | int | None) -> HeightMap:
+def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
     """Return one array of a ``.npz`` file.
 
     The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
     name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m], ``periodic`` (one truth value, or
     one an axis) and ``history`` (lines of text) say what it means, where they are present.
     """
-    arrays = _arrays(data, file)
+    arrays = _arrays(data)
     names = _channels(arrays)
     if channel is None and "heights" in arrays:
         channel = "heights"
-    chosen = names[pick(names, channel, file)].name
-    heights = as_heights(arrays[chosen], file)
+    chosen = names[pick(names, channel)].name
+    heights = as_heights(arrays[chosen])
     unit = arrays.get("unit")
     return HeightMap(
         heights,
         "npz",
         channel=chosen,
-        unit=None if unit is None else _unit(unit, file),
-        spacing=_spacing(arrays, heights.shape, file),
-        periodic=_periodic(arrays, heights.ndim, file),
-        history=_history(arrays, file),
+        unit=None if unit is None else _unit(unit),
+        spacing=_spacing(arrays, heights.shape),
+        periodic=_periodic(arrays, heights.ndim),
+        history=_history(arrays),
     )
 
 
-def list_npz(data: bytes, file: str) -> tuple[Channel, ...]:
+def list_npz(data: bytes) -> tuple[Channel, ...]:
     """Return the arrays of a ``.npz`` file, the keys with a meaning of their own left out."""
-    arrays = _arrays(data, file)
-    unit = _unit(arrays["unit"], file) if "unit" in arrays else None
+    arrays = _arrays(data)
+    unit = _unit(arrays["unit"]) if "unit" in arrays else None
     found = []
     for channel in _channels(arrays):
         size = None
-        if channel.is_height and (spacing := _spacing(arrays, channel.shape, file)) is not None:
+        if channel.is_height and (spacing := _spacing(arrays, channel.shape)) is not None:
             size = tuple(step * n for step, n in zip(spacing, channel.shape, strict=True))
         found.append(
             Channel(channel.name, channel.shape, unit if channel.is_height else None, size, channel.is_height)
@@ -131,7 +131,7 @@ def list_npz(data: bytes, file: str) -> tuple[Channel, ...]:
     return tuple(found)
 
 
-def _array(data: bytes, file: str) -> npt.NDArray[Any]:
+def _array(data: bytes) -> npt.NDArray[Any]:
     """Return the array in the bytes of a ``.npy`` file; anything missing, left over or pickled is refused."""
     try:
         header = read_npy_header(BytesIO(data))
@@ -139,25 +139,23 @@ def _array(data: bytes, file: str) -> npt.NDArray[Any]:
             raise ValueError(f"{len(data)} of {header.size} bytes are there")
         values = header.array(data)
     except (ValueError, OverflowError) as error:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"it is not a whole NumPy array ({error})",
             "save it again with numpy.save, without objects or names of fields",
         ) from error
     if header.size < len(data):
-        raise ReadError(
-            file,
+        raise ContentError(
             f"{len(data) - header.size} bytes follow the array of {values.shape}: its header is damaged",
             "save it again with numpy.save",
         )
     return values
 
 
-def _arrays(data: bytes, file: str) -> dict[str, npt.NDArray[Any]]:
-    members = unzip(data, file, lambda member: member.endswith(".npy"))
+def _arrays(data: bytes) -> dict[str, npt.NDArray[Any]]:
+    members = unzip(data, lambda member: member.endswith(".npy"))
     if not members:
-        raise ReadError(file, "it holds no array", "save it with numpy.savez")
-    return {name.removesuffix(".npy"): _array(content, file) for name, content in members.items()}
+        raise ContentError("it holds no array", "save it with numpy.savez")
+    return {name.removesuffix(".npy"): _array(content) for name, content in members.items()}
 
 
 def _channels(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[Channel, ...]:
@@ -168,44 +166,42 @@ def _channels(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[Channel, ...]:
     )
 
 
-def _unit(value: npt.NDArray[Any], file: str) -> str | float:
+def _unit(value: npt.NDArray[Any]) -> str | float:
     """Return the unit that the file states: a name, or metres per unit."""
     if value.size == 1 and value.dtype.kind in "US":
         text = value.reshape(-1)[0]
         return text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
     if value.size == 1 and value.dtype.kind in "fiu":
         return float(value.reshape(-1)[0])
-    raise ReadError(
-        file, f"its key 'unit' holds {value!r}", "save one name such as 'um', or one number of metres"
+    raise ContentError(
+        f"its key 'unit' holds {value!r}", "save one name such as 'um', or one number of metres"
     )
 
 
-def _periodic(arrays: Mapping[str, npt.NDArray[Any]], ndim: int, file: str) -> bool | tuple[bool, ...]:
+def _periodic(arrays: Mapping[str, npt.NDArray[Any]], ndim: int) -> bool | tuple[bool, ...]:
     """Return whether the file says that the surface repeats itself: one word, or one for each axis."""
     value = arrays.get("periodic", np.array(False))
     if value.size not in (1, ndim) or value.dtype.kind not in "biu":
-        raise ReadError(file, f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
+        raise ContentError(f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
     words = tuple(bool(word) for word in value.reshape(-1))
     return words if len(words) == ndim else words[0]
 
 
-def _history(arrays: Mapping[str, npt.NDArray[Any]], file: str) -> tuple[str, ...]:
+def _history(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[str, ...]:
     value = arrays.get("history", np.array([], dtype="U1"))
     if value.dtype.kind != "U":
-        raise ReadError(file, f"its key 'history' is of type {value.dtype}", "save lines of text")
+        raise ContentError(f"its key 'history' is of type {value.dtype}", "save lines of text")
     return tuple(str(line) for line in value.reshape(-1))
 
 
-def _spacing(
-    arrays: Mapping[str, npt.NDArray[Any]], shape: tuple[int, ...], file: str
-) -> tuple[float, ...] | None:
+def _spacing(arrays: Mapping[str, npt.NDArray[Any]], shape: tuple[int, ...]) -> tuple[float, ...] | None:
     """Return the cell (dy, dx) or (dx,) [m] from the key ``spacing`` or ``size``; one number serves all axes."""
     for key in ("spacing", "size"):
         if key in arrays:
             value = arrays[key]
             if value.dtype.kind not in "fiu" or value.size not in (1, len(shape)):
-                raise ReadError(
-                    file, f"its key {key!r} holds {value!r}", "save one number of metres, or two (y, x)"
+                raise ContentError(
+                    f"its key {key!r} holds {value!r}", "save one number of metres, or two (y, x)"
                 )
             given = tuple(float(v) for v in np.broadcast_to(value.reshape(-1), len(shape)))
             if key == "spacing":

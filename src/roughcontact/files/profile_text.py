@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.numbers import decode, last_digit, require_rows, unended
@@ -22,28 +22,28 @@ _NAMED = {"micrometer": "um", "micrometers": "um", "nanometer": "nm", "nanometer
 _REMEDY = "give one column of heights, or two: places along the line and heights"
 
 
-def read_profile(data: bytes, file: str) -> HeightMap:
+def read_profile(data: bytes) -> HeightMap:
     """Return the heights of a profile.
 
     Lines of words come first; their last one may name the units of two columns, in brackets or as last words
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
     such as ``Length, 1500 um`` is compared with the places.
     """
-    text = decode(data, file)
-    words, rows = _split(text, file)
-    require_rows(words, len(rows), file)
+    text = decode(data)
+    words, rows = _split(text)
+    require_rows(words, len(rows))
     doubts = unended(text)
     values = np.array([[float(field) for field in row] for row in rows])
     if values.shape[1] == 1:
         unit = _header_units(words, 1)[0]
-        return HeightMap(as_heights(values[:, 0], file), "text profile", unit=unit, doubts=doubts)
-    step, note = _step(values[:, 0], [row[0] for row in rows], file)
+        return HeightMap(as_heights(values[:, 0]), "text profile", unit=unit, doubts=doubts)
+    step, note = _step(values[:, 0], [row[0] for row in rows])
     lateral, unit = _header_units(words, 2)
     factor = length_factor(lateral) if lateral is not None else None
     if factor is not None:
         doubts += _announced(words, step * factor * (len(values) - 1))
     return HeightMap(
-        as_heights(values[:, 1], file),
+        as_heights(values[:, 1]),
         "text profile",
         unit=unit,
         spacing=None if factor is None else (step * factor,),
@@ -53,7 +53,7 @@ def read_profile(data: bytes, file: str) -> HeightMap:
     )
 
 
-def _split(text: str, file: str) -> tuple[list[str], list[list[str]]]:
+def _split(text: str) -> tuple[list[str], list[list[str]]]:
     """Return the lines of words and the rows of numbers after them."""
     words: list[str] = []
     rows: list[list[str]] = []
@@ -63,33 +63,30 @@ def _split(text: str, file: str) -> tuple[list[str], list[list[str]]]:
         fields = re.split(r"\s*[,;\t]\s*|\s+", bare)
         if all(_NUMBER.fullmatch(field) for field in fields):
             if len(fields) > 2 or len(fields) != len((rows or [fields])[0]):
-                raise ReadError(file, f"line {number} holds {len(fields)} numbers", _REMEDY)
+                raise ContentError(f"line {number} holds {len(fields)} numbers", _REMEDY)
             rows.append(fields)
         elif rows:
-            raise ReadError(
-                file, f"line {number}: {line.strip()[:30]!r} interrupts the rows of numbers", _REMEDY
+            raise ContentError(
+                f"line {number}: {line.strip()[:30]!r} interrupts the rows of numbers", _REMEDY
             )
         elif bare.strip("# "):
             words.append(bare.strip("# "))
     if len(rows) < 2:
-        raise ReadError(file, f"it holds {len(rows)} rows of numbers", _REMEDY)
+        raise ContentError(f"it holds {len(rows)} rows of numbers", _REMEDY)
     return words, rows
 
 
-def _step(places: Array, printed: list[str], file: str) -> tuple[float, tuple[str, ...]]:
+def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
     """Return the step of places that are even but for their printed digits, and a remark where that matters."""
     count = len(places)
     step = float((places[-1] - places[0]) / (count - 1))
     if not step > 0:
-        raise ReadError(
-            file, f"its places run from {places[0]:g} to {places[-1]:g}", "sort the rows by place"
-        )
+        raise ContentError(f"its places run from {places[0]:g} to {places[-1]:g}", "sort the rows by place")
     digit = min(last_digit(text) for text in printed)
     error = float(np.abs(places - places[0] - step * np.arange(count)).max())
     # The two ends are rounded as well: half a digit of each place, and of the line through the ends.
     if not error <= max(_SLACK * step, _PRINTED * digit, 1e-6 * abs(places).max()):
-        raise ReadError(
-            file,
+        raise ContentError(
             f"its places are not even: one is {error:g} off steps of {step:g}",
             "interpolate to even steps first",
         )

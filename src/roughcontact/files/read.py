@@ -6,6 +6,7 @@ import hashlib
 import os
 import warnings
 from collections.abc import Callable, Iterable
+from pathlib import Path
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
 from roughcontact.files.content import content
@@ -157,8 +158,8 @@ def channels(path: str | os.PathLike[str]) -> tuple[Channel, ...]:
     ReadError
         If the file cannot be read.
     """
-    file, data = content(path)
-    return channels_of(data, file)
+    with content(path) as (file, data):
+        return channels_of(data, Path(file).suffix.casefold())
 
 
 def _read(
@@ -178,10 +179,10 @@ def _read(
         # Where the file decides between a map and a line, one length or two may be right.
         axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)
         cell_of(size, (1,) * axes)
-    file, data = content(path)
-    found = reader(data, file, channel)
-    digest = hashlib.sha256(data).hexdigest()[:16]
-    surface, doubts = assemble(found, file, digest, unit=unit, size=size, periodic=periodic)
+    with content(path) as (file, data):
+        found = reader(data, Path(file).suffix.casefold(), channel)
+        digest = hashlib.sha256(data).hexdigest()[:16]
+        surface, doubts = assemble(found, file, digest, unit=unit, size=size, periodic=periodic)
     for doubt in doubts:
         warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=3)
     return surface

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
 from roughcontact.files.content import content
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
@@ -54,43 +54,46 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
     >>> len(rc.read_curve("curve.nc"))
     2
     """
-    file, data = content(path)
-    if Path(path).suffix.casefold() != ".nc":
-        raise ReadError(file, "loading curves are read from NetCDF files (.nc) only", _REMEDY)
-    with opened(data, file) as (variables, attributes):
-        missing = [
-            name for name in (*_ARRAYS, *CURVE_SCALES, *_SIZES, "spots", "status") if name not in variables
-        ]
-        if missing or variables["force"].dimensions != ("load",):
-            raise ReadError(file, f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
-        kind = _word(attributes.get("geometry", ""))
-        if kind not in {geometry.value for geometry in Geometry}:
-            raise ReadError(file, f"its geometry is {kind!r}", _REMEDY)
-        geometry = Geometry(kind)
-        shape, axes = variables["force"].shape, (len(geometry.axes),)
-        values: dict[str, Any] = {name: _numbers(variables, name, shape, file) for name in _ARRAYS}
-        values |= {name: float(_numbers(variables, name, (), file)) for name in CURVE_SCALES}
-        sizes = {name: _numbers(variables, name, axes, file).tolist() for name in _SIZES}
-        hardness = float(_numbers(variables, "hardness", (), file)) if "hardness" in variables else math.inf
-        return Curve(
-            **values,
-            spots=_numbers(variables, "spots", shape, file).astype(np.intp),
-            status=_statuses(variables["status"], shape, file),
-            lengths=tuple(sizes["lengths"]),
-            spacing=tuple(sizes["spacing"]),
-            periodic=tuple(bool(value) for value in sizes["periodic"]),
-            geometry=geometry,
-            hardness=hardness,
-        )
+    with content(path) as (_, data):
+        if Path(path).suffix.casefold() != ".nc":
+            raise ContentError("loading curves are read from NetCDF files (.nc) only", _REMEDY)
+        with opened(data) as (variables, attributes):
+            return _curve(variables, attributes)
+
+
+def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> Curve:
+    missing = [
+        name for name in (*_ARRAYS, *CURVE_SCALES, *_SIZES, "spots", "status") if name not in variables
+    ]
+    if missing or variables["force"].dimensions != ("load",):
+        raise ContentError(f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
+    kind = _word(attributes.get("geometry", ""))
+    if kind not in {geometry.value for geometry in Geometry}:
+        raise ContentError(f"its geometry is {kind!r}", _REMEDY)
+    geometry = Geometry(kind)
+    shape, axes = variables["force"].shape, (len(geometry.axes),)
+    values: dict[str, Any] = {name: _numbers(variables, name, shape) for name in _ARRAYS}
+    values |= {name: float(_numbers(variables, name, ())) for name in CURVE_SCALES}
+    sizes = {name: _numbers(variables, name, axes).tolist() for name in _SIZES}
+    hardness = float(_numbers(variables, "hardness", ())) if "hardness" in variables else math.inf
+    return Curve(
+        **values,
+        spots=_numbers(variables, "spots", shape).astype(np.intp),
+        status=_statuses(variables["status"], shape),
+        lengths=tuple(sizes["lengths"]),
+        spacing=tuple(sizes["spacing"]),
+        periodic=tuple(bool(value) for value in sizes["periodic"]),
+        geometry=geometry,
+        hardness=hardness,
+    )
 
 
 def _numbers(
-    variables: Mapping[str, StoredVariable], name: str, shape: tuple[int, ...], file: str
+    variables: Mapping[str, StoredVariable], name: str, shape: tuple[int, ...]
 ) -> npt.NDArray[np.float64]:
     variable = variables[name]
     if variable.shape != shape or variable.dtype.kind not in "biuf":
-        raise ReadError(
-            file,
+        raise ContentError(
             f"its {name} of shape {variable.shape} and type {variable.dtype} is not that of a curve",
             _REMEDY,
         )
@@ -98,12 +101,12 @@ def _numbers(
     return np.asarray(variable.load(), dtype=np.float64)
 
 
-def _statuses(variable: StoredVariable, shape: tuple[int, ...], file: str) -> tuple[Status, ...]:
+def _statuses(variable: StoredVariable, shape: tuple[int, ...]) -> tuple[Status, ...]:
     words = [_word(value) for value in variable.load().reshape(-1).tolist()]
     known = {status.value: status for status in Status}
     unknown = [word for word in words if word not in known]
     if unknown or len(words) != shape[0]:
-        raise ReadError(file, f"its status is {unknown or len(words)}, which is not that of a curve", _REMEDY)
+        raise ContentError(f"its status is {unknown or len(words)}, which is not that of a curve", _REMEDY)
     return tuple(known[word] for word in words)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 
@@ -48,11 +48,11 @@ _PROFILE, _SURFACE = 1, 2
 _AGAIN = "copy the file again, or export it as X3P"
 
 
-def read_sur(data: bytes, file: str) -> HeightMap:
+def read_sur(data: bytes) -> HeightMap:
     """Return the one map or profile of the file; its heights are whole numbers of a stated step."""
-    header = _header(data, file)
+    header = _header(data)
     ny, nx = int(header["ny"]), int(header["nx"])
-    counts = _counts(data, header, file).reshape(ny, nx)
+    counts = _counts(data, header).reshape(ny, nx)
     notes: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
     missing = np.zeros(counts.shape, dtype=np.bool_)
@@ -75,7 +75,7 @@ def read_sur(data: bytes, file: str) -> HeightMap:
         heights = heights[0]
         spacing = (steps[1] * length_factor(units[1]),) if is_length(units[1]) else None
     return HeightMap(
-        as_heights(heights, file),
+        as_heights(heights),
         "Digital Surf",
         channel=_text(header["z_name"]) or None,
         unit=_text(header["dz_unit"]) or None,
@@ -85,52 +85,48 @@ def read_sur(data: bytes, file: str) -> HeightMap:
     )
 
 
-def _header(data: bytes, file: str) -> Any:
+def _header(data: bytes) -> Any:
     """Return the header; each of its statements on which the data depend is checked."""
     if not data.startswith((b"DIGITAL SURF", b"DSCOMPRESSED")) or len(data) < _HEADER.itemsize:
-        raise ReadError(file, "it has no whole header of Digital Surf", _AGAIN)
+        raise ContentError("it has no whole header of Digital Surf", _AGAIN)
     header = np.frombuffer(data, dtype=_HEADER, count=1)[0]
     if header["byte_order"] != 0 or header["objects"] != 1:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"it holds {header['objects']} objects in byte order {header['byte_order']}, not one in order 0",
             "export one surface as X3P",
         )
     if header["kind"] not in (_PROFILE, _SURFACE):
-        raise ReadError(
-            file, f"it holds a study of type {header['kind']}, not a surface (2)", "give a map of heights"
+        raise ContentError(
+            f"it holds a study of type {header['kind']}, not a surface (2)", "give a map of heights"
         )
     ny, nx = int(header["ny"]), int(header["nx"])
     if header["bits"] not in (16, 32) or min(ny, nx) < 1 or ny * nx != header["points"]:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"its header states {ny} x {nx} points of {header['bits']} bits, {header['points']} in all",
             _AGAIN,
         )
     if header["kind"] == _PROFILE and ny != 1:
-        raise ReadError(file, f"it holds a series of {ny} profiles", "export one of them")
+        raise ContentError(f"it holds a series of {ny} profiles", "export one of them")
     if not all(math.isfinite(header[name]) and header[name] > 0 for name in ("dx", "dy", "dz")):
         steps = ", ".join(f"{header[name]:g}" for name in ("dx", "dy", "dz"))
-        raise ReadError(file, f"its header states steps of {steps} (x, y, z)", _AGAIN)
+        raise ContentError(f"its header states steps of {steps} (x, y, z)", _AGAIN)
     return header
 
 
-def _counts(data: bytes, header: Any, file: str) -> npt.NDArray[np.int64]:
+def _counts(data: bytes, header: Any) -> npt.NDArray[np.int64]:
     """Return the whole numbers behind the header and its two appendices."""
     dtype = np.dtype(f"<i{header['bits'] // 8}")
     expected = int(header["points"]) * dtype.itemsize
     rest = data[_HEADER.itemsize + int(header["comment"]) + int(header["private"]) :]
     if header["magic"] == b"DSCOMPRESSED":
-        require_memory(BYTES_PER_POINT * int(header["points"]), file)
-        rest = _unpacked(rest, expected, file)
+        require_memory(BYTES_PER_POINT * int(header["points"]))
+        rest = _unpacked(rest, expected)
     if len(rest) < expected:
-        raise ReadError(
-            file, f"{len(rest)} of {expected} bytes of heights are there: it is cut short", _AGAIN
-        )
+        raise ContentError(f"{len(rest)} of {expected} bytes of heights are there: it is cut short", _AGAIN)
     return np.frombuffer(rest, dtype=dtype, count=int(header["points"])).astype(np.int64)
 
 
-def _unpacked(packed: bytes, expected: int, file: str) -> bytes:
+def _unpacked(packed: bytes, expected: int) -> bytes:
     """Return the contents of the zlib streams behind a table of their lengths, each checked by its checksum."""
     try:
         (streams,) = struct.unpack_from("<I", packed)
@@ -144,7 +140,7 @@ def _unpacked(packed: bytes, expected: int, file: str) -> bytes:
             place += part
             left -= min(whole, left)
     except (struct.error, zlib.error, ValueError) as error:
-        raise ReadError(file, f"its compressed heights are damaged ({error})", _AGAIN) from error
+        raise ContentError(f"its compressed heights are damaged ({error})", _AGAIN) from error
     return b"".join(parts)
 
 

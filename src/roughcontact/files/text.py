@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import parse_length
 from roughcontact.files.numbers import last_digit, parse_table, stated_rows
@@ -37,14 +37,13 @@ class _Header:
     unit: str | None = None
 
 
-def read_text(data: bytes, file: str) -> HeightMap:
+def read_text(data: bytes) -> HeightMap:
     """Return a matrix of heights; without a header it states neither unit nor size."""
-    table = parse_table(data, file)
+    table = parse_table(data)
     header = _header(table.comments)
     ny, nx = table.values.shape
     if nx in (2, 3) and ny >= _COORDINATES and header == _Header():
-        raise ReadError(
-            file,
+        raise ContentError(
             f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
             "name a list of x, y, z .xyz; read a profile by read_line",
         )
@@ -52,7 +51,7 @@ def read_text(data: bytes, file: str) -> HeightMap:
     if header.width is not None and header.height is not None:
         spacing = (header.height / ny, header.width / nx)
     return HeightMap(
-        as_heights(table.values, file),
+        as_heights(table.values),
         "text" if header == _Header() else "Gwyddion text",
         channel=header.channel,
         unit=header.unit,

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Array, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.numbers import parse_table
@@ -22,32 +22,32 @@ _LEAST_FILLED = 0.25
 _REMEDY = "give points on a regular grid, one a place; interpolate scattered points first"
 
 
-def read_xyz(data: bytes, file: str) -> HeightMap:
+def read_xyz(data: bytes) -> HeightMap:
     """Return the points on their grid; a place without a point is NaN, the first row has the smallest y.
 
     A header such as ``# x [um]  y [um]  z [um]`` states the units; without it all three columns are in the
     unit of the heights.
     """
-    table = parse_table(data, file)
+    table = parse_table(data)
     if table.values.shape[1] != 3:
-        raise ReadError(file, f"its rows hold {table.values.shape[1]} numbers", "give three columns x, y, z")
+        raise ContentError(f"its rows hold {table.values.shape[1]} numbers", "give three columns x, y, z")
     if not np.isfinite(table.values[:, :2]).all():
-        raise ReadError(file, "a coordinate x or y is not finite", "leave out points without a place")
+        raise ContentError("a coordinate x or y is not finite", "leave out points without a place")
     x, y, z = table.values.T
-    columns, dx = _places(x, file, "x")
-    rows, dy = _places(y, file, "y")
+    columns, dx = _places(x, "x")
+    rows, dy = _places(y, "y")
     ny, nx = int(rows.max()) + 1, int(columns.max()) + 1
     if len(z) < _LEAST_FILLED * nx * ny:
-        raise ReadError(
-            file, f"its {len(z)} points are scattered: they fill a grid of {ny} x {nx} badly", _REMEDY
+        raise ContentError(
+            f"its {len(z)} points are scattered: they fill a grid of {ny} x {nx} badly", _REMEDY
         )
     heights: Array = np.full((ny, nx), np.nan)
     heights[rows, columns] = z
     if len(np.unique(rows * nx + columns)) != len(z):
-        raise ReadError(file, "two of its points share one place", _REMEDY)
+        raise ContentError("two of its points share one place", _REMEDY)
     units = _units(table.comments)
     return HeightMap(
-        as_heights(heights, file),
+        as_heights(heights),
         "xyz",
         unit=units[2] if units else None,
         spacing=(dy * length_factor(units[1]), dx * length_factor(units[0])) if units else None,
@@ -68,12 +68,11 @@ def _cut_short(
     return ()
 
 
-def _places(coordinates: Array, file: str, axis: str) -> tuple[npt.NDArray[np.intp], float]:
+def _places(coordinates: Array, axis: str) -> tuple[npt.NDArray[np.intp], float]:
     """Return each point's place 0, 1, 2, ... along an axis, and the step of the grid."""
     levels, inverse = np.unique(coordinates, return_inverse=True)
     if len(levels) < 2:
-        raise ReadError(
-            file,
+        raise ContentError(
             f"all its points share one {axis}: it is a profile",
             "give a two-dimensional map, or use read_line on places and heights",
         )
@@ -83,7 +82,7 @@ def _places(coordinates: Array, file: str, axis: str) -> tuple[npt.NDArray[np.in
     counts = np.rint(gaps / step)
     # Places are counted gap by gap, so that rounding does not add up along the axis.
     if counts.sum() > 4 * len(coordinates) or (np.abs(gaps / step - counts) > _SLACK).any():
-        raise ReadError(file, f"its points are scattered: the steps in {axis} are not equal", _REMEDY)
+        raise ContentError(f"its points are scattered: the steps in {axis} are not equal", _REMEDY)
     places = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
     return places[inverse.reshape(-1)], float((levels[-1] - levels[0]) / places[-1])
 

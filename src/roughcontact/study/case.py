@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BeforeValidator, Field
 
 from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse
+from roughcontact.study.checked import Checked
 
 if TYPE_CHECKING:
     import xarray
@@ -21,10 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["Area", "Case", "Energy", "Force", "Length", "Parameters", "Positive", "Pressure", "Stiffness"]
 
 
-class Parameters(BaseModel):
+class Parameters(Checked):
     """The parameters of a case: a model whose fields have types and limits; unknown names are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 @dataclass(frozen=True, slots=True)

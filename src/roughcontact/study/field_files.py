@@ -7,9 +7,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.files.aside import written_aside
 from roughcontact.files.write import netcdf_bytes
-from roughcontact.study.study_errors import StoreError, computed_again, disk_trouble
+from roughcontact.study.study_errors import StoreError, computed_again, on_disk
 
 if TYPE_CHECKING:
     import xarray
@@ -36,17 +36,13 @@ def write_fields(folder: Path, key: str, fields: xarray.Dataset) -> None:
         If they cannot be written.
     """
     target, data = _file(folder, key), netcdf_bytes(fields)
-    try:
+    with on_disk(folder, "fields cannot be written"):
         target.parent.mkdir(exist_ok=True)
         with written_aside(target) as aside, open(aside, "wb") as stream:
             stream.write(data)
             stream.flush()
             os.fsync(stream.fileno())
         _keep_names(target.parent)
-    except OSError as error:
-        raise disk_trouble(folder, "fields cannot be written", error) from error
-    except WriteError as error:
-        raise disk_trouble(folder, "fields cannot be written", error.__cause__ or error) from error
 
 
 def read_fields(folder: Path, key: str) -> xarray.Dataset:

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
+
+from roughcontact.study.checked import Checked
 
 __all__ = ["Range"]
 
@@ -17,7 +19,7 @@ _MOST = 1_000_000
 _HIT = 1e-9  # of a step: one that hits the end but for rounding hits it
 
 
-class Range(BaseModel):
+class Range(Checked):
     """A range with both its ends, by the number of its values or by the step between them.
 
     Parameters
@@ -32,8 +34,6 @@ class Range(BaseModel):
     spacing : "linear" or "log"
         Even differences or even ratios.
     """
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     start: float | str
     stop: float | str

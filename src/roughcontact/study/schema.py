@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
-from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.study.study_errors import SAFE, StoreError, disk_trouble
+from roughcontact.files.aside import written_aside
+from roughcontact.study.study_errors import SAFE, StoreError, on_disk
 
 __all__ = ["DATABASE", "connected", "guarded", "made", "patiently"]
 
@@ -75,14 +75,16 @@ def made(folder: Path) -> None:
     if path.exists():
         return
     # Aside, so that a database without its table never stands there.
-    try:
-        with written_aside(path) as aside, guarded(folder), closing(sqlite3.connect(aside)) as connection:
-            connection.execute(f"PRAGMA application_id = {_OURS}")
-            connection.execute(f"PRAGMA user_version = {_VERSION}")
-            connection.execute(_TABLE)
-            connection.commit()
-    except WriteError as error:
-        raise disk_trouble(folder, f"{DATABASE} cannot be made", error.__cause__ or error) from error
+    with (
+        on_disk(folder, f"{DATABASE} cannot be made"),
+        written_aside(path) as aside,
+        guarded(folder),
+        closing(sqlite3.connect(aside)) as connection,
+    ):
+        connection.execute(f"PRAGMA application_id = {_OURS}")
+        connection.execute(f"PRAGMA user_version = {_VERSION}")
+        connection.execute(_TABLE)
+        connection.commit()
 
 
 def connected(folder: Path, *, write: bool) -> sqlite3.Connection:

@@ -8,19 +8,17 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from filelock import FileLock, Timeout
 
 from roughcontact import __version__
-from roughcontact.files.aside import WriteError
 from roughcontact.study.cases import find_case
 from roughcontact.study.field_files import parted, read_fields, tidied, write_fields
 from roughcontact.study.record import COLUMNS, Row, checksum, encode, residual_of
 from roughcontact.study.schema import DATABASE, connected, guarded, made, patiently
 from roughcontact.study.study import Study
-from roughcontact.study.study_errors import StoreError, StudyError, computed_again, disk_trouble
+from roughcontact.study.study_errors import StoreError, StudyError, computed_again, disk_trouble, on_disk
 from roughcontact.study.task import Summary, canonical
 
 if TYPE_CHECKING:
@@ -95,10 +93,8 @@ class Store:
                 connection = connected(place, write=False)
                 held.callback(connection.close)
                 return cls(place, found, connection, held.pop_all())
-            try:
+            with on_disk(place, "there is no such folder, and it cannot be made"):
                 place.mkdir(parents=True, exist_ok=True)
-            except OSError as error:
-                raise disk_trouble(place, "there is no such folder, and it cannot be made", error) from error
             held.callback(_locked(place).release)
             before = _kept(place) if (place / STUDY).exists() else None
             if before is not None:
@@ -108,15 +104,14 @@ class Store:
             held.callback(connection.close)
             tidied(place)
             if before != study:
-                _keep(place, study)
+                with on_disk(place, f"{STUDY} cannot be written"):
+                    study.write(place / STUDY)
             return cls(place, study, connection, held.pop_all())
 
     def __enter__(self) -> Store:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -304,13 +299,6 @@ def _kept(folder: Path) -> Study:
             f"its {STUDY} cannot be used ({error})",
             "where it is damaged, remove it and run with the study's own file: the cases stay",
         ) from error
-
-
-def _keep(folder: Path, study: Study) -> None:
-    try:
-        study.write(folder / STUDY)
-    except WriteError as error:
-        raise disk_trouble(folder, f"{STUDY} cannot be written", error.__cause__ or error) from error
 
 
 def _locked(folder: Path) -> FileLock:

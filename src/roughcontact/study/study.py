@@ -13,9 +13,7 @@ from typing import Annotated, Any
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     PlainValidator,
     TypeAdapter,
@@ -26,6 +24,7 @@ from pydantic import (
 from roughcontact.files.aside import written_aside
 from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
+from roughcontact.study.checked import TOO_DEEP, Checked
 from roughcontact.study.ranges import Range
 from roughcontact.study.study_errors import StudyError, explained, meant
 from roughcontact.study.task import Task, canonical, key_of
@@ -34,7 +33,6 @@ from roughcontact.study.toml import toml_of
 __all__ = ["Study"]
 
 MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
-_TOO_DEEP = "its values are nested too deeply to be read: no parameter needs more than a list or two"
 
 
 def _study_name(name: str) -> str:
@@ -88,10 +86,7 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
     if isinstance(value, Range):
         return value
     if isinstance(value, Mapping):
-        try:
-            return Range.model_validate(value)
-        except ValidationError as error:
-            raise ValueError(explained(error, Range.model_fields)) from None
+        return Range(**value)
     if not isinstance(value, list):
         raise ValueError(
             f"{value!r} is neither a list nor a range: a single value is given under parameters, a range as "
@@ -102,7 +97,7 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
     return tuple(value)
 
 
-class Study(BaseModel):
+class Study(Checked):
     """A case, the parameters that it is computed for, and how many samples of each.
 
     Parameters
@@ -128,23 +123,13 @@ class Study(BaseModel):
         If it makes no sense; the case is asked whether it takes all of the parameters.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
     name: Annotated[str, AfterValidator(_study_name)]
     case: Annotated[str, BeforeValidator(_case_name)]
     seed: Annotated[int, BeforeValidator(_plain), Field(ge=0, strict=True)] = 0
     samples: Annotated[int, BeforeValidator(_plain), Field(ge=1, strict=True)] = 1
-    parameters: Annotated[dict[str, Any], BeforeValidator(_plain)] = {}
-    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(_entry)]] = {}
+    parameters: Annotated[dict[str, Any], BeforeValidator(_plain)] = Field(default_factory=dict)
+    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(_entry)]] = Field(default_factory=dict)
     rows: Annotated[tuple[dict[str, Any], ...], BeforeValidator(_plain)] = ()
-
-    def __init__(self, **values: Any) -> None:
-        try:
-            super().__init__(**values)
-        except ValidationError as error:
-            raise StudyError(explained(error, type(self).model_fields)) from None
-        except RecursionError:
-            raise StudyError(_TOO_DEEP) from None
 
     @model_validator(mode="after")
     def _sound(self) -> Study:
@@ -180,7 +165,7 @@ class Study(BaseModel):
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise StudyError(f"{path}: it is no TOML file: {error}") from error
         except RecursionError:
-            raise StudyError(f"{path}: {_TOO_DEEP}") from None
+            raise StudyError(f"{path}: {TOO_DEEP}") from None
         except StudyError as error:
             raise StudyError(f"{path}: {error}") from None
 
@@ -264,9 +249,9 @@ class Study(BaseModel):
                 given = self.parameters | row | dict(zip(self.table, chosen, strict=True))
                 try:
                     parameters = model(**given)
-                except ValidationError as error:
+                except StudyError as error:
                     raise StudyError(
-                        f"the case {self.case!r} does not take these parameters: {explained(error)}"
+                        f"the case {self.case!r} does not take these parameters: {error}"
                     ) from None
                 text = canonical(parameters)
                 if text in found:

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
+
+from roughcontact.files.aside import WriteError
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
-__all__ = ["SAFE", "StoreError", "StudyError", "computed_again", "disk_trouble", "explained", "meant"]
+__all__ = [
+    *("SAFE", "StoreError", "StudyError", "computed_again", "disk_trouble", "explained", "meant", "on_disk"),
+]
 
 SAFE = "what was stored before is safe"
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -56,6 +61,17 @@ def disk_trouble(folder: str | os.PathLike[str], what: str, error: BaseException
     return StoreError(
         folder, f"{what}: {reason}", f"change its permissions, or copy it elsewhere and go on there; {SAFE}"
     )
+
+
+@contextmanager
+def on_disk(folder: str | os.PathLike[str], what: str) -> Iterator[None]:
+    """Make a `StoreError` that says `what` was not done of whatever the disk does not do within."""
+    try:
+        yield
+    except OSError as error:
+        raise disk_trouble(folder, what, error) from error
+    except WriteError as error:
+        raise disk_trouble(folder, what, error.__cause__ or error) from error
 
 
 def meant(name: str, known: Iterable[str]) -> str:

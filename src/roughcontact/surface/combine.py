@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 import scipy.sparse
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, require
 
 __all__ = ["combined", "resampled"]
 
-Array = npt.NDArray[np.float64]
 Interpolation: TypeAlias = Literal["cubic", "linear"]
 
 # Relative difference up to which spacings, lengths and positions count as equal.
@@ -77,7 +75,7 @@ def combined(
     if np.isnan(heights).all():
         raise ValueError("the two surfaces have no measured point in common: nothing can touch")
     line = "combined with: " + ("; ".join(above.provenance) or "a surface")
-    return Surface(heights, target, (*below.provenance, line))
+    return below.with_heights(heights, line, target)
 
 
 def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
@@ -130,23 +128,19 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     if interpolation == "cubic":
         finer = _interpolated(surface, grid, 3)
         heights = np.where(np.isnan(finer), heights, finer)
-    if np.isnan(heights).all():
-        raise ValueError("the new grid holds no measured point of the surface")
+    require(not np.isnan(heights).all(), "the new grid holds no measured point of the surface")
     shape = " x ".join(str(n) for n in grid.shape)
-    return Surface(
-        heights, grid, (*surface.provenance, f"resampled to {shape} cells, {interpolation} interpolation")
-    )
+    return surface.with_heights(heights, f"resampled to {shape} cells, {interpolation} interpolation", grid)
 
 
 def _turned(upper: Surface, about: str | None) -> Surface:
     if about is None:
         return upper
-    if about not in ("x", "y"):
-        raise ValueError(f"turned_about must be 'x', 'y' or None, not {about!r}")
+    require(about in ("x", "y"), f"turned_about must be 'x', 'y' or None, not {about!r}")
     if upper.grid.ndim == 1 and about == "x":
         raise ValueError("a line is turned about 'y', which reverses it, or not at all (None)")
     flipped = np.flip(upper.heights, -1 if about == "y" else 0)
-    return replace(upper, heights=flipped, provenance=(*upper.provenance, f"turned over about {about}"))
+    return upper.with_heights(flipped, f"turned over about {about}")
 
 
 def _comparable(source: Grid, target: Grid) -> None:

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = ["ALPHA", "filtered", "gaussian_mean"]
 
-Array = npt.NDArray[np.float64]
 
 # The constant of the standard: at the cut-off wavelength the filter transmits one half.
 ALPHA = math.sqrt(math.log(2) / math.pi)
@@ -65,17 +62,18 @@ def filtered(
         raise ValueError("give short_cutoff, long_cutoff or both [m]")
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
         raise ValueError(f"short_cutoff {short_cutoff} m must be below long_cutoff {long_cutoff} m")
-    grid, heights, lines = surface.grid, surface.heights, []
+    grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
             _check(cutoff, surface)
     if short_cutoff is not None:
-        heights = gaussian_mean(heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
-        lines.append(f"Gaussian filter: waves below {short_cutoff:.6g} m removed")
+        heights = gaussian_mean(surface.heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
+        surface = surface.with_heights(heights, f"Gaussian filter: waves below {short_cutoff:.6g} m removed")
     if long_cutoff is not None:
-        heights = heights - gaussian_mean(heights, grid.spacing, grid.periodic, (long_cutoff,) * grid.ndim)
-        lines.append(f"Gaussian filter: waves above {long_cutoff:.6g} m removed")
-    return replace(surface, heights=heights, provenance=(*surface.provenance, *lines))
+        mean = gaussian_mean(surface.heights, grid.spacing, grid.periodic, (long_cutoff,) * grid.ndim)
+        line = f"Gaussian filter: waves above {long_cutoff:.6g} m removed"
+        surface = surface.with_heights(surface.heights - mean, line)
+    return surface
 
 
 def gaussian_mean(
@@ -144,8 +142,7 @@ def _weighted_sum(values: Array, axis: int, reach: float, periodic: bool) -> Arr
 
 def _check(cutoff: float, surface: Surface) -> None:
     """Refuse a cut-off that the grid cannot resolve."""
-    if not (math.isfinite(cutoff) and cutoff > 0):
-        raise ValueError(f"a cut-off must be positive and finite [m], not {cutoff}")
+    require(math.isfinite(cutoff) and cutoff > 0, f"a cut-off must be positive and finite [m], not {cutoff}")
     grid = surface.grid
     exact = all(grid.periodic) and surface.missing == 0
     least = (2 if exact else _CELLS) * max(grid.spacing)

@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
+
+from roughcontact.validation import Array
 
 __all__ = ["round_form"]
 
-Array = npt.NDArray[np.float64]
 
 # Points that the fit looks at: five numbers are known well enough from them.
 _POINTS = 40_000

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import moderate, numeric
+from roughcontact.validation import Array, moderate, numeric, require
 
 __all__ = ["box_counting_dimension", "fractal_dimension", "magnify"]
-
-Array = npt.NDArray[np.float64]
 
 
 @numeric
@@ -53,12 +50,11 @@ def magnify(surface: Surface, factor: float, hurst: float) -> Surface:
     if not (math.isfinite(factor) and factor > 0):
         raise ValueError(f"a magnification must be positive and finite, not {factor}")
     moderate(factor, "a magnification")
-    if not -1 <= hurst <= 3:
-        raise ValueError(f"hurst must lie between -1 and 3, not {hurst}")
+    require(-1 <= hurst <= 3, f"hurst must lie between -1 and 3, not {hurst}")
     grid = surface.grid
     wider = Grid(grid.shape, tuple(factor * step for step in grid.spacing), grid.periodic)
     line = f"magnified by {factor:g} with H = {hurst:g}"
-    return Surface(surface.heights * factor**hurst, wider, (*surface.provenance, line))
+    return surface.with_heights(surface.heights * factor**hurst, line, wider)
 
 
 @numeric
@@ -88,10 +84,8 @@ def fractal_dimension(hurst: float, dimension: int = 2) -> float:
     >>> round(rc.fractal_dimension(0.8), 12)
     2.2
     """
-    if not 0 <= hurst <= 1:
-        raise ValueError(f"D = 3 - H holds for a Hurst exponent from 0 to 1, not {hurst}")
-    if dimension not in (1, 2):
-        raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {dimension}")
+    require(0 <= hurst <= 1, f"D = 3 - H holds for a Hurst exponent from 0 to 1, not {hurst}")
+    require(dimension in (1, 2), f"dimension must be 2 (a surface) or 1 (a line), not {dimension}")
     return dimension + 1 - hurst
 
 
@@ -130,15 +124,13 @@ def box_counting_dimension(surface: Surface) -> float:
     >>> f"{rc.box_counting_dimension(surface):.1f}"
     '2.3'
     """
-    if surface.missing:
-        raise ValueError(f"{surface.missing} points are missing: crop or fill the surface first")
+    require(not surface.missing, f"{surface.missing} points are missing: crop or fill the surface first")
     shortest = min(surface.grid.shape) - 1
     if shortest < 64:
         raise ValueError(f"counting boxes needs at least 65 points along each axis, not {surface.grid.shape}")
     widths = 2 ** np.arange(3, int(math.log2(shortest / 4)) + 1)
     ranges = np.array([_mean_range(surface.heights, int(width)) for width in widths])
-    if not ranges.all():
-        raise ValueError("the surface is flat: it has no fractal dimension")
+    require(ranges.all(), "the surface is flat: it has no fractal dimension")
     # Tiles number width^-ndim, boxes in a tile range/width.
     slope = np.polyfit(np.log(widths), np.log(ranges), 1)[0]
     return float(surface.grid.ndim + 1 - slope)

@@ -6,14 +6,11 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
-from roughcontact.validation import moderate
+from roughcontact.validation import Array, moderate
 
 __all__ = ["is_elsewhere", "own_heights"]
-
-Array = npt.NDArray[np.float64]
 
 
 def is_elsewhere(heights: Any) -> bool:

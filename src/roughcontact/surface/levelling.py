@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from roughcontact.surface.form import round_form
 from roughcontact.surface.polynomial import polynomial_trend
+from roughcontact.validation import require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -43,11 +43,9 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     ValueError
         If there is no such `kind`.
     """
-    if kind not in _TRENDS:
-        raise ValueError(f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
+    require(kind in _TRENDS, f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
     degree, line = _TRENDS[kind]
-    heights = surface.heights - polynomial_trend(surface.heights, degree)
-    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
+    return surface.with_heights(surface.heights - polynomial_trend(surface.heights, degree), line)
 
 
 def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) -> Surface:
@@ -81,6 +79,4 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
         trend, words = polynomial_trend(surface.heights, form), f"polynomial of degree {form}"
     else:
         raise ValueError(f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
-    return replace(
-        surface, heights=surface.heights - trend, provenance=(*surface.provenance, f"form removed: {words}")
-    )
+    return surface.with_heights(surface.heights - trend, f"form removed: {words}")

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
+
+from roughcontact.validation import Array, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = ["filled"]
-
-Array = npt.NDArray[np.float64]
 
 
 def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
@@ -39,14 +37,12 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     ValueError
         If there is no such `method`.
     """
-    if method not in ("harmonic", "nearest"):
-        raise ValueError(f"method must be 'harmonic' or 'nearest', not {method!r}")
+    require(method in ("harmonic", "nearest"), f"method must be 'harmonic' or 'nearest', not {method!r}")
     if surface.missing == 0:
         return surface
     fill = _harmonic if method == "harmonic" else _nearest
     heights = fill(surface.heights, surface.grid.spacing, surface.grid.periodic)
-    line = f"{surface.missing} missing points filled in, {method}"
-    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
+    return surface.with_heights(heights, f"{surface.missing} missing points filled in, {method}")
 
 
 def _harmonic(heights: Array, spacing: tuple[float, ...], periodic: tuple[bool, ...]) -> Array:

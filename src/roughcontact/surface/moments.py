@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
@@ -19,11 +18,9 @@ from roughcontact.surface.wave_grid import (
     wave_powers,
     wavenumbers,
 )
-from roughcontact.validation import require_numbers
+from roughcontact.validation import Array, require, require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +63,7 @@ class Moments:
     def __post_init__(self) -> None:
         require_numbers(self)
         for name in ("m0", "m2", "m4"):
-            if not getattr(self, name) >= 0:
-                raise ValueError(f"{name} must not be negative, not {getattr(self, name)}")
+            require(getattr(self, name) >= 0, f"{name} must not be negative, not {getattr(self, name)}")
         if self.dimension not in (1, 2):
             raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
 
@@ -188,8 +184,7 @@ def surface_moments(
             )
         transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
         return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
-    if derivative != "difference":
-        raise ValueError(f"derivative must be 'spectral' or 'difference', not {derivative!r}")
+    require(derivative == "difference", f"derivative must be 'spectral' or 'difference', not {derivative!r}")
     return _by_differences(surface)
 
 

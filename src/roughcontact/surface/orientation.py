@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -28,12 +27,7 @@ def transposed(surface: Surface) -> Surface:
     Surface
         On the grid with its axes exchanged.
     """
-    return replace(
-        surface,
-        heights=surface.heights.T,
-        grid=_exchanged(surface.grid),
-        provenance=(*surface.provenance, "transposed"),
-    )
+    return surface.with_heights(surface.heights.T, "transposed", _exchanged(surface.grid))
 
 
 def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
@@ -56,10 +50,8 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
         If the grid has no such axis.
     """
     axes = {"x": -1} | ({"y": 0} if surface.grid.ndim == 2 else {})
-    if axis not in axes:
-        raise ValueError(f"axis must be one of {', '.join(axes)}, not {axis!r}")
-    heights = np.flip(surface.heights, axes[axis])
-    return replace(surface, heights=heights, provenance=(*surface.provenance, f"flipped along {axis}"))
+    require(axis in axes, f"axis must be one of {', '.join(axes)}, not {axis!r}")
+    return surface.with_heights(np.flip(surface.heights, axes[axis]), f"flipped along {axis}")
 
 
 @numeric
@@ -83,16 +75,10 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     ValueError
         If the surface is a line, or `quarters` is not a whole number.
     """
-    if surface.grid.ndim != 2:
-        raise ValueError("only a surface of two axes can be turned; flip a line")
+    require(surface.grid.ndim == 2, "only a surface of two axes can be turned; flip a line")
     grid = _exchanged(surface.grid) if quarters % 2 else surface.grid
     line = f"rotated by {90 * (quarters % 4)} degrees counter-clockwise"
-    return replace(
-        surface,
-        heights=np.rot90(surface.heights, quarters),
-        grid=grid,
-        provenance=(*surface.provenance, line),
-    )
+    return surface.with_heights(np.rot90(surface.heights, quarters), line, grid)
 
 
 def _exchanged(grid: Grid) -> Grid:

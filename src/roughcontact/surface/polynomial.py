@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
-import numpy.typing as npt
+
+from roughcontact.validation import Array
 
 __all__ = ["polynomial_trend"]
 
-Array = npt.NDArray[np.float64]
 
 # Passes over what the fit before has left: the normal equations square the condition number, these undo it.
 _PASSES = 3

@@ -10,10 +10,9 @@ import numpy.typing as npt
 
 from roughcontact.grid import RadialGrid
 from roughcontact.surface.height_range import is_elsewhere, own_heights
+from roughcontact.validation import Array
 
 __all__ = ["RadialProfile"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,9 +52,7 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
         [kept and repeats for kept, repeats in zip(whole, grid.periodic, strict=True)],
     )
     line = f"cropped to cells {_words(ranges)} of {' x '.join(map(str, grid.shape))}"
-    return replace(
-        surface, heights=surface.heights[parts], grid=small, provenance=(*surface.provenance, line)
-    )
+    return surface.with_heights(surface.heights[parts], line, small)
 
 
 def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: bool = True) -> Surface:
@@ -101,12 +98,7 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
     ]
     how = "after a Gaussian filter" if anti_alias else "without a filter"
     line = f"downsampled by {' x '.join(map(str, factors))} {how}"
-    return replace(
-        surface,
-        heights=chosen,
-        grid=_coarse(grid, factors),
-        provenance=(*surface.provenance, line),
-    )
+    return surface.with_heights(chosen, line, _coarse(grid, factors))
 
 
 def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
@@ -145,7 +137,7 @@ def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
     enough = 2 * count >= np.prod(factors)
     heights = np.divide(total, count, out=np.full(coarse.shape, np.nan), where=enough)
     line = f"averaged over pixels of {' x '.join(map(str, factors))} cells"
-    return replace(surface, heights=heights, grid=coarse, provenance=(*surface.provenance, line))
+    return surface.with_heights(heights, line, coarse)
 
 
 def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:

@@ -15,11 +15,10 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import moderate, number, numeric
+from roughcontact.validation import Array, moderate, number, numeric, require
 
 __all__ = [
     "cone",
@@ -34,7 +33,6 @@ __all__ = [
     "wave",
 ]
 
-Array = npt.NDArray[np.float64]
 # Rounding must not decide on which side of a rim a cell lies.
 _RIM = 1e-9
 
@@ -364,8 +362,7 @@ def _from_centre(grid: Grid, centre: Centre) -> tuple[Array, ...]:
 
 def _plane(grid: Grid, centre: Centre) -> tuple[Array, Array]:
     """Return the coordinates ``(y, x)`` on a grid of two axes."""
-    if grid.ndim != 2:
-        raise ValueError("this shape needs a grid of two axes, not a line")
+    require(grid.ndim == 2, "this shape needs a grid of two axes, not a line")
     y, x = _from_centre(grid, centre)
     return y, x
 
@@ -393,5 +390,4 @@ def _placed(heights: Array, grid: Grid, name: str) -> Surface:
 
 def _positive(**values: float) -> None:
     for name, value in values.items():
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be positive and finite, not {value}")
+        require(math.isfinite(value) and value > 0, f"{name} must be positive and finite, not {value}")

@@ -21,10 +21,9 @@ from roughcontact.surface.orientation import flipped, rotated, transposed
 from roughcontact.surface.sampling import averaged, cropped, downsampled
 from roughcontact.surface.tip import scanned
 from roughcontact.surface.windows import tapered
+from roughcontact.validation import Array, require
 
 __all__ = ["Surface"]
-
-Array = npt.NDArray[np.float64]
 
 
 P = ParamSpec("P")
@@ -102,13 +101,8 @@ class Surface:
         """Return the surface with its heights times a number."""
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
-        if not math.isfinite(factor):
-            raise ValueError(f"heights can be multiplied by a finite number, not by {factor}")
-        return replace(
-            self,
-            heights=self.heights * float(factor),
-            provenance=(*self.provenance, f"heights times {factor:g}"),
-        )
+        require(math.isfinite(factor), f"heights can be multiplied by a finite number, not by {factor}")
+        return self.with_heights(self.heights * float(factor), f"heights times {factor:g}")
 
     __rmul__ = __mul__
 
@@ -126,7 +120,38 @@ class Surface:
                 f"surfaces are added on one grid, not {mine} and {theirs}: bring one onto the other by resampled()"
             )
         line = ("plus: " if sign > 0 else "minus: ") + ("; ".join(other.provenance) or "a surface")
-        return Surface(self.heights + sign * other.heights, mine, (*self.provenance, line))
+        return self.with_heights(self.heights + sign * other.heights, line)
+
+    def with_heights(self, heights: Array, line: str, grid: Grid | None = None) -> Surface:
+        """Return a surface that was made of this one, with a line more in its provenance.
+
+        Parameters
+        ----------
+        heights : array, shape of the grid
+            Its heights [m], NaN where not measured.
+        line : str
+            What was done.
+        grid : Grid, optional
+            Its cells, where they are not those of this surface.
+
+        Returns
+        -------
+        Surface
+
+        Raises
+        ------
+        ValueError
+            If the heights do not fit the grid, or are not those of a surface.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+        >>> ball.with_heights(np.maximum(ball.heights, -1e-6), "valleys filled to 1 um").provenance
+        ('paraboloid, radius 0.0001 m', 'valleys filled to 1 um')
+        """
+        return replace(self, heights=heights, grid=grid or self.grid, provenance=(*self.provenance, line))
 
     @property
     def measured(self) -> npt.NDArray[np.bool_]:

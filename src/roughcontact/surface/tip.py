@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 import scipy.ndimage
 
 from roughcontact.grid import Grid
-from roughcontact.validation import moderate, numeric
+from roughcontact.validation import Array, moderate, numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = ["scanned"]
-
-Array = npt.NDArray[np.float64]
 
 
 @numeric
@@ -55,8 +51,7 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     if not (math.isfinite(tip_radius) and tip_radius > 0):
         raise ValueError(f"tip_radius must be positive and finite [m], not {tip_radius}")
     moderate(tip_radius, "tip_radius [m]")
-    if tip not in ("sphere", "paraboloid"):
-        raise ValueError(f"tip must be 'sphere' or 'paraboloid', not {tip!r}")
+    require(tip in ("sphere", "paraboloid"), f"tip must be 'sphere' or 'paraboloid', not {tip!r}")
     heights, grid = surface.heights, surface.grid
     measured = ~np.isnan(heights)
     span = float(heights[measured].max() - heights[measured].min())
@@ -69,9 +64,7 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
         reach = math.sqrt(span * (2 * tip_radius - span)) if span < tip_radius else tip_radius
         record = _dilated(record, grid, reach, tip_radius, tip, tuple(range(grid.ndim)))
     line = f"scanned by a {tip} of radius {tip_radius:.6g} m"
-    return replace(
-        surface, heights=np.where(measured, record, np.nan), provenance=(*surface.provenance, line)
-    )
+    return surface.with_heights(np.where(measured, record, np.nan), line)
 
 
 def _dilated(

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = ["WINDOWS", "Window", "tapered", "window_values"]
 
-Array = npt.NDArray[np.float64]
 Window: TypeAlias = Literal["hann", "hamming", "blackman", "welch", "tukey"]
 # Each but Tukey's, which has a parameter, as a function of the phase, from 0 to 2 pi along the axis.
 _SHAPES: dict[str, Callable[[Array], Array]] = {
@@ -40,10 +37,8 @@ def window_values(name: str, count: int, share: float = 0.25) -> Array:
     phase = 2 * np.pi * (np.arange(count) + 0.5) / count
     if name in _SHAPES:
         return _SHAPES[name](phase)
-    if name != "tukey":
-        raise ValueError(f"window must be one of {', '.join(WINDOWS)}, not {name!r}")
-    if not 0 <= share <= 1:
-        raise ValueError(f"share must lie between 0 and 1, not {share}")
+    require(name == "tukey", f"window must be one of {', '.join(WINDOWS)}, not {name!r}")
+    require(0 <= share <= 1, f"share must lie between 0 and 1, not {share}")
     # A flat middle between two halves of a Hann window, each of half the share.
     bent = np.minimum(phase, 2 * np.pi - phase)
     return _SHAPES["hann"](np.minimum(bent, math.pi * share) / share) if share else np.ones(count)
@@ -83,4 +78,4 @@ def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> S
             heights = heights * weights.reshape([-1 if k == axis else 1 for k in range(heights.ndim)])
             loss *= float((weights**2).mean())
     line = f"{window} window, mean square times {loss:.6g}"
-    return replace(surface, heights=heights, provenance=(*surface.provenance, line))
+    return surface.with_heights(heights, line)

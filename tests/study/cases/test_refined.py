@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.curve_case import CASE as CURVE, CurveParameters
 from roughcontact.study.cases.refined_case import CASE, RefinedParameters
+from roughcontact.study.study_errors import StudyError
 
 GIVEN = {
     "points": 16,
@@ -69,5 +69,5 @@ def test_a_record_is_that_of_the_curve():
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, says):
-    with pytest.raises(ValidationError, match=says):
+    with pytest.raises(StudyError, match=says):
         roughness(**wrong)

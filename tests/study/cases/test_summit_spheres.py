@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 import roughcontact as rc
 from roughcontact.study.cases.asperities_case import CASE, AsperityParameters, summits_of
 from roughcontact.study.record import decode, encode
+from roughcontact.study.study_errors import StudyError
 from roughcontact.surface.analysis.summits import find_summits
 
 GIVEN = {"hurst": 0.6, "points": 64, "loads": 5}
@@ -56,5 +56,5 @@ def test_a_record_is_pure_and_survives_as_text():
 
 @pytest.mark.parametrize("wrong", [{"points": 4}, {"hurst": -2}, {"highest_force": 1e-5}, {"lines": 3}])
 def test_what_makes_no_sense_is_refused(wrong):
-    with pytest.raises(ValidationError):
+    with pytest.raises(StudyError):
         run(**wrong)

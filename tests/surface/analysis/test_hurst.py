@@ -186,3 +186,14 @@ def test_bands_without_data_are_refused():
         fit_spectrum(spectrum, q_min=1e3, q_max=1.05e3)
     with pytest.raises(ValueError, match="limit must be"):
         fit_spectrum(spectrum, limit="both")
+
+
+def test_chance_is_that_of_chi_squared():
+    """Its upper point of 0.001 with ten degrees of freedom is 29.588 (tables)."""
+    fit = rc.HurstFit(0.5, 0.01, 1e-22, 1e6, "C2D", None, None, None, misfit=1.0, band=(2e4, 2e6), freedom=10)
+    assert fit.chance == pytest.approx(2.9588, abs=5e-5)
+    # The deviations are those of twentieths of a decade, as far as waves lie in them: here none lies at a limit.
+    surface = gaussian(128, 0.5, 5, False)
+    waves = power_spectrum(surface, per_decade=200).within().wavenumber
+    found = hurst_exponent(surface, limit="none")
+    assert found.freedom == len({math.floor(20 * math.log10(q)) for q in waves})

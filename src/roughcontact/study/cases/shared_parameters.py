@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -13,8 +13,15 @@ from roughcontact.study.case import Length, Parameters, Positive, Pressure
 from roughcontact.surface.fourier import self_affine
 from roughcontact.surface.shapes import paraboloid
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import require
 
-__all__ = ["ForceRange", "PressedSquare", "RoughSquare"]
+__all__ = ["ForceRange", "PressedSquare", "RoughSquare", "require_rising"]
+
+
+def require_rising(parameters: Any, what: str) -> None:
+    """Refuse parameters whose lowest load is not below the highest."""
+    low, high = (getattr(parameters, f"{end}_{what}") for end in ("lowest", "highest"))
+    require(low < high, f"lowest_{what} must be below highest_{what}, not {low:g} and {high:g}")
 
 
 class ForceRange(Parameters):
@@ -34,10 +41,7 @@ class ForceRange(Parameters):
 
     @model_validator(mode="after")
     def _rising(self) -> Self:
-        if not self.lowest_force < self.highest_force:
-            raise ValueError(
-                f"lowest_force must be below highest_force, not {self.lowest_force:g} and {self.highest_force:g}"
-            )
+        require_rising(self, "force")
         return self
 
     @property

@@ -13,7 +13,7 @@ from roughcontact.contact.loading import loading_path
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.labels.labelled import described, variable
 from roughcontact.study.case import Case
-from roughcontact.study.cases.shared_parameters import PressedSquare
+from roughcontact.study.cases.shared_parameters import PressedSquare, require_rising
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
@@ -52,10 +52,7 @@ class YieldingParameters(PressedSquare):
 
     @model_validator(mode="after")
     def _rising(self) -> Self:
-        if not self.lowest_depth < self.highest_depth:
-            raise ValueError(
-                f"lowest_depth must be below highest_depth, not {self.lowest_depth:g} and {self.highest_depth:g}"
-            )
+        require_rising(self, "depth")
         return self
 
 

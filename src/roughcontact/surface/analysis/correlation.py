@@ -11,6 +11,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = [
     "LagCurve",
@@ -21,7 +22,6 @@ __all__ = [
     "tapered_structure",
 ]
 
-Array = npt.NDArray[np.float64]
 Steps = npt.NDArray[np.int64]
 # The weight of the pairs of `tapered_structure` rises from zero to one over this share of the length, at either end.
 RAMP = 1 / 16

@@ -7,16 +7,13 @@ from dataclasses import replace
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import gammaln
 
 from roughcontact.surface.analysis.hurst import fit_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @numeric
@@ -81,8 +78,7 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     >>> f"{profile.density[0] / q[0] ** -3:.4f} = {rc.cut_factor(1.0):.4f}"
     '1.5708 = 1.5708'
     """
-    if spectrum.kind != "C2D":
-        raise ValueError("the spectrum is that of profiles already: C1D")
+    require(spectrum.kind == "C2D", "the spectrum is that of profiles already: C1D")
     ln_q, ln_c = _with_power(spectrum)
     q = np.exp(ln_q)
     # With q = k cosh t the integral is 2 int C2D q dt, and its integrand smooth.
@@ -136,8 +132,7 @@ def surface_spectrum(
     >>> f"{profile.density[0] / (areal.density[0] * areal.wavenumber[0]):.4f} = {rc.cut_factor(0.8):.4f}"
     '1.7079 = 1.7079'
     """
-    if profile.kind != "C1D":
-        raise ValueError("the spectrum is that of a surface already: C2D")
+    require(profile.kind == "C1D", "the spectrum is that of a surface already: C2D")
     if method == "law":
         exponent = fit_spectrum(profile).hurst if hurst is None else hurst
         return replace(
@@ -145,8 +140,7 @@ def surface_spectrum(
             density=profile.density / (profile.wavenumber * cut_factor(exponent)),
             kind="C2D",
         )
-    if method != "abel":
-        raise ValueError(f"method must be 'law' or 'abel', not {method!r}")
+    require(method == "abel", f"method must be 'law' or 'abel', not {method!r}")
     ln_k, ln_c = _with_power(profile)
     density = _abel(ln_k, ln_c)
     if not (density > 0).all():
@@ -186,20 +180,11 @@ def _abel(ln_k: Array, ln_c: Array) -> Array:
 def _with_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
     """Return the logarithms of wavenumber and density of the bins that hold power."""
     keep = spectrum.density > 0
-    if keep.sum() < 2:
-        raise ValueError(f"two bins with power are needed, not {int(keep.sum())}")
+    require(keep.sum() >= 2, f"two bins with power are needed, not {int(keep.sum())}")
     return np.log(spectrum.wavenumber[keep]), np.log(spectrum.density[keep])
 
 
 def _like(spectrum: PowerSpectrum, ln_q: Array, density: Array, kind: Literal["C1D", "C2D"]) -> PowerSpectrum:
     """Return `density` at the bins of `spectrum` that hold power, and positive ones only."""
-    source = spectrum.density > 0
-    keep = density > 0
-    return replace(
-        spectrum,
-        wavenumber=np.exp(ln_q)[keep],
-        density=density[keep],
-        kind=kind,
-        count=spectrum.count[source][keep],
-        freedom=spectrum.freedom[source][keep],
-    )
+    source = spectrum.selected(spectrum.density > 0)
+    return replace(source, wavenumber=np.exp(ln_q), density=density, kind=kind).selected(density > 0)

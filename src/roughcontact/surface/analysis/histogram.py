@@ -8,11 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["HeightHistogram", "height_histogram"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,8 +59,7 @@ class HeightHistogram:
         ValueError
             If all heights are equal.
         """
-        if self.rms == 0:
-            raise ValueError("all heights are equal: there is no normal distribution of rms 0")
+        require(self.rms != 0, "all heights are equal: there is no normal distribution of rms 0")
         z = np.asarray(height, dtype=np.float64) / self.rms
         return np.asarray(np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * self.rms))
 
@@ -98,8 +95,7 @@ def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     >>> int(histogram.count.sum()), histogram.edges.size
     (4096, 21)
     """
-    if int(bins) != bins or bins < 1:
-        raise ValueError(f"bins must be a positive whole number, not {bins}")
+    require(bins >= 1, f"bins must be a positive whole number, not {bins}")
     heights = surface.heights[surface.measured]
     heights -= heights.mean()
     count, edges = np.histogram(heights, bins=int(bins))

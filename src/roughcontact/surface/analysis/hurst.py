@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
+from scipy.special import chdtri
 
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
@@ -15,13 +16,14 @@ from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
-Array = npt.NDArray[np.float64]
 # Bins narrow enough that a law as steep as q^-8 is straight in each to 1e-3.
 FINE = 200.0
+# A misfit that chance exceeds this rarely is taken for a law that does not hold.
+RARE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,8 @@ class HurstFit:
         The standard error says nothing about a law that does not hold, but for that of `fit_structure`.
     band : tuple of float
         Wavenumbers [rad/m] that the fit has seen; for a structure function 2 pi over its lags.
+    freedom : int
+        Independent deviations that the misfit is the mean of.
     """
 
     hurst: float
@@ -65,6 +69,12 @@ class HurstFit:
     short_cutoff: float | None
     misfit: float
     band: tuple[float, float]
+    freedom: int = 1
+
+    @property
+    def chance(self) -> float:
+        """Misfit that chance alone exceeds once in a thousand surfaces that follow the law (chi-squared)."""
+        return float(chdtri(self.freedom, RARE)) / self.freedom
 
     @property
     def exponent(self) -> float:
@@ -214,7 +224,7 @@ def fit_spectrum(
     hurst = (slope.exponent - (2 if band.kind == "C2D" else 1)) / 2
     law = np.exp(slope.level - slope.exponent * (np.maximum(np.log(q), bend) - centre))
     law *= 1 + smearing(slope.exponent, band, inside)
-    ratio = band.density[inside] / law
+    squares = _squared_deviations(q, band.density[inside] / law, band.freedom[inside])
     return HurstFit(
         hurst=hurst,
         standard_error=slope_error(np.log(q), bend, slope.exponent, band.freedom[inside]) / 2,
@@ -224,8 +234,9 @@ def fit_spectrum(
         rolloff=2 * math.pi / math.exp(bend) if limits.bend else None,
         long_cutoff=_wavelength(edges[0]),
         short_cutoff=_wavelength(edges[1]),
-        misfit=_misfit(q, ratio, band.freedom[inside]),
+        misfit=float(np.mean(squares)),
         band=(float(band.wavenumber[0]), float(band.wavenumber[-1])),
+        freedom=squares.size,
     )
 
 
@@ -233,10 +244,10 @@ def _wavelength(wavenumber: float) -> float | None:
     return None if math.isnan(wavenumber) else 2 * math.pi / wavenumber
 
 
-def _misfit(q: Array, ratio: Array, freedom: Array) -> float:
-    """Return the mean square deviation of the `ratio` from 1 in units of its scatter, in bins of a twentieth decade."""
+def _squared_deviations(q: Array, ratio: Array, freedom: Array) -> Array:
+    """Return the squared deviations of the `ratio` from 1 over its variance, in bins of a twentieth decade."""
     # In narrower bins waves under one window are further apart than they reach, and `freedom` counts them too low.
     group = np.unique(np.floor(20 * np.log10(q)), return_inverse=True)[1]
     total = np.bincount(group, freedom)
     mean = np.bincount(group, freedom * ratio) / total
-    return float(np.mean(total * (mean - 1) ** 2))
+    return np.asarray(total * (mean - 1) ** 2)

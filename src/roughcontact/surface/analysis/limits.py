@@ -9,7 +9,6 @@ from functools import cache
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import ndtr
 
 from roughcontact.surface.analysis.power import PowerSpectrum
@@ -17,7 +16,6 @@ from roughcontact.surface.analysis.whittle import Slope, likeliest, mean_level
 
 __all__ = ["Limit", "Limits", "clear_bins", "find_limits", "sharpened", "step_at"]
 
-Array = npt.NDArray[np.float64]
 Limit = Literal["auto", "none", "rolloff", "long_cutoff"]
 # Fewer bins than these cannot tell a law from its ends.
 LEAST = 12
@@ -85,22 +83,18 @@ def _search(band: PowerSpectrum, cost: Callable[[Limits], float], limits: Limits
     if high < low:
         return limits
 
+    def moved(place: int) -> Limits:
+        return replace(limits, **{end: place})
+
     def cost_at(place: int) -> float:
-        return cost(_moved(limits, end, place))
+        return cost(moved(place))
 
     stride = max(1, (high - low) // 30)
     best = min(range(low, high + 1, stride), key=cost_at)
     while stride > 1:
         reach, stride = stride, max(1, stride // 4)
         best = min(range(max(low, best - reach), min(high, best + reach) + 1, stride), key=cost_at)
-    return _moved(limits, end, best)
-
-
-def _moved(limits: Limits, end: _End, place: int) -> Limits:
-    """Return `limits` with one of them at another bin."""
-    if end == "bend":
-        return replace(limits, bend=place)
-    return replace(limits, first=place) if end == "first" else replace(limits, last=place)
+    return moved(best)
 
 
 def _cost(band: PowerSpectrum, limits: Limits) -> float:

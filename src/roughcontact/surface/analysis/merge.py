@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, require
 
 __all__ = ["merge_spectra", "spectra_ratio"]
 
@@ -102,8 +102,7 @@ def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, floa
     """
     _of_one_kind((one, other))
     low, high = max(one.q_min, other.q_min), min(one.q_max, other.q_max)
-    if not low < high:
-        raise ValueError(f"the bands do not overlap: one begins at {low:g}, the other ends at {high:g} rad/m")
+    require(low < high, f"the bands do not overlap: one begins at {low:g}, the other ends at {high:g} rad/m")
     first, second = (s.within(low, high).rebinned(10) for s in (one, other))
     bins, others = (np.floor(np.log10(s.wavenumber) * 10 + 1e-9).astype(np.int64) for s in (first, second))
     shared, at_first, at_second = np.intersect1d(bins, others, return_indices=True)
@@ -119,8 +118,7 @@ def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, floa
 
 def _of_one_kind(spectra: Sequence[PowerSpectrum]) -> list[PowerSpectrum]:
     """Return the reliable part of each spectrum."""
-    if not spectra:
-        raise ValueError("there is no spectrum to merge")
+    require(len(spectra) > 0, "there is no spectrum to merge")
     kinds = {spectrum.kind for spectrum in spectra}
     if len(kinds) > 1:
         raise ValueError(

@@ -9,11 +9,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.validation import number, numeric, require_numbers
+from roughcontact.validation import Array, number, numeric, require, require_numbers
 
 __all__ = ["PowerSpectrum"]
 
-Array = npt.NDArray[np.float64]
+_ARRAYS = ("wavenumber", "density", "count", "freedom")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,10 +64,9 @@ class PowerSpectrum:
     smear: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.kind not in ("C2D", "C1D"):
-            raise ValueError(f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
+        require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
         require_numbers(self)
-        for name in ("wavenumber", "density", "count", "freedom"):
+        for name in _ARRAYS:
             value = np.array(number(getattr(self, name), name))
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
                 raise ValueError(f"{name} must have one value for each wavenumber, not shape {value.shape}")
@@ -77,8 +76,7 @@ class PowerSpectrum:
             raise ValueError("wavenumbers must be positive and increase, and there must be at least one")
         if not (np.isfinite(self.density).all() and (self.density >= 0).all()):
             raise ValueError("densities must be finite and not negative")
-        if not (self.freedom > 0).all():
-            raise ValueError("the freedom of every bin must be positive")
+        require((self.freedom > 0).all(), "the freedom of every bin must be positive")
 
     @property
     def wavelength(self) -> Array:
@@ -117,15 +115,22 @@ class PowerSpectrum:
                 f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has "
                 f"{self.wavenumber[0]:g} to {self.wavenumber[-1]:g} rad/m"
             )
-        return replace(
-            self,
-            wavenumber=self.wavenumber[keep],
-            density=self.density[keep],
-            count=self.count[keep],
-            freedom=self.freedom[keep],
-            q_min=low,
-            q_max=high,
-        )
+        return replace(self.selected(keep), q_min=low, q_max=high)
+
+    def selected(self, keep: npt.NDArray[np.bool_]) -> PowerSpectrum:
+        """Return some of the bins, with the band as it is.
+
+        Parameters
+        ----------
+        keep : bool array, shape (n,)
+            Which of them; at least one.
+
+        Returns
+        -------
+        PowerSpectrum
+        """
+        arrays = {name: getattr(self, name)[keep] for name in _ARRAYS}
+        return replace(self, **arrays)
 
     @numeric
     def rebinned(self, per_decade: float) -> PowerSpectrum:
@@ -148,8 +153,7 @@ class PowerSpectrum:
         ValueError
             If `per_decade` is not positive.
         """
-        if not per_decade > 0:
-            raise ValueError(f"per_decade must be positive, not {per_decade}")
+        require(per_decade > 0, f"per_decade must be positive, not {per_decade}")
         logs = np.log(self.wavenumber)
         index = np.floor(logs / math.log(10) * per_decade + 1e-9).astype(np.int64)
         _, group = np.unique(index, return_inverse=True)

@@ -6,16 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import wave_vectors
+from roughcontact.validation import Array
 
 __all__ = ["PowerMap", "power_map"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

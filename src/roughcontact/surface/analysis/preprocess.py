@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.windows import window_values
+from roughcontact.validation import Array
 
 __all__ = ["Level", "SpectralWindow", "Taper", "complete", "power_left", "prepared", "taper", "tapers"]
 
-Array = npt.NDArray[np.float64]
 Level: TypeAlias = Literal["auto", "none", "mean", "plane"]
 SpectralWindow: TypeAlias = Literal["auto", "none", "hann", "hamming", "blackman", "welch", "tukey"]
 

@@ -13,11 +13,10 @@ from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, prepared, tapers
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["power_spectrum"]
 
-Array = npt.NDArray[np.float64]
 # A windowed spectrum of a free surface is relied upon from this many waves to its length: the longer ones
 # suffer from levelling and from the width of the window's kernel.
 LONGEST = 3.0
@@ -80,8 +79,7 @@ def power_spectrum(
     ndim = surface.grid.ndim
     if direction == "auto":
         direction = "ring" if ndim == 2 else "x"
-    if direction not in ("ring", "x", "y"):
-        raise ValueError(f"direction must be 'ring', 'x' or 'y', not {direction!r}")
+    require(direction in ("ring", "x", "y"), f"direction must be 'ring', 'x' or 'y', not {direction!r}")
     if ndim == 1 and direction != "x":
         raise ValueError(f"a line has profiles along 'x' only, not {direction!r}")
     if per_decade is not None and not 0 < per_decade <= FINEST:

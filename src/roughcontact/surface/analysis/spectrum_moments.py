@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, require
 
 __all__ = ["spectrum_moments"]
 
@@ -49,8 +49,7 @@ def spectrum_moments(
     """
     band = spectrum.within(q_min, q_max)
     keep = band.density > 0
-    if keep.sum() < 2:
-        raise ValueError(f"moments need two bins with power in the band, not {int(keep.sum())}")
+    require(keep.sum() >= 2, f"moments need two bins with power in the band, not {int(keep.sum())}")
     ln_q, ln_c = np.log(band.wavenumber[keep]), np.log(band.density[keep])
     areal = spectrum.kind == "C2D"
     factors = (2 * math.pi, math.pi, 3 * math.pi / 4) if areal else (2.0, 2.0, 2.0)

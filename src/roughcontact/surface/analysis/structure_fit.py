@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
-from scipy.special import chdtri
 
 from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array, require
 
 __all__ = ["fit_structure"]
 
-Array = npt.NDArray[np.float64]
 Limit = Literal["none", "rolloff", "long_cutoff"]
 # Quadrature over the waves: directions to a quarter turn (twice this many), and wavenumbers on each.
 ANGLES, WAVES = 12, 1500
@@ -28,8 +27,6 @@ ANGLES, WAVES = 12, 1500
 LONGEST = 200
 # The share of S that the quadrature and the model may err by, added to the covariance.
 ROUNDING = 1e-5
-# A misfit that chance exceeds this rarely is taken for a law that does not hold.
-RARE = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,12 +111,10 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     if limit not in ("none", "rolloff", "long_cutoff"):
         raise ValueError(f"limit must be 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     steps = _default(min(grid.shape), limit) if lags is None else np.asarray(lags)
-    if steps.size < 5:
-        raise ValueError(f"a fit needs five lags at least, not {steps.size}")
+    require(steps.size >= 5, f"a fit needs five lags at least, not {steps.size}")
     (along_x, share_x), (along_y, share_y) = (tapered_structure(surface, axis, steps) for axis in ("x", "y"))
     data = np.concatenate([along_x, along_y])
-    if not (data > 0).all():
-        raise ValueError("the structure function is zero at some lag: the surface is flat")
+    require((data > 0).all(), "the structure function is zero at some lag: the surface is flat")
     dy, dx = grid.spacing
     distance = np.concatenate([steps * dx, steps * dy])
     is_y = np.arange(data.size) >= steps.size
@@ -131,10 +126,10 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     area[~is_y[:, None] & ~is_y] *= share_x
     area[is_y[:, None] & is_y] *= share_y
     with one_blas_thread():
-        parameters, error, misfit = _fit(band, data, trends, area, limit)
+        parameters, error, misfit, freedom = _fit(band, data, trends, area, limit)
     reference = float(np.log(2 * np.pi / distance.max()))
     low = 2 * math.pi / math.exp(parameters[2]) if limit != "none" else None
-    return HurstFit(
+    fit = HurstFit(
         hurst=float(parameters[1]),
         standard_error=error,
         density=math.exp(parameters[0] - 2 * (parameters[1] + 1) * reference),
@@ -145,7 +140,9 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
         short_cutoff=None,
         misfit=misfit,
         band=(2 * math.pi / float(distance.max()), 2 * math.pi / float(distance.min())),
+        freedom=freedom,
     )
+    return fit if misfit <= fit.chance else replace(fit, standard_error=error * math.sqrt(misfit))
 
 
 def _default(size: int, limit: Limit) -> npt.NDArray[np.int64]:
@@ -206,8 +203,10 @@ def _start(structure: Callable[[Array], Array], band: _Band, data: Array, limit:
     return best
 
 
-def _fit(band: _Band, data: Array, trends: Array, area: Array, limit: Limit) -> tuple[Array, float, float]:
-    """Return ln C2D(q = 1), H and the logarithm of the limit; the error of H; and the mean square misfit."""
+def _fit(
+    band: _Band, data: Array, trends: Array, area: Array, limit: Limit
+) -> tuple[Array, float, float, int]:
+    """Return ln C2D(q = 1), H and the logarithm of the limit; the error of H; the misfit, and its freedom."""
     free = 3 if limit != "none" else 2
 
     def structure(p: Array) -> Array:
@@ -217,8 +216,6 @@ def _fit(band: _Band, data: Array, trends: Array, area: Array, limit: Limit) -> 
     # The limit stays among the waves of the grid, the law within the range of the generator.
     low = np.array([-np.inf, -0.9, float(band.ln_q.min())])
     high = np.array([np.inf, 3.0, float(band.ln_q.max()) - 1])
-    error = misfit = math.nan
-    freedom = 1
     for _ in range(5):  # the covariance follows the fit
         scale = structure(parameters)
         slack, covariance = _covariance(band, parameters, scale, trends, area, limit)
@@ -233,14 +230,12 @@ def _fit(band: _Band, data: Array, trends: Array, area: Array, limit: Limit) -> 
         )
         moved = float(np.abs(found.x - parameters[:free]).max())
         parameters = np.concatenate([found.x, parameters[free:]])
-        jacobian = np.asarray(found.jac)
-        error = math.sqrt(float(np.linalg.pinv(jacobian.T @ jacobian)[1, 1]))
-        freedom = max(data.size - free - slack, 1)
-        misfit = 2 * float(found.cost) / freedom
         if moved < 1e-6:
             break
-    chance = float(chdtri(freedom, RARE)) / freedom
-    return parameters, error * math.sqrt(misfit if misfit > chance else 1.0), misfit
+    jacobian = np.asarray(found.jac)
+    error = math.sqrt(float(np.linalg.pinv(jacobian.T @ jacobian)[1, 1]))
+    freedom = max(data.size - free - slack, 1)
+    return parameters, error, 2 * float(found.cost) / freedom, freedom
 
 
 def _whitened(

@@ -9,10 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, require
 
 __all__ = ["MeasuredSummits", "find_summits"]
 
-Array = npt.NDArray[np.float64]
 _Heights = Callable[[int, int], Array]
 
 
@@ -109,8 +109,7 @@ def find_summits(surface: Surface) -> MeasuredSummits:
     for neighbour in around:
         complete &= ~np.isnan(neighbour)
         highest &= centre > neighbour  # false where either is missing
-    if not complete.any():
-        raise ValueError("no point has eight measured neighbours")
+    require(complete.any(), "no point has eight measured neighbours")
 
     rows, columns = np.nonzero(highest & complete)
     curvature = _principal(lambda i, j: at(i, j)[rows, columns], grid.spacing)

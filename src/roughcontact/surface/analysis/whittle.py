@@ -6,13 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.validation import Array
 
 __all__ = ["Slope", "likeliest", "mean_level", "slope_error", "smearing"]
 
-Array = npt.NDArray[np.float64]
 # The laws that are tried fall, and no faster than the steepest of the generator, H = 3, or what a window leaks.
 STEEPEST = 8.0
 

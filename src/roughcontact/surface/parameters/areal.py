@@ -6,17 +6,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import map_coordinates, spline_filter
 
 from roughcontact.surface.analysis.correlation import autocorrelation
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["ArealParameters", "areal_parameters", "gradient_and_area"]
 
-Array = npt.NDArray[np.float64]
 _HALVINGS = 30  # of half a cell: to a billionth of it
 
 
@@ -104,24 +102,22 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
     """
     if surface.grid.ndim != 2 or min(surface.grid.shape) < 2:
         raise ValueError(f"areal parameters need a surface of 2 x 2 points, not shape {surface.grid.shape}")
-    if not 0 < decay < 1:
-        raise ValueError(f"decay must lie between 0 and 1, not {decay}")
+    require(0 < decay < 1, f"decay must lie between 0 and 1, not {decay}")
     heights = surface.heights[surface.measured]
-    if heights.max() == heights.min():
-        raise ValueError("all heights are equal: there is no texture to measure")
+    require(heights.max() != heights.min(), "all heights are equal: there is no texture to measure")
     heights -= heights.mean()
-    moments = amplitudes(heights)
+    arithmetic, rms, skewness, kurtosis = amplitudes(heights)
     peak, pit = float(heights.max()), -float(heights.min())
     shortest, longest = decay_lengths(surface, decay)
     gradient, area = gradient_and_area(surface)
     return ArealParameters(
-        Sq=moments.rms,
-        Ssk=moments.skewness,
-        Sku=moments.kurtosis,
+        Sq=rms,
+        Ssk=skewness,
+        Sku=kurtosis,
         Sp=peak,
         Sv=pit,
         Sz=peak + pit,
-        Sa=moments.arithmetic,
+        Sa=arithmetic,
         Sal=shortest,
         Str=shortest / longest if math.isfinite(longest) else math.nan,
         Sdq=gradient,
@@ -155,8 +151,7 @@ def gradient_and_area(surface: Surface) -> tuple[float, float]:
             squares += float(steepness.sum())
             # sqrt(1 + s) - 1 without loss for small slopes.
             area += float((steepness / (np.sqrt(1 + steepness) + 1)).sum())
-    if not number:
-        raise ValueError("no three neighbouring points are measured: there is no gradient")
+    require(number, "no three neighbouring points are measured: there is no gradient")
     return float(np.sqrt(squares / number)), area / number
 
 

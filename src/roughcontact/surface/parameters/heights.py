@@ -2,33 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-import numpy.typing as npt
 
-__all__ = ["Amplitudes", "amplitudes"]
+from roughcontact.validation import Array
 
-Array = npt.NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Amplitudes:
-    """Moments of heights about their mean: arithmetic [m], root mean square [m], skewness and kurtosis [-]."""
-
-    arithmetic: float
-    rms: float
-    skewness: float
-    kurtosis: float
+__all__ = ["amplitudes"]
 
 
-def amplitudes(heights: Array) -> Amplitudes:
-    """Return the moments of `heights`, which have zero mean and are not all equal."""
+def amplitudes(heights: Array) -> tuple[float, float, float, float]:
+    """Return arithmetic mean deviation, rms, skewness and kurtosis of `heights` about their mean, which is zero."""
     rms = float(np.sqrt(np.mean(heights**2)))
     scaled = heights / rms
-    return Amplitudes(
-        arithmetic=float(np.mean(np.abs(heights))),
-        rms=rms,
-        skewness=float(np.mean(scaled**3)),
-        kurtosis=float(np.mean(scaled**4)),
+    return (
+        float(np.mean(np.abs(heights))),
+        rms,
+        float(np.mean(scaled**3)),
+        float(np.mean(scaled**4)),
     )

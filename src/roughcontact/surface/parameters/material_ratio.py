@@ -8,11 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["MaterialRatio", "StratifiedParameters", "material_ratio", "stratified_parameters"]
 
-Array = npt.NDArray[np.float64]
 # The central region of the curve that the equivalent straight line follows.
 CENTRAL = 0.4
 
@@ -187,10 +186,8 @@ def stratified_parameters(
     if not 0 < peak_ratio < dale_ratio < 1:
         raise ValueError(f"ratios must increase between 0 and 1, not {peak_ratio} and {dale_ratio}")
     curve = material_ratio(surface)
-    if curve.height.size < 10:
-        raise ValueError(f"a material ratio curve needs ten heights, not {curve.height.size}")
-    if curve.height[0] == curve.height[-1]:
-        raise ValueError("all heights are equal: there is no core to measure")
+    require(curve.height.size >= 10, f"a material ratio curve needs ten heights, not {curve.height.size}")
+    require(curve.height[0] != curve.height[-1], "all heights are equal: there is no core to measure")
     slope, offset = _equivalent_line(curve)
     top, bottom = offset, offset + slope  # where the line meets the ratios 0 and 1
     smr1, smr2 = (float(curve.ratio_at(height)) for height in (top, bottom))

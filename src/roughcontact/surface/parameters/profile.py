@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["ProfileParameters", "profile_parameters"]
 
-Array = npt.NDArray[np.float64]
 # The seven-point formula for the local gradient, at offsets -3 to 3, in units of 1/(60 spacing).
 GRADIENT = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0])
 
@@ -123,17 +121,16 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
             f"{GRADIENT.size}"
         )
     heights = line.heights[: sections * cells]
-    if heights.max() == heights.min():
-        raise ValueError("all heights are equal: there is no texture to measure")
+    require(heights.max() != heights.min(), "all heights are equal: there is no texture to measure")
     heights = heights - heights.mean()
-    moments = amplitudes(heights)
+    arithmetic, rms, skewness, kurtosis = amplitudes(heights)
     peaks, pits = _largest(heights, sections)
     peak, pit = float(peaks.mean()), float(pits.mean())
     return ProfileParameters(
-        Ra=moments.arithmetic,
-        Rq=moments.rms,
-        Rsk=moments.skewness,
-        Rku=moments.kurtosis,
+        Ra=arithmetic,
+        Rq=rms,
+        Rsk=skewness,
+        Rku=kurtosis,
         Rt=float(heights.max() - heights.min()),
         Rp=peak,
         Rv=pit,

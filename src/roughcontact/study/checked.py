@@ -1,0 +1,33 @@
+"""Values that are checked as they are made, and refused in plain words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from roughcontact.study.study_errors import StudyError, explained
+
+__all__ = ["TOO_DEEP", "Checked"]
+
+TOO_DEEP = "its values are nested too deeply to be read: no parameter needs more than a list or two"
+
+
+class Checked(BaseModel):
+    """The base of a study, of its ranges and of the parameters of cases: known names only, frozen, finite.
+
+    Raises
+    ------
+    StudyError
+        If a value is missing, unknown or wrong: all that is wrong, each with its name.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise StudyError(explained(error, type(self).model_fields)) from None
+        except RecursionError:
+            raise StudyError(TOO_DEEP) from None
