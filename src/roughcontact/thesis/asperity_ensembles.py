@@ -6,6 +6,8 @@ surfaces of our own: slopes can be compared, numbers cannot.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray
 from matplotlib.figure import Figure
@@ -50,7 +52,7 @@ def studies(scale: Scale) -> Studies:
     """Return the one study, which figures 31 to 33 share: 25 surfaces of each of seven fractal dimensions."""
     name, samples = {"small": ("asperities-small", 8), "thesis": ("asperities", 25)}[scale]
     parameters = {"points": POINTS[scale], "lowest_force": 1e-4, "highest_force": 0.1, "loads": 25}
-    table = {"hurst": HURST}
+    table: dict[str, Any] = {"hurst": HURST}
     return (Study(name=name, case="asperities", samples=samples, parameters=parameters, table=table),)
 
 
