@@ -121,7 +121,7 @@ def self_affine(
             raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
     heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
-    return Surface(heights, grid, (f"self-affine, H = {hurst:g}, rms = {rms:g} m, inverse FFT",))
+    return Surface(heights, grid, (f"self-affine, H = {hurst:g}{_size(rms, rms_band)}, inverse FFT",))
 
 
 @numeric
@@ -184,8 +184,15 @@ def synthesise(
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
     heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
-    size = "" if rms is None else f", rms = {rms:g} m"
+    size = _size(rms, rms_band)
     return Surface(heights, grid, (f"random surface of a given spectrum{size}, inverse FFT",))
+
+
+def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
+    if rms is None:
+        return ""
+    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} to {rms_band[1]:g} m"
+    return f", rms = {rms:g} m{of}"
 
 
 def _heights(
