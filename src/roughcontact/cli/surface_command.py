@@ -38,7 +38,7 @@ roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _LENGTHS = ("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest")
 _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
-_BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
+_BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
 
 def info(source: options.Source, *, json: bool = options.JSON) -> None:
