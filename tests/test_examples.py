@@ -61,9 +61,13 @@ def check_squeeze_film(stdout, _):
 
 
 def check_partial_slip(stdout, _):
-    """Friction takes what Jaeger's rule says, which Poisson's ratio makes an approximation."""
-    loss, expected = re.search(r"takes (\S+) J in a cycle, by Jaeger's rule (\S+) J", stdout).groups()
-    assert float(loss) == pytest.approx(float(expected), rel=0.02)
+    """Friction takes what Jaeger's rule says, which Poisson's ratio makes an approximation: the second has none.
+
+    Trapezia between twenty forces miss 0.4 % of the difference that the rule is, those between forty 0.1 %.
+    """
+    found = re.findall(r"takes (\S+) J in a cycle, by Jaeger's rule (\S+) J", stdout)
+    (_, (loss, expected)) = found
+    assert float(loss) == pytest.approx(float(expected), rel=0.01)
 
 
 # Script -> its arguments, where FOLDER is an empty folder, and the check of its number.

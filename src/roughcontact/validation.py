@@ -24,6 +24,7 @@ __all__ = [
     "positive",
     "positive_scalar",
     "require",
+    "require_generator",
     "require_numbers",
     "scalar",
     "shown",
@@ -169,6 +170,15 @@ def require(condition: npt.ArrayLike, message: str, value: npt.ArrayLike | None 
     if not right.all():
         wrong = "" if value is None else f" (given: {np.broadcast_to(value, right.shape)[~right].flat[0]:g})"
         raise ValueError(message + wrong)
+
+
+def require_generator(rng: Any) -> np.random.Generator:
+    """Return the source of random numbers, or refuse what is none: a seed alone, for example."""
+    if not isinstance(rng, np.random.Generator):
+        raise ValueError(
+            f"rng must be a numpy.random.Generator, for example default_rng(0), not {shown(rng)}"
+        )
+    return rng
 
 
 def shown(value: object) -> str:

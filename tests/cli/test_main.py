@@ -36,7 +36,16 @@ def test_version():
         (("surface", "info"), ["--json", "--unit"]),
         (
             ("surface", "make"),
-            ["--hurst", "--rms", "--points", "--rolloff", "--long-cutoff", "--short-cutoff", "--nodal"],
+            [
+                "--hurst",
+                "--rms",
+                "--rms-band",
+                "--points",
+                "--rolloff",
+                "--long-cutoff",
+                "--short-cutoff",
+                "--nodal",
+            ],
         ),
     ],
 )

@@ -44,6 +44,17 @@ def test_a_surface_is_made_as_the_library_makes_it(invoke, tmp_path):
     assert surface.grid == grid
 
 
+def test_a_band_of_waves_has_the_rms_height(invoke, tmp_path):
+    path = tmp_path / "new.npz"
+    assert invoke("surface", "make", path, *MAKE, "--points", "32", "--rms-band", "1mm:0.1mm").exit_code == 0
+    grid = rc.Grid((32, 32), 1e-3 / 32)
+    expected = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(1), rms_band=(1e-3, 1e-4))
+    surface = rc.read(path)
+    np.testing.assert_allclose(surface.heights, expected.heights, rtol=0, atol=1e-14 * expected.rms)
+    assert surface.rms > 1e-6
+    assert any("of the waves from 0.001 to 0.0001 m" in line for line in surface.provenance)
+
+
 def test_one_length_is_the_width_of_square_cells(invoke, tmp_path):
     path = tmp_path / "new.npz"
     assert invoke("surface", "make", path, *MAKE, "--points", "16x32").exit_code == 0
@@ -98,6 +109,9 @@ def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
         (("--size", "0mm"), "--size: a side length must be positive"),
         (("--points", "0"), "--points: '0' is no number of points"),
         (("--long-cutoff", "1um"), "no wave"),
+        (("--rms-band", "1mm"), "--rms-band: '1mm' is no band"),
+        (("--rms-band", "1mm:0um"), "--rms-band: a wavelength must be positive"),
+        (("--rms-band", "1mm:1um"), "only waves longer"),
         (("--nodal", "--periodic"), "nodal repeats the first row"),
     ],
 )

@@ -130,7 +130,12 @@ def test_along_one_direction_only(solution):
 
 def test_a_little_force_slips_nowhere(solution):
     """On a grid the first cell slips at a force of its own; before, the contact is as stiff as in full stick."""
-    answer = slide(solution, BODIES, friction=MU, force=1e-3 * MU * solution.force, tolerance=1e-12)
+    stick = slide(solution, BODIES, friction=1e9, force=1.0, tolerance=1e-12)  # [N]
+    assert not stick.slipping.any()
+    inside = solution.contact
+    first = (MU * solution.pressure[inside] / np.hypot(*stick.traction)[inside]).min()
+    assert slide(solution, BODIES, friction=MU, force=1.01 * first, tolerance=1e-12).slipping.any()
+    answer = slide(solution, BODIES, friction=MU, force=0.99 * first, tolerance=1e-12)
     assert not answer.slipping.any()
     assert answer.dissipated == pytest.approx(0, abs=1e-10 * answer.elastic_energy)
     matrix = tangential_stiffness(solution.contact, solution.problem.grid, BODIES).matrix

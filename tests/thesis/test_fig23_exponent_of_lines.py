@@ -14,7 +14,7 @@ from thesis.computed import exported
 @pytest.fixture(scope="module")
 def data():
     table = {"points": fig23.POINTS, "hurst": HURST}
-    study = Study(name="few", case="lines", samples=2, parameters={"lines": 60}, table=table)
+    study = Study(name="few", case="lines", samples=2, parameters={"lines": 240}, table=table)
     return fig23.averages(exported(study))
 
 

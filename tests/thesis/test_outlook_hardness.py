@@ -51,7 +51,10 @@ def test_a_ceiling_bounds_the_pressure_and_widens_the_contact(found):
     # A force at a lower ceiling takes a larger region, which is stiffer than the part of it that does not yield.
     at = found.sel(force=outlook_hardness.FORCE, method="nearest")
     assert (at["area"].diff("ceiling") >= -1e-12).all()
-    assert (at["yielded"].diff("ceiling") >= 0).all()
+    # Between a load at which no cell yields and one at which some do, the part is not known.
+    yielded = at["yielded"].dropna("ceiling")
+    assert yielded.size >= at["ceiling"].size - 1
+    assert (yielded.diff("ceiling") >= 0).all()
     assert float(at["area"].isel(ceiling=-1) / at["area"].isel(ceiling=0)) > 2
     assert (hard["region_stiffness"] >= hard["stiffness"] * (1 - 1e-6)).all()
     # The lowest ceiling: next to the whole contact yields, and bears nothing but the ceiling.

@@ -12,7 +12,15 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
-from roughcontact.cli.unit_options import LENGTH, parse, parse_number, parse_points, parse_seed, parse_size
+from roughcontact.cli.unit_options import (
+    LENGTH,
+    parse,
+    parse_band,
+    parse_number,
+    parse_points,
+    parse_seed,
+    parse_size,
+)
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
@@ -29,7 +37,7 @@ roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
 _BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
-_BYTES_PER_POINT = 90  # of the synthesis: heights, noise, its transform, wavenumbers, amplitudes
+_BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
 
 def info(source: options.Source, *, json: bool = options.JSON) -> None:
@@ -60,6 +68,10 @@ class Recipe:
 
     hurst: str = option("Hurst exponent, from -1 to 3.", "0.8", default=...)
     rms: str = option("Root mean square height.", "1um", default=...)
+    rms_band: str | None = option(
+        "Longest and shortest of the waves whose rms height is --rms (all), for one surface on several grids.",
+        "1mm:10um",
+    )
     size: str = option("Width (cells are square), or height x width.", "1mm", default=...)
     points: str = option("Points a side, or rows x columns.", "512", default="512")
     seed: str = option("Seed of the random phases.", "1", default="1")
@@ -94,6 +106,7 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
             exponent,
             height,
             np.random.default_rng(chosen),
+            rms_band=None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band"),
             nodal=recipe.nodal,
             **waves,  # type: ignore[arg-type]
         )

@@ -21,6 +21,7 @@ __all__ = [
     "RESISTIVITY",
     "Kind",
     "parse",
+    "parse_band",
     "parse_load",
     "parse_loads",
     "parse_number",
@@ -94,6 +95,21 @@ def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:
     if min(values) < 0:
         raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
     return values[0], values[-1]
+
+
+def parse_band(text: str, option: str) -> tuple[float, float]:
+    """Return two wavelengths in SI, from "1mm:10um", the longest and the shortest.
+
+    Raises
+    ------
+    UsageError
+        If there are not two, or one is no positive length.
+    """
+    parts = text.split(":")
+    if len(parts) != 2:
+        raise UsageError(f"{option}: {text!r} is no band; write the longest and the shortest wave, 1mm:10um")
+    longest, shortest = (parse_positive(part, LENGTH, option, "a wavelength") for part in parts)
+    return longest, shortest
 
 
 def parse_number(text: str, option: str, example: str) -> float:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
-from roughcontact.surface.wave_grid import Spectrum, multiplicity, wave_powers
-from roughcontact.validation import Array, numeric, positive_scalar, shown, whole
+from roughcontact.surface.random_phases import Amplitudes, draw_keys, require_amplitudes, unit_waves
+from roughcontact.surface.wave_grid import Spectrum, cell_centres, wave_amplitudes
+from roughcontact.validation import Array, numeric, positive_scalar, require_generator, shown, whole
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
@@ -29,7 +28,8 @@ def rough_lines(
     count: int,
     *,
     rms: float | None = None,
-    amplitudes: Literal["exact", "gaussian"] = "exact",
+    rms_band: tuple[float, float] | None = None,
+    amplitudes: Amplitudes = "exact",
 ) -> Iterator[Array]:
     """Yield `count` random rough lines in batches of a few megabytes (thesis, eqs 2.10 to 2.12 as corrected).
 
@@ -41,10 +41,13 @@ def rough_lines(
         Two-sided C1D [m^3] of the wavenumber [rad/m]; that of a line which is equivalent to a surface comes from
         `line_spectrum`.
     rng : numpy.random.Generator
-        Source of the phases. The same state gives the same phases for every spectrum.
+        Source of the phases: yields a key for each line. The same state gives the same phases for every spectrum and
+        every number of points, see `roughcontact.self_affine`.
     count : int
         Number of lines.
     rms : float, optional
+        As for `roughcontact.synthesise`, which draws the same lines one by one.
+    rms_band : tuple of float, optional
         As for `roughcontact.synthesise`, which draws the same lines one by one.
     amplitudes : {"exact", "gaussian"}
         As for `roughcontact.synthesise`, which draws the same lines one by one.
@@ -72,8 +75,9 @@ def rough_lines(
     [1e-06, 1e-06, 1e-06]
     """
     whole(count, "count, the number of lines,")
-    _check(rng, amplitudes)
-    amplitude = _amplitude(grid, spectrum, rms)
+    require_generator(rng)
+    require_amplitudes(amplitudes)
+    amplitude = _amplitude(grid, spectrum, rms, rms_band)
     rows = max(1, BATCH // grid.size)
     sizes = [min(rows, count - start) for start in range(0, count, rows)]
     return (_lines(grid, amplitude, random_waves(grid, rng, size, amplitudes=amplitudes)) for size in sizes)
@@ -85,12 +89,13 @@ def random_waves(
     rng: np.random.Generator,
     count: int,
     *,
-    amplitudes: Literal["exact", "gaussian"] = "exact",
+    amplitudes: Amplitudes = "exact",
 ) -> Waves:
     """Return the waves of `count` lines with unit spectrum, shape (count, n//2 + 1).
 
     Their modulus is one ("exact": only the phases are random) or one in the mean square ("gaussian").
-    Kept, they give `line_heights` of many spectra that differ in nothing else.
+    Kept, they give `line_heights` of many spectra that differ in nothing else. Those of a line of fewer points are the
+    first columns.
 
     Parameters
     ----------
@@ -117,16 +122,20 @@ def random_waves(
     >>> waves.shape, round(float(abs(waves[0, 5])), 9)
     ((2, 33), 1.0)
     """
-    _check(rng, amplitudes)
-    waves = scipy.fft.rfft(rng.standard_normal((count, grid.size)))
-    if amplitudes == "exact":
-        modulus = np.abs(waves)
-        return np.asarray(np.divide(waves, modulus, out=waves, where=modulus > 0))
-    return np.asarray(waves / math.sqrt(grid.size))
+    return unit_waves(
+        draw_keys(rng, whole(count, "count, the number of lines,")), 0, (0, grid.size // 2 + 1), amplitudes
+    )
 
 
 @numeric
-def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | None = None) -> Array:
+def line_heights(
+    grid: Grid,
+    spectrum: Spectrum,
+    waves: Waves,
+    *,
+    rms: float | None = None,
+    rms_band: tuple[float, float] | None = None,
+) -> Array:
     """Return the heights [m] of lines with a `spectrum` from their unit `waves`, a line a row.
 
     See `rough_lines`; with `rms` [m] the spectrum is a shape only.
@@ -141,6 +150,8 @@ def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | N
         Unit waves, from `random_waves`.
     rms : float, optional
         Root mean square height of each line [m]: the spectrum is then a shape only. By default that of the spectrum.
+    rms_band : tuple of float, optional
+        Wavelengths [m] of the waves whose rms height is `rms`, see `roughcontact.self_affine`. By default all.
 
     Returns
     -------
@@ -158,7 +169,7 @@ def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | N
     >>> heights.std(axis=1).round(12).tolist()  # of all lines alike
     [1e-06, 1e-06]
     """
-    amplitude = _amplitude(grid, spectrum, rms)
+    amplitude = _amplitude(grid, spectrum, rms, rms_band)
     if waves.shape[1:] != amplitude.shape:
         raise ValueError(
             f"waves of shape {waves.shape} do not fit the {amplitude.size} wavenumbers of the grid"
@@ -166,7 +177,9 @@ def line_heights(grid: Grid, spectrum: Spectrum, waves: Waves, *, rms: float | N
     return _lines(grid, amplitude, waves)
 
 
-def _amplitude(grid: Grid, spectrum: Spectrum, rms: float | None) -> Array:
+def _amplitude(
+    grid: Grid, spectrum: Spectrum, rms: float | None, rms_band: tuple[float, float] | None
+) -> Array:
     """Return B [m] at every wavenumber (thesis, eq. 2.11)."""
     if not isinstance(grid, Grid) or grid.ndim != 1:
         raise ValueError("a line has a grid of one axis: Grid(n, spacing)")
@@ -174,19 +187,12 @@ def _amplitude(grid: Grid, spectrum: Spectrum, rms: float | None) -> Array:
         positive_scalar(rms, "rms")
     if not callable(spectrum):
         raise ValueError(f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}")
-    powers = wave_powers(spectrum, grid.shape, grid.spacing)
-    if rms is not None:
-        powers *= rms**2 / float(powers @ multiplicity(grid.shape))
-    return np.sqrt(powers)
+    return wave_amplitudes(spectrum, grid.shape, grid.spacing, rms=rms, rms_band=rms_band)
 
 
 def _lines(grid: Grid, amplitude: Array, waves: Waves) -> Array:
     """Return the sum of the waves at every point (thesis, eq. 2.12 as corrected)."""
-    return np.asarray(scipy.fft.irfft(waves * (grid.size * amplitude), n=grid.size, overwrite_x=True))
-
-
-def _check(rng: np.random.Generator, amplitudes: str) -> None:
-    if not isinstance(rng, np.random.Generator):
-        raise ValueError(f"rng must be a numpy.random.Generator, for example default_rng(0), not {rng!r}")
-    if amplitudes not in ("exact", "gaussian"):
-        raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
+    (to_centres,) = cell_centres(grid.shape)
+    waves = waves * (grid.size * amplitude)
+    waves *= to_centres
+    return np.asarray(scipy.fft.irfft(waves, n=grid.size, overwrite_x=True))

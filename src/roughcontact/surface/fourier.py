@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
+from roughcontact.surface.random_phases import Amplitudes, Keys, draw_keys, require_amplitudes, unit_waves
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.wave_grid import Spectrum, Support, multiplicity, wave_powers, wavenumbers
-from roughcontact.validation import number, numeric
+from roughcontact.surface.wave_grid import (
+    Spectrum,
+    Support,
+    cell_centres,
+    wave_amplitudes,
+    wave_integers,
+    wavenumbers,
+)
+from roughcontact.validation import number, numeric, require_generator
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
 Array = npt.NDArray[np.float64]
+
+BLOCK = 2**15  # waves made at once: a megabyte or two of words and angles
 
 
 @numeric
@@ -27,19 +36,21 @@ def self_affine(
     rms: float,
     rng: np.random.Generator,
     *,
+    rms_band: tuple[float, float] | None = None,
     rolloff: float | None = None,
     long_cutoff: float | None = None,
     short_cutoff: float | None = None,
     anisotropy: tuple[float, float] | None = None,
     support: Support = "square",
-    amplitudes: Literal["exact", "gaussian"] = "exact",
+    amplitudes: Amplitudes = "exact",
     nodal: bool = False,
 ) -> Surface:
     """Return a random self-affine surface or line (thesis, eqs 2.10 to 2.15 as corrected).
 
     The phases are random; the amplitudes follow the spectrum exactly, so that every sample has the same
     power spectrum and exactly the wanted rms height. The same generator state gives the
-    same phases for every Hurst exponent, so that samples can be compared pair by pair.
+    same phases for every Hurst exponent, so that samples can be compared pair by pair, and on every grid of
+    the same outer sides the same waves: a finer grid adds finer ones. See the notes.
 
     Parameters
     ----------
@@ -51,7 +62,11 @@ def self_affine(
         Root mean square height [m]: of this sample; with Gaussian amplitudes that of
         the process, about which samples scatter.
     rng : numpy.random.Generator
-        Source of the phases.
+        Source of the phases: yields a key of 128 bits and moves on by that, whatever the grid.
+    rms_band : tuple of float, optional
+        ``(longest, shortest)``: wavelengths [m] of the waves whose rms height is `rms`, both limits included. By
+        default all waves of the grid. For one surface on several grids: a band that is on all of them, from the side
+        to something above two cells of the coarsest.
     rolloff, long_cutoff, short_cutoff : float, optional
         Limits of the power law [m], see `SelfAffineSpectrum`.
     anisotropy : tuple of float, optional
@@ -80,6 +95,14 @@ def self_affine(
     Thesis, eqs 2.10 to 2.15; two of them are corrected: in 2.12 the exponent lacks the position, and 2.15 is a sum over
     wave vectors.
 
+    The phase of a wave (and its modulus if Gaussian) is a function of the key and of its integer wave vector,
+    whole periods along each side, alone: `roughcontact.surface.random_phases` defines it. Phases count from
+    the outer corner of the first cell, of a nodal grid from its first node. So the same generator state gives, on n,
+    2n, 3n or n + 1 cells over the same sides, the same waves at the same places up to those that are too fine; nodal
+    grids have their nodes in common. With `rms` alone each grid scales its waves to the same sum: at H = 0 those of
+    512^2 cells are 11 % higher than the same waves among 2048^2; `rms_band` scales them alike. Waves at the Nyquist
+    wavenumber of an even number of cells are left out, since their phases are not free.
+
     Examples
     --------
     >>> import numpy as np
@@ -97,8 +120,8 @@ def self_affine(
         if np.shape(number(anisotropy, "anisotropy")) != (2,):
             raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
-    heights = _heights(grid, spectrum, rng, rms, support, amplitudes, nodal)
-    return Surface(heights, grid, (f"self-affine, H = {hurst:g}, rms = {rms:g} m, inverse FFT",))
+    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
+    return Surface(heights, grid, (f"self-affine, H = {hurst:g}{_size(rms, rms_band)}, inverse FFT",))
 
 
 @numeric
@@ -108,8 +131,9 @@ def synthesise(
     rng: np.random.Generator,
     *,
     rms: float | None = None,
+    rms_band: tuple[float, float] | None = None,
     support: Support = "square",
-    amplitudes: Literal["exact", "gaussian"] = "exact",
+    amplitudes: Amplitudes = "exact",
     nodal: bool = False,
 ) -> Surface:
     """Return a random surface or line with a given power spectrum (thesis, eqs 2.11 to 2.15 as corrected).
@@ -123,9 +147,12 @@ def synthesise(
         line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction wrap a
         function of ``(qy, qx)`` in `DirectionalSpectrum`. It is never asked for q = 0.
     rng : numpy.random.Generator
-        Source of the phases.
+        Source of the phases, see `self_affine`.
     rms : float, optional
         Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
+    rms_band : tuple of float, optional
+        Wavelengths [m] of the waves whose rms height is `rms`, see `self_affine`. Without `rms` none is needed: a
+        spectrum that sets the height gives every wave the same amplitude on all grids.
     support : {"square", "disc"}
         All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
     amplitudes : {"exact", "gaussian"}
@@ -156,9 +183,16 @@ def synthesise(
     """
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
-    heights = _heights(grid, spectrum, rng, rms, support, amplitudes, nodal)
-    size = "" if rms is None else f", rms = {rms:g} m"
+    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
+    size = _size(rms, rms_band)
     return Surface(heights, grid, (f"random surface of a given spectrum{size}, inverse FFT",))
+
+
+def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
+    if rms is None:
+        return ""
+    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} to {rms_band[1]:g} m"
+    return f", rms = {rms:g} m{of}"
 
 
 def _heights(
@@ -166,34 +200,43 @@ def _heights(
     spectrum: Spectrum,
     rng: np.random.Generator,
     rms: float | None,
+    rms_band: tuple[float, float] | None,
     support: Support,
-    amplitudes: str,
+    amplitudes: Amplitudes,
     nodal: bool,
 ) -> Array:
     """Return the heights of eqs 2.12 and 2.15; the border has looked at `rms`, the rest is looked at here."""
-    if not isinstance(rng, np.random.Generator):
-        raise ValueError(f"rng must be a numpy.random.Generator, for example default_rng(0), not {rng!r}")
-    if amplitudes not in ("exact", "gaussian"):
-        raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
+    require_generator(rng)
+    require_amplitudes(amplitudes)
     if nodal and any(grid.periodic):
         raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
     if nodal and min(grid.shape) < 3:
         raise ValueError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}")
 
     shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
-    amplitude = wave_powers(spectrum, shape, grid.spacing, support)
-    scale = 1.0 if rms is None else rms / math.sqrt((amplitude * multiplicity(shape)).sum())
-    np.sqrt(amplitude, out=amplitude)  # B, eqs 2.11 and 2.14
-
-    # The transform of real white noise has the Hermitian phases of eq. 2.15 built in.
-    noise = scipy.fft.rfftn(rng.standard_normal(shape))
-    size = math.prod(shape)
-    if amplitudes == "exact":
-        modulus = np.abs(noise)
-        np.divide(noise, modulus, out=noise, where=modulus > 0)
-    else:
-        scale /= math.sqrt(size)  # to unit variance a wave
-    noise *= amplitude
-    heights = np.asarray(scipy.fft.irfftn(noise, s=shape, overwrite_x=True))
-    heights *= scale * size
+    amplitude = wave_amplitudes(spectrum, shape, grid.spacing, support, rms=rms, rms_band=rms_band)
+    amplitude *= math.prod(shape)  # of the transform
+    waves = _waves(draw_keys(rng), amplitude, shape, amplitudes, nodal)
+    heights = np.asarray(scipy.fft.irfftn(waves, s=shape, overwrite_x=True))
     return np.pad(heights, [(0, 1)] * grid.ndim, mode="wrap") if nodal else heights
+
+
+def _waves(
+    keys: Keys, amplitude: Array, shape: tuple[int, ...], amplitudes: Amplitudes, nodal: bool
+) -> npt.NDArray[np.complex128]:
+    """Return the waves about the first point, row by row: its place is the origin (nodal) or half a cell from it."""
+    *rows, columns = wave_integers(shape)
+    ky = rows[0] if rows else np.zeros(1, dtype=np.int64)
+    along, *across = reversed(cell_centres(shape))
+    waves = np.empty((len(ky), len(columns)), np.complex128)
+    powers = amplitude.reshape(waves.shape)
+    step = max(1, BLOCK // len(columns))
+    for start in range(0, len(ky), step):
+        part = slice(start, start + step)
+        waves[part] = unit_waves(keys, ky[part], (0, len(columns)), amplitudes)
+        waves[part] *= powers[part]
+        if not nodal:
+            waves[part] *= along
+            for turn in across:
+                waves[part] *= turn[part]
+    return waves.reshape(amplitude.shape)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, require_generator
 
 __all__ = ["midpoint_line", "midpoint_surface"]
 
@@ -229,8 +229,7 @@ def _first(
         raise ValueError(
             f"hurst must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
         )
-    if not isinstance(rng, np.random.Generator):
-        raise ValueError(f"rng must be a numpy.random.Generator, for example default_rng(0), not {rng!r}")
+    require_generator(rng)
     if distribution not in ("uniform", "gaussian"):
         raise ValueError(f"distribution must be 'uniform' or 'gaussian', not {distribution!r}")
     if (displacement is None) == (rms is None):

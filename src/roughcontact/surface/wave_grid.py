@@ -13,11 +13,16 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.validation import pair, positive_scalar
+
 __all__ = [
     "PlanarSpectrum",
     "Spectrum",
     "Support",
+    "cell_centres",
     "multiplicity",
+    "wave_amplitudes",
+    "wave_integers",
     "wave_powers",
     "wave_vectors",
     "wavenumbers",
@@ -37,6 +42,22 @@ class PlanarSpectrum(Protocol):
 
 # A plain callable gives C(|q|): C2D [m^4] of a surface, the two-sided C1D [m^3] of a line.
 Spectrum: TypeAlias = Callable[[Array], Array] | PlanarSpectrum
+
+
+def wave_integers(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.int64], ...]:
+    """Return the integers k of the waves along each axis, ``(ky, kx)``: signed, and from zero up along the last."""
+    *others, last = shape
+    signed = [(np.arange(n) + n // 2) % n - n // 2 for n in others]
+    return (*signed, np.arange(last // 2 + 1))
+
+
+def cell_centres(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.complex128], ...]:
+    """Return what turns waves about the outer corner of the first cell into those about its centre, an open mesh.
+
+    Half a cell is ``exp(i pi k/n)`` along each axis. So a point keeps its height whatever the number of cells.
+    """
+    turns = [np.exp(1j * np.pi * k / n) for k, n in zip(wave_integers(shape), shape, strict=True)]
+    return tuple(np.meshgrid(*turns, indexing="ij", sparse=True))
 
 
 def wave_vectors(shape: tuple[int, ...], spacing: tuple[float, ...]) -> tuple[Array, ...]:
@@ -117,6 +138,72 @@ def wave_powers(
             "no wave of this grid lies inside the limits of the spectrum: widen them or the grid"
         )
     return powers
+
+
+def wave_amplitudes(
+    spectrum: Spectrum,
+    shape: tuple[int, ...],
+    spacing: tuple[float, ...],
+    support: Support = "square",
+    *,
+    rms: float | None = None,
+    rms_band: tuple[float, float] | None = None,
+) -> Array:
+    """Return B [m] of each wave, with `rms` scaled to that height.
+
+    Parameters
+    ----------
+    spectrum, shape, spacing, support
+        See `wave_powers`.
+    rms : float, optional
+        Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
+    rms_band : tuple of float, optional
+        ``(longest, shortest)``: wavelengths [m] of the waves whose rms height is `rms`, both limits included. By
+        default all waves of the grid.
+
+    Returns
+    -------
+    array
+        See `wave_powers`.
+
+    Raises
+    ------
+    ValueError
+        As `wave_powers`; or if `rms_band` comes without `rms`, holds no wave, or holds waves that are not on the grid.
+    """
+    powers = wave_powers(spectrum, shape, spacing, support)
+    if rms is None:
+        if rms_band is not None:
+            raise ValueError("rms_band says which waves have the rms height rms: give rms, too")
+        return np.sqrt(powers, out=powers)
+    counted = powers * multiplicity(shape)
+    if rms_band is not None:
+        counted *= _inside(rms_band, shape, spacing)
+    total = float(counted.sum())
+    if not total > 0:
+        raise ValueError(f"no wave of this grid and of the spectrum lies in rms_band {rms_band} m: widen it")
+    np.sqrt(powers, out=powers)
+    powers *= rms / math.sqrt(total)
+    return powers
+
+
+def _inside(
+    band: tuple[float, float], shape: tuple[int, ...], spacing: tuple[float, ...]
+) -> npt.NDArray[np.bool_]:
+    """Return which waves are in a band of wavelengths; the grid must have all of the band, or its rms is another."""
+    what = "rms_band, the longest and the shortest wavelength [m],"
+    longest, shortest = (positive_scalar(length, what) for length in pair(band, what))
+    if shortest > longest:
+        raise ValueError(f"{what} must begin with the longest, not {band}")
+    for n, d in zip(shape, spacing, strict=True):
+        finest = (n - 1) // 2
+        if n * d / shortest * (1 + 1e-9) >= finest + 1:
+            raise ValueError(
+                f"rms_band goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
+                f"{n * d / (finest + 1):g} m: end the band above two cells of the coarsest grid"
+            )
+    lengths = wavenumbers(shape, spacing)
+    return (lengths >= 2 * math.pi / longest * (1 - 1e-9)) & (lengths <= 2 * math.pi / shortest * (1 + 1e-9))
 
 
 def _density(spectrum: Spectrum, lengths: Array, vectors: tuple[Array, ...]) -> Array:

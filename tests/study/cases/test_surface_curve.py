@@ -132,3 +132,25 @@ def test_what_makes_no_sense_is_refused(wrong, says):
 def test_limits_that_leave_no_wave_are_refused():
     with pytest.raises(ValueError, match="no wave is left"):
         run(long_cutoff=0.1, short_cutoff=0.5)
+
+
+def test_more_points_refine_the_surface_of_a_band():
+    """Points of three times as many cells in the middle of the large ones: no wave is below two and a half of those."""
+    given = PLAIN | {"rms_band": [1.0, 0.1], "short_cutoff": 0.08}
+    coarse, fine = (
+        CurveParameters(**(given | {"points": points})).roughness(np.random.default_rng(0))
+        for points in (33, 99)
+    )
+    np.testing.assert_allclose(coarse.heights, fine.heights[1::3, 1::3], rtol=0, atol=1e-12 * coarse.rms)
+    grid = rc.Grid((33, 33), 2e-3 / 33)
+    direct = rc.self_affine(
+        grid, 0.7, 1e-6, np.random.default_rng(0), rms_band=(2e-3, 2e-4), short_cutoff=1.6e-4
+    )
+    np.testing.assert_array_equal(coarse.heights, direct.heights)
+    assert coarse.rms > 1e-6
+
+
+@pytest.mark.parametrize("band", [[1.0, 2 / 33], [0.1, 1.0], [1.0], [1.0, -0.5]])
+def test_a_band_beyond_the_grid_is_refused(band):
+    with pytest.raises(ValidationError, match="rms_band"):
+        CurveParameters(**(PLAIN | {"rms_band": band}))

@@ -60,7 +60,20 @@ def test_the_exponent_of_a_generated_surface_is_recovered(hurst, crop):
     # Independent waves: pi/4 of n^2/2, fewer under a window by (35/18)^2; ln q scatters by 1/2 over a disc.
     waves = math.pi / 8 * 512**2 / ((35 / 18) ** 2 if crop else 1)
     assert fit.standard_error == pytest.approx(0.5 / (0.5 * math.sqrt(waves)), rel=0.02)
-    assert 0.5 < fit.misfit < 2
+
+
+@pytest.mark.parametrize(("crop", "share"), [(False, 1.0), (True, 0.6)])
+def test_deviations_of_a_generated_surface_are_as_large_as_expected(crop, share):
+    """Near 1, under a window about 0.6: squares of bins of a twentieth decade, less the two parameters of the law.
+
+    A square of a normal number has the variance 2; four standard errors of the mean over eight surfaces.
+    """
+    fits = [hurst_exponent(gaussian(512, 0.5, seed, crop)) for seed in range(8)]
+    low, high = fits[0].band
+    bins = 20 * math.log10(high / low)
+    expected = share * (1 - 2 / bins)
+    error = share * math.sqrt(2 / (bins * len(fits)))
+    assert np.mean([fit.misfit for fit in fits]) == pytest.approx(expected, abs=4 * error)
 
 
 def honest(scores):

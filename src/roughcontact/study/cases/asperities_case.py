@@ -84,4 +84,4 @@ def summits_of(surface: Surface) -> Asperities:
     return Asperities(x * dx, y * dy, found.height, found.radius, 1.0)
 
 
-CASE = Case("asperities", 1, AsperityParameters, run)
+CASE = Case("asperities", 2, AsperityParameters, run)

@@ -54,4 +54,4 @@ def run(parameters: CellsParameters, rng: np.random.Generator) -> xarray.Dataset
     return record
 
 
-CASE = Case("cells", 1, CellsParameters, run)
+CASE = Case("cells", 2, CellsParameters, run)

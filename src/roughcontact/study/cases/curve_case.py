@@ -39,7 +39,7 @@ class CurveParameters(PressedSquare, ForceRange):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus, hardness, relative_hardness
         See `PressedSquare`.
@@ -106,4 +106,4 @@ def _full_contact_stiffness(points: int, periodic: bool) -> float:
     return contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0, tolerance=_LIMIT)
 
 
-CASE = Case("curve", 1, CurveParameters, run)
+CASE = Case("curve", 2, CurveParameters, run)

@@ -76,4 +76,4 @@ def run(parameters: LineParameters, rng: np.random.Generator) -> xarray.Dataset:
     )
 
 
-CASE = Case("lines", 1, LineParameters, run)
+CASE = Case("lines", 2, LineParameters, run)

@@ -49,4 +49,4 @@ class RefinedParameters(CurveParameters):
         return Surface(drawn.heights[::step, ::step], self.grid, drawn.provenance)
 
 
-CASE = Case("refined", 1, RefinedParameters, run)
+CASE = Case("refined", 2, RefinedParameters, run)

@@ -53,8 +53,8 @@ class ForceRange(Parameters):
 class RoughSquare(Parameters):
     """Parameters of a case on a square with self-affine roughness.
 
-    The waves' phases come from the generator of the sample: surfaces of one sample and one number of points are
-    alike for all other parameters.
+    The waves' phases come from the generator of the sample: surfaces of one sample are alike for all other parameters,
+    and for all numbers of points but for the waves that are too fine.
 
     Parameters
     ----------
@@ -66,6 +66,9 @@ class RoughSquare(Parameters):
         Hurst exponent H, from -1 to 3.
     rms : float
         Root mean square height h of the roughness [m].
+    rms_band : tuple of float, optional
+        The longest and the shortest of the waves whose rms height is `rms`, over the side. Without: all waves of the
+        grid. With it a larger number of points adds finer waves to the same surface.
     rolloff, long_cutoff, short_cutoff : float, optional
         Limits of the power law, as wavelengths over the side: waves longer than the roll-off have its amplitude, and
         those beyond the long or the short cut-off are absent. Without: all waves of the grid.
@@ -81,12 +84,24 @@ class RoughSquare(Parameters):
     size: Positive[Length]
     hurst: float = Field(ge=-1, le=3)
     rms: Positive[Length]
+    rms_band: tuple[Positive[float], Positive[float]] | None = None
     rolloff: float | None = Field(default=None, gt=0)
     long_cutoff: float | None = Field(default=None, gt=0)
     short_cutoff: float | None = Field(default=None, gt=0)
     amplitudes: Literal["exact", "gaussian"] = "exact"
     periodic: bool = False
     radius: Positive[Length] | None = None
+
+    @model_validator(mode="after")
+    def _band_on_grid(self) -> Self:
+        if self.rms_band is not None:
+            longest, shortest = self.rms_band
+            if not longest >= shortest > 2 / self.points:
+                raise ValueError(
+                    f"rms_band must go from its longest wave down to one above two cells, {2 / self.points:g} on "
+                    f"{self.points} points, not from {longest:g} to {shortest:g}"
+                )
+        return self
 
     @property
     def grid(self) -> Grid:
@@ -100,6 +115,7 @@ class RoughSquare(Parameters):
             self.hurst,
             self.rms,
             rng,
+            rms_band=self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size),
             rolloff=self._length(self.rolloff),
             long_cutoff=self._length(self.long_cutoff),
             short_cutoff=self._length(self.short_cutoff),

@@ -32,7 +32,7 @@ class SlipParameters(RoughSquare, ForceRange):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus : float
         Reduced modulus E* of both bodies together [Pa].
@@ -146,4 +146,4 @@ def _ended(pressed: Solution, pulled: SlipCurve) -> Status:
     return next((each for each in (pressed.status, *pulled.status) if not each.converged), pressed.status)
 
 
-CASE = Case("slip", 1, SlipParameters, run)
+CASE = Case("slip", 2, SlipParameters, run)

@@ -33,7 +33,7 @@ class YieldingParameters(PressedSquare):
 
     Parameters
     ----------
-    points, size, hurst, rms, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
         See `RoughSquare`.
     modulus, hardness, relative_hardness
         See `PressedSquare`.
@@ -110,4 +110,4 @@ def _yielded(solution: Solution) -> float:
     return 0.0 if math.isinf(ceiling) or not cells else float((solution.pressure >= ceiling).sum() / cells)
 
 
-CASE = Case("yielding", 1, YieldingParameters, run)
+CASE = Case("yielding", 2, YieldingParameters, run)
