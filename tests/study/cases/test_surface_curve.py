@@ -152,5 +152,5 @@ def test_more_points_refine_the_surface_of_a_band():
 
 @pytest.mark.parametrize("band", [[1.0, 2 / 33], [0.1, 1.0], [1.0], [1.0, -0.5]])
 def test_a_band_beyond_the_grid_is_refused(band):
-    with pytest.raises(ValidationError, match="rms_band"):
+    with pytest.raises(StudyError, match="rms_band"):
         CurveParameters(**(PLAIN | {"rms_band": band}))
