@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.load_range import FORCES_BELOW, STEPS_PER_DECADE, SurfaceKind
+from roughcontact.contact.load_range import FORCES_BELOW
+from roughcontact.contact.load_search import STEPS_PER_DECADE, SurfaceKind
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.kernels import loader
 
@@ -46,7 +47,8 @@ def test_kinds():
     assert SurfaceKind.of(bent(flat, 0.3)) is SurfaceKind.FLAT
     assert SurfaceKind.of(tilted) is SurfaceKind.FLAT  # a plane is no form
     assert SurfaceKind.of(ridges) is SurfaceKind.FLAT
-    assert SurfaceKind.of(rc.RadialProfile(rc.RadialGrid.uniform(9, 1.0), np.zeros(9))) is SurfaceKind.FORM
+    rings = rc.RadialGrid.uniform(9, 1.0)
+    assert SurfaceKind.of(rc.RadialProfile(-(rings.radii**2), rings)) is SurfaceKind.FORM
 
 
 @pytest.mark.parametrize(
