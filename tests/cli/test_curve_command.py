@@ -31,8 +31,8 @@ def test_the_power_law_is_that_of_the_curve(invoke, tmp_path):
         "surface", "make", path, "--hurst", "0.8", "--rms", "0.1um", "--size", "0.1mm", "--points", "256"
     )
     assert made.exit_code == 0
-    words = ("curve", path, "--forces", "45mN:75mN:9", "--level", "none", *MODULUS)
-    law = rc.loading_curve(rc.read(path), 110e9, forces=np.geomspace(0.045, 0.075, 9)).fit()
+    words = ("curve", path, "--forces", "20mN:220mN:9", "--level", "none", *MODULUS)
+    law = rc.loading_curve(rc.read(path), 110e9, forces=np.geomspace(0.02, 0.22, 9)).fit()
     answer = invoke(*words, "--json")
     fit = json.loads(answer.stdout)["fit"]
     assert fit == {
@@ -77,12 +77,13 @@ def test_loads_can_be_pressures_or_depths(invoke, rough, surface):
 def test_without_loads_it_takes_those_of_the_library_and_says_so(invoke, rough, surface):
     answer = invoke("curve", rough, *MODULUS, "--level", "none", "--json")
     assert answer.exit_code == 0
-    scale = 110e9 * surface.rms * np.sqrt(surface.grid.area)
-    force = json.loads(answer.stdout)["force"]
-    np.testing.assert_allclose(force, np.geomspace(1e-4 * scale, 0.07 * scale, 30), rtol=1e-9)
-    ends = [quantity("force", end * scale) for end in (1e-4, 0.07)]
-    assert f"no loads are named: 30 forces from {ends[0]} to {ends[1]}" in answer.stderr
-    assert "0.07 of E* h L" in invoke("curve", "--help").stdout
+    force, found = json.loads(answer.stdout)["force"], rc.load_range(surface, 110e9)
+    np.testing.assert_allclose(force, found.forces, rtol=1e-9)
+    ends = [quantity("force", end) for end in found.forces[[0, -1]]]
+    says = f"the map is {found.kind.value}; no loads are named: 24 forces from {ends[0]} to {ends[1]}"
+    assert says in answer.stderr
+    assert all(note in answer.stderr for note in found.notes)
+    assert "24 forces that suit the surface" in " ".join(invoke("curve", "--help").stdout.split())
 
 
 def test_a_flat_surface_needs_its_loads_named(invoke, tmp_path):

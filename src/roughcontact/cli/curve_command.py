@@ -48,7 +48,7 @@ class Loads:
     PANEL: ClassVar = "Loads (at most one of them)"
     forces: str | None = option(
         "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
-        "(default, if no loads are named: 30 forces from 1e-4 to 0.07 of E* h L).",
+        "(default, if no loads are named: 24 forces that suit the surface, found by a search).",
         "1N:100N:30",
     )
     pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
@@ -84,7 +84,7 @@ def curve(
             surface = reading.surface()
             laws, taken = theories.laws(surface, modulus)
             if loads is None:
-                loads = _suggested(surface, modulus)
+                loads = _suggested(surface, modulus, hardness)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness}
             computed, notes = _load(surface, modulus, path, loads.size)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors)
@@ -97,15 +97,20 @@ def curve(
             raise typer.Exit(MISSED)
 
 
-def _suggested(surface: Surface, modulus: float) -> npt.NDArray[np.float64]:
+def _suggested(surface: Surface, modulus: float, hardness: float | None) -> npt.NDArray[np.float64]:
     """Return the forces [N] that suit a surface, and say which they are."""
-    from roughcontact.contact.loading import suggested_forces
+    from roughcontact.contact.load_range import load_range
 
-    loads = suggested_forces(surface, modulus)
+    with screen().status("Looking for the loads that suit this surface"):
+        found = load_range(surface, modulus, hardness=hardness)
+    loads, end = found.forces, found.reasons[1]
     low, high = (quantity("force", float(load)) for load in (loads[0], loads[-1]))
     note(
-        f"no loads are named: {loads.size} forces from {low} to {high}, 1e-4 to 0.07 of E* h L (--forces for others)"
+        f"the map is {found.kind.value}; no loads are named: {loads.size} forces from {low} to {high}, to {end}, "
+        f"{found.below} of them below what the grid resolves (--forces for others)"
     )
+    for line in found.notes:
+        note(line)
     return loads
 
 

@@ -21,7 +21,7 @@ from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import number
+from roughcontact.validation import Mask, number
 
 if TYPE_CHECKING:
     import xarray
@@ -30,8 +30,11 @@ __all__ = ["Curve", "collect"]
 
 Array = npt.NDArray[np.float64]
 
-SUGGESTED = (1e-4, 0.07)  # dimensionless forces from the first cells to the end of the power law
-SUGGESTED_ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
+
+DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
+REMEDY = (
+    "take the forces that load_range finds for the surface, a finer grid, or a window of forces of your own"
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -141,8 +144,8 @@ class Curve:
         Parameters
         ----------
         window : tuple of float, optional
-            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07,
-            on a line all resolved points.
+            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07 or, where
+            these span less than a decade and on lines, all resolved points.
 
         Returns
         -------
@@ -152,12 +155,11 @@ class Curve:
         Raises
         ------
         ValueError
-            If the window is not a force and a larger one, or fewer than three points lie in it; the message names
-            forces that have more.
+            If the window is not a force and a larger one, fewer than three points lie in it, or the resolved points
+            span less than a decade of force.
         """
         if window is None:
-            limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * (1 + ROUNDING)
-            inside = self.resolved & (self.dimensionless_force <= limit)
+            inside = self._range_of_fit()
         else:
             ends = np.asarray(number(window, "window [N]"))
             if ends.shape != (2,) or not 0 <= ends[0] < ends[1]:
@@ -168,7 +170,12 @@ class Curve:
         if inside.sum() < 3:
             raise ValueError(
                 "a power law needs at least 3 resolved points in the range of forces that is fitted, not "
-                f"{int(inside.sum())}: {self._remedy()}"
+                f"{int(inside.sum())}: {REMEDY}"
+            )
+        span = self.force[inside].max() / self.force[inside].min()
+        if window is None and span < DECADE:
+            raise ValueError(
+                f"a power law needs a decade of force, and the resolved points span a factor of {span:.2g}: {REMEDY}"
             )
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
@@ -216,19 +223,13 @@ class Curve:
             {name: theory.predict(name, self.force) for name in names},
         )
 
-    def _remedy(self) -> str:
-        """Say what would give more resolved points."""
-        suggested = SUGGESTED_ON_LINES if self.geometry is Geometry.LINE else SUGGESTED
-        low, high = (part * self.force_scale for part in suggested)
-        unit = unit_of("force", self.geometry)
-        if self.force.min() > low * (1 + ROUNDING) or self.force.max() < high * (1 - ROUNDING):
-            return (
-                f"try forces from {low:.3g} {unit} to {high:.3g} {unit}, a finer grid, or a window of forces"
-            )
-        return (
-            f"between {low:.3g} {unit} and {high:.3g} {unit} this grid resolves no more; take a finer one, more forces "
-            "in between, or larger ones and a window of your own"
-        )
+    def _range_of_fit(self) -> Mask:
+        """Return the points that are fitted by default: the resolved ones, up to 0.07 if these span a decade."""
+        light = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
+        if self.geometry is Geometry.LINE or not light.any():
+            return self.resolved
+        span = self.force[light].max() / self.force[light].min()
+        return light if span >= DECADE else self.resolved
 
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""

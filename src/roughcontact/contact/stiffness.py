@@ -145,7 +145,7 @@ def full_contact_stiffness(problem: ContactProblem) -> float:
 
     To a thousandth in the displacement: enough for a limit.
     """
-    measured = namespace(problem.separation).isfinite(problem.separation)
     return problem.once(
-        "full_contact_stiffness", lambda: frozen_contact(problem.operator, measured, tolerance=1e-3).stiffness
+        "full_contact_stiffness",
+        lambda: frozen_contact(problem.operator, problem.measured, tolerance=1e-3).stiffness,
     )

@@ -16,7 +16,7 @@ from roughcontact.solver.control import Control, Depth, Solver, Terms
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 
-__all__ = ["block_minimum", "block_separation", "coarse_operator", "nested_start"]
+__all__ = ["block_minimum", "block_separation", "coarse_operator", "coarse_operator_on", "nested_start"]
 
 Array = npt.NDArray[np.float64]
 
@@ -66,9 +66,19 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
     factors = tuple(
         most if n >= most * tuning.COARSEST else 2 if n > tuning.COARSEST // 2 else 1 for n in shape
     )
-    coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
-    coarse = capabilities(operator).coarsened(_coarse_grid(grid, coarse_shape, factors))
+    coarse = coarse_operator_on(operator, shape, factors)
     return None if coarse is None else (coarse, factors)
+
+
+def coarse_operator_on(
+    operator: Operator, shape: tuple[int, ...], factors: tuple[int, ...]
+) -> Operator | None:
+    """Return the operator on blocks of so many cells along each axis; None where it has none."""
+    grid = operator.grid
+    if not isinstance(grid, Grid):
+        return None
+    coarse_shape = tuple(-(-n // f) for n, f in zip(shape, factors, strict=True))
+    return capabilities(operator).coarsened(_coarse_grid(grid, coarse_shape, factors))
 
 
 def _reachable(depth: Depth, fine: Array, coarse: Array, xp: Any) -> Depth:

@@ -1,0 +1,80 @@
+"""Continuation in load: each load is solved from what the tangent of the one before predicts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from roughcontact.contact.press import lock, solve_state
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
+from roughcontact.solver.control import Control, Force, Solver, Tangent
+from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
+from roughcontact.validation import Array
+
+__all__ = ["follow"]
+
+
+def follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
+    """Yield the solution of the same bodies under one control after the other.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+    controls : list of Force or Depth
+        Rising.
+    solver : Solver
+    """
+    subdomains = SubdomainSolver(problem.operator)
+    guess: tuple[Array, float] | None = None
+    last: Tangent | None = None
+    for control, following in zip(controls, [*controls[1:], None], strict=True):
+        here = problem.under(control)
+        state, subdomain = solve_state(here, solver, guess, subdomains)
+        shape = problem.grid.shape
+        frozen = frozen_contact(
+            subdomains.operator_on(subdomain),
+            elastic_contact(state.pressure, problem.hardness),
+            tangent=state.tangent or (last and Tangent(restrict(last.pressure, subdomain), math.inf)),
+        )
+        pressure = prolong(state.pressure, subdomain, shape)
+        lock(pressure)
+        solution = Solution(
+            here,
+            pressure,
+            state.depth,
+            state.status,
+            state.residual,
+            state.steps,
+            FrozenContact(frozen.stiffness, frozen.residual, prolong(frozen.tangent, subdomain, shape)),
+        )
+        # That of another region: where to start. That of a whole period is infinite.
+        last = Tangent(solution.frozen.tangent, math.inf) if solution.stiffness < math.inf else None
+        yield solution
+        if following is not None:
+            advance = _advance(solution, following)
+            if advance is None:
+                guess = None
+            elif not advance:
+                guess = pressure, state.depth
+            else:  # on the window alone: the plane is large
+                moved = state.pressure + advance * frozen.tangent
+                guess = prolong(moved, subdomain, shape), state.depth + advance
+
+
+def _advance(solution: Solution, following: Control) -> float | None:
+    """Return by how much the depth grows to the next load if the contact region stays as it is [m]; None without one.
+
+    The force is convex in the depth, so this overestimates the depth at a given force: the window found
+    from it is safe.
+    """
+    k = solution.stiffness
+    if k == 0:  # no contact yet
+        return None
+    if not np.isfinite(k):  # full contact of a periodic surface: only the mean pressure grows
+        return 0.0
+    forced = isinstance(following, Force)
+    return (following.value - solution.force) / k if forced else following.value - solution.depth

@@ -1,0 +1,268 @@
+"""Which loads suit a surface: between which forces the grid resolves it, and why the range ends there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from roughcontact.arrays import on_host
+from roughcontact.contact.curve import DECADE, length_scale
+from roughcontact.contact.load_search import SPOT_CELLS, LoadSearch, SurfaceKind, find_range
+from roughcontact.contact.press import grid_of, make_problem
+from roughcontact.contact.problem import Body
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.variables import unit_of
+from roughcontact.material import Solid, as_modulus
+from roughcontact.solver.control import Force
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, numeric, whole
+
+__all__ = ["LoadRange", "load_range", "suggested_forces"]
+
+FORCES = 24
+FORCES_BELOW = 4  # of these below the range, within a decade
+DIGITS = 3  # of the forces: fewer than those in which machines agree on the stiffness by far
+LEAST_RESOLVED = 10  # loads
+ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadRange:
+    """The loads that suit a surface, and why.
+
+    Attributes
+    ----------
+    kind : SurfaceKind
+    one_feature : bool
+        Whether the largest spot carries more than half where the contact is as stiff as twenty cells.
+    forces : array, shape (n,)
+        Forces for a curve [N], increasing; half of those in the range are even in ln k, half in ln A.
+    lowest, highest : float
+        The range that the grid resolves [N]; on a line what is suggested [N/m]. Not above each other where there is
+        none.
+    reasons : tuple of str
+        What sets its two ends.
+    notes : tuple of str
+        What a reader should know, in sentences: with the remedy where the range is short.
+    """
+
+    kind: SurfaceKind
+    one_feature: bool
+    forces: Array
+    lowest: float
+    highest: float
+    reasons: tuple[str, str]
+    notes: tuple[str, ...]
+
+    @property
+    def below(self) -> int:
+        """How many forces lie below the range."""
+        return int(np.count_nonzero(self.forces < self.lowest * (1 - 10.0 ** (1 - DIGITS))))
+
+
+@numeric
+def suggested_forces(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    count: int = FORCES,
+    operator: Operator | None = None,
+    hardness: float | None = None,
+) -> Array:
+    """Return forces over the range in which a rough surface is worth a curve.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    count : int
+        Number of forces.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid; it says whether the contact is that of a line.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+
+    Returns
+    -------
+    array, shape (n,)
+        Forces [N], on a line per unit length [N/m], increasing; see `load_range`.
+
+    Raises
+    ------
+    ValueError
+        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> forces = rc.suggested_forces(surface, 1e9)
+    >>> len(forces), bool((np.diff(forces) > 0).all())
+    (24, True)
+    """
+    return load_range(surface, modulus, count=count, operator=operator, hardness=hardness).forces
+
+
+@numeric
+def load_range(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    count: int = FORCES,
+    operator: Operator | None = None,
+    hardness: float | None = None,
+) -> LoadRange:
+    """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
+
+    From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force, has
+    sixteen cells. It ends with the first of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps
+    half of the area in contact; on maps with form contact at the border, beyond which the body goes on; a mean pressure
+    in contact of 0.9 of the hardness or, without one, of half the reduced modulus. On a line contact it is 0.03 to 3 of
+    E* h.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    count : int
+        Number of forces.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid.
+    hardness : float, optional
+        Pressure that no cell exceeds [Pa].
+
+    Returns
+    -------
+    LoadRange
+        Forces rounded to three digits, equal on all machines.
+
+    Raises
+    ------
+    ValueError
+        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), rolloff=16e-6)
+    >>> loads = rc.load_range(surface, 1e9)
+    >>> loads.kind.value, loads.below
+    ('periodic', 4)
+    """
+    whole(count, "count, the number of forces,")
+    grid = grid_of(surface)
+    if not surface.rms > 0:
+        raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
+    geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
+    length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
+    scale = as_modulus(modulus) * surface.rms * length
+    kind = SurfaceKind.of(surface)
+    if geometry is Geometry.LINE:
+        low, high = (part * scale for part in ON_LINES)
+        return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ("of E* h", "of E* h"), ())
+    problem = make_problem(surface, modulus, Force(scale), operator, tolerance=1e-8, hardness=hardness)
+    search = find_range(problem, kind, scale)
+    return _loads(search, count, surface)
+
+
+def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
+    """Return the forces: some below the range, and half of the others even in ln k, half in ln A."""
+    low, high = search.lowest, search.highest
+    reasons = (
+        f"{CELLS} cells and spots of {SPOT_CELLS} cells",
+        search.reason or "the largest force of the search",
+    )
+    if low < high:
+        below = min(FORCES_BELOW, count // 6)
+        half = (count - below) // 2
+        ends = np.linspace(0, 1, count - below - half)
+        between = (np.arange(half) + 0.5) / max(1, half)
+        forces = np.concatenate(
+            [
+                np.geomspace(low / 10, low, below, endpoint=False),
+                _even(search, "stiffness", low, high, ends),
+                _even(search, "area", low, high, between),
+            ]
+        )
+    else:
+        forces = np.geomspace(high / 100, high, count)
+    forces = _distinct(forces, count)
+    notes = tuple(_notes(search, forces, surface))
+    return LoadRange(search.kind, search.one_feature, forces, low, high, reasons, notes)
+
+
+def _even(
+    search: LoadSearch, name: Literal["stiffness", "area"], low: float, high: float, parts: Array
+) -> Array:
+    """Return the forces of a range at which the logarithm of a quantity is at some parts of its way."""
+    force, rising = np.log(search.column("force")), np.log(np.maximum.accumulate(search.column(name)))
+    ends = np.interp(np.log([low, high]), force, rising)
+    return np.asarray(np.exp(np.interp(ends[0] + parts * (ends[1] - ends[0]), rising, force)))
+
+
+def _distinct(forces: Array, count: int) -> Array:
+    """Return forces of few digits, increasing, as many as are wanted: the widest gaps are halved."""
+
+    def rounded(values: Array) -> Array:
+        return np.unique(np.array([float(f"{value:.{DIGITS - 1}e}") for value in values]))
+
+    forces = rounded(forces)
+    while len(forces) < count:
+        widest = int(np.argmax(np.diff(np.log(forces))))
+        more = rounded(np.append(forces, math.sqrt(forces[widest] * forces[widest + 1])))
+        if len(more) == len(forces):
+            break
+        forces = more
+    return forces
+
+
+def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
+    """Yield what a reader should know of the range."""
+    low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
+    if search.one_feature:
+        until = (
+            "over the whole range" if search.released is None else f"up to {search.released:.3g} {force_unit}"
+        )
+        yield (
+            f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
+            "not belong to the surface, crop it away or remove the form of the map."
+        )
+    resolved = int(np.count_nonzero((forces >= low) & (forces <= high)))
+    if low < high and resolved >= LEAST_RESOLVED and high >= DECADE * low:
+        return
+    few = CELLS * cell_stiffness(search.problem.operator)
+    if few >= FULL_CONTACT_SHARE * full_contact_stiffness(search.problem):
+        yield f"No load is resolved: the map has too few cells, {surface.grid.shape}; take a finer one."
+    elif not low < high and "reduced modulus" in search.reason and isinstance(surface, Surface):
+        yield (
+            f"No load is resolved: with an rms slope of {_slope(surface):.2g} the surface is so steep that elasticity "
+            "ends at first touch; give a hardness, or filter the short waves if they are noise."
+        )
+    elif not low < high:
+        yield "No load is resolved: take a finer map, or crop to the part in contact and remove outliers."
+    else:
+        yield (
+            f"The grid resolves forces over a factor of {high / low:.2g} only, less than a power law takes "
+            "(a decade): take a finer map, or crop to the part in contact and remove outliers."
+        )
+
+
+def _slope(surface: Surface) -> float:
+    """Return the rms slope of the measured cells."""
+    slopes = np.gradient(on_host(surface.heights), *surface.grid.spacing)
+    return math.sqrt(sum(float(np.nanmean(slope**2)) for slope in slopes))

@@ -1,0 +1,196 @@
+"""The search for the range of loads that a grid resolves.
+
+A pilot on at most 128 x 128 blocks of cells, each as high as its highest cell, finds roughly where it begins; a path of
+few loads on the full grid then goes through it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import Literal
+
+import numpy as np
+
+from roughcontact.arrays import is_numpy, on_host
+from roughcontact.contact.continuation import follow
+from roughcontact.contact.problem import Body, ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.solver.active_set import ActiveSet
+from roughcontact.solver.control import Control, Force
+from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.surface.polynomial import polynomial_trend
+from roughcontact.validation import Array
+
+__all__ = ["ON_ONE_FEATURE", "SPOT_CELLS", "STEPS_PER_DECADE", "LoadSearch", "SurfaceKind", "find_range"]
+
+SPOT_CELLS = 16  # cells of the mean spot, weighted by force: twenty lone cells resolve nothing
+AREA_SHARE = 0.5  # of the nominal area in contact: beyond, the interfaces of flat maps are nearly closed
+STRAINED = 0.5  # of the reduced modulus: mean pressure in contact beyond which small strains are none
+PLASTIC = 0.9  # of the hardness: mean pressure in contact at which nearly all of it is plastic
+ON_ONE_FEATURE = 0.5  # of the force on the largest spot where the contact is as stiff as twenty cells
+PILOT_CELLS = 128  # to a side of the pilot
+STEPS_PER_DECADE = 4  # of force, in the search
+SEARCHED = (1e-7, 1e4)  # of E* h L: forces that the search goes through
+
+
+class SurfaceKind(Enum):
+    """What a map is to a contact."""
+
+    PERIODIC = "periodic"
+    FLAT = "nominally flat"
+    FORM = "with form"
+    PROFILE = "profile"
+
+    @classmethod
+    def of(cls, surface: Body) -> SurfaceKind:
+        """Return the kind of a surface.
+
+        Nominally flat: the least-squares quadratic form, beyond its plane, has a smaller rms height than what is left
+        without both. A radial profile, and one axis of a map that is periodic along the other, are with form.
+        """
+        grid = surface.grid
+        if all(grid.periodic):
+            return cls.PERIODIC
+        if not isinstance(grid, Grid):
+            return cls.FORM
+        if grid.ndim == 1:
+            return cls.PROFILE
+        heights = on_host(surface.heights)
+        plane, form = (polynomial_trend(heights, degree) for degree in (1, 2))
+        return cls.FLAT if np.std(form - plane) < np.nanstd(heights - form) else cls.FORM
+
+
+@dataclass(frozen=True, slots=True)
+class SearchedLoad:
+    """What one load of the search says: the part of the force on the largest spot, and whether it is resolved."""
+
+    force: float
+    stiffness: float
+    area: float
+    share: float
+    stiff: bool  # as twenty cells
+    resolved: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadSearch:
+    """What a few rising loads say; the last is the first beyond the range, whose end is `reason`."""
+
+    problem: ContactProblem
+    kind: SurfaceKind
+    loads: tuple[SearchedLoad, ...]
+    reason: str
+
+    @property
+    def lowest(self) -> float:
+        """The least force that is resolved; without any the last."""
+        return next((load.force for load in self.loads if load.resolved), self.loads[-1].force)
+
+    @property
+    def highest(self) -> float:
+        """The last force of the range, before that of its end."""
+        return self.loads[-2 if self.reason and len(self.loads) > 1 else -1].force
+
+    @property
+    def one_feature(self) -> bool:
+        """Whether the largest spot carries more than half where the contact is as stiff as twenty cells."""
+        return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff), False)
+
+    @property
+    def released(self) -> float | None:
+        """From where the largest spot carries less than half [N], if it does so in the range."""
+        light = (load.force for load in self.loads if load.stiff and load.share < ON_ONE_FEATURE)
+        return next(light, None)
+
+    def column(self, name: Literal["force", "stiffness", "area"]) -> Array:
+        """Return one quantity of all loads."""
+        return np.array([getattr(load, name) for load in self.loads])
+
+
+def climb(
+    problem: ContactProblem, kind: SurfaceKind, start: float, most: float, above: LoadSearch | None = None
+) -> LoadSearch:
+    """Press by ever larger forces until the range ends, or the loads of an earlier search follow."""
+    steps = round(STEPS_PER_DECADE * math.log10(most / start)) + (above is None)
+    controls: list[Control] = [Force(start * 10 ** (k / STEPS_PER_DECADE)) for k in range(steps)]
+    few, full = CELLS * cell_stiffness(problem.operator), full_contact_stiffness(problem)
+    loads: list[SearchedLoad] = []
+    for solution in follow(problem, controls, ActiveSet()):
+        share, cells = _largest_spot(solution)
+        stiff = solution.stiffness >= few
+        resolved = stiff and (cells >= SPOT_CELLS or problem.geometry is not Geometry.SURFACE)
+        area = solution.contact_area
+        loads.append(SearchedLoad(solution.force, solution.stiffness, area, share, stiff, resolved))
+        shares = [load.share for load in loads if load.stiff]
+        on_one_feature = bool(shares) and min(shares) > ON_ONE_FEATURE
+        reason = _end(solution, kind, full, on_one_feature=on_one_feature)
+        if reason:
+            return LoadSearch(problem, kind, tuple(loads), reason)
+    return LoadSearch(problem, kind, (*loads, *(above.loads if above else ())), above.reason if above else "")
+
+
+def _largest_spot(solution: Solution) -> tuple[float, float]:
+    """Return the part of the force on the largest spot, and the cells of the mean one, weighted by force."""
+    if not solution.problem.measure.on_host:
+        return 0.0, math.inf
+    spots = solution.spots
+    cells = float(spots.loads @ spots.areas) / (
+        solution.force * float(np.ravel(solution.problem.operator.weights)[0])
+    )
+    return float(spots.loads.max()) / solution.force, cells
+
+
+def _end(solution: Solution, kind: SurfaceKind, full: float, *, on_one_feature: bool) -> str:
+    """Return what ends the range at this load; nothing if it goes on."""
+    problem = solution.problem
+    if solution.stiffness >= FULL_CONTACT_SHARE * full:
+        return f"{FULL_CONTACT_SHARE:g} of the full-contact stiffness"
+    if kind in (SurfaceKind.PERIODIC, SurfaceKind.FLAT) and solution.contact_fraction >= AREA_SHARE:
+        return "half of the area in contact"
+    if kind is SurfaceKind.FORM and solution.touches_edge:
+        return "contact at the border of the map"
+    pressure = solution.force / solution.contact_area
+    if problem.hardness < math.inf:
+        return "" if pressure < PLASTIC * problem.hardness else "a mean pressure in contact near the hardness"
+    strained = pressure > STRAINED * problem.modulus and problem.geometry is not Geometry.FOUNDATION
+    return "a mean pressure in contact of half the reduced modulus" if strained and not on_one_feature else ""
+
+
+def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> LoadSearch:
+    """Return rising loads that go beyond both ends of the range, as far as forces of about a scale [N] do."""
+    start, most = (part * scale for part in SEARCHED)
+    pilot = _pilot(problem)
+    if pilot is not None:  # from a tenth of the force at which so rough a map is as stiff as twenty cells
+        few, rough = CELLS * cell_stiffness(problem.operator), climb(pilot, kind, start, most)
+        stiff = (load.force for load in rough.loads if load.stiffness >= few)
+        start = max(start, next(stiff, rough.highest) / 10)
+    search = climb(problem, kind, start, most)
+    while search.loads[0].resolved and start > SEARCHED[0] * scale:  # the pilot began too late
+        search, start = climb(problem, kind, start / 10, start, search), start / 10
+    return search
+
+
+def _pilot(problem: ContactProblem) -> ContactProblem | None:
+    """Return the problem on larger cells, as high as the highest of each block; None where the map is small."""
+    shape = problem.separation.shape
+    factors = tuple(-(-n // PILOT_CELLS) for n in shape)
+    if max(factors) == 1 or not is_numpy(problem.separation):
+        return None
+    coarse = coarse_operator_on(problem.operator, shape, factors)
+    if coarse is None:
+        return None
+    blocks = block_minimum(problem.separation, factors)
+    return ContactProblem(
+        blocks,
+        coarse,
+        problem.control,
+        problem.tolerance,
+        modulus=problem.modulus,
+        hardness=problem.hardness,
+    )

@@ -1,0 +1,191 @@
+"""The loads that a curve takes by default: they suit the surface, and say why."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.load_range import FORCES_BELOW
+from roughcontact.contact.load_search import STEPS_PER_DECADE, SurfaceKind
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.kernels import loader
+
+STEP = 10 ** (1 / STEPS_PER_DECADE)
+
+
+def rough(n=128, *, periodic=False, seed=1, rms=1e-7, **named):
+    grid = rc.Grid((n, n), 1e-6, periodic=periodic)
+    return rc.self_affine(grid, hurst=0.8, rms=rms, rng=np.random.default_rng(seed), **named)
+
+
+def bent(surface, times):
+    """Return a surface on a ball whose form is so many times its rms height."""
+    x, y = (c - c.mean() for c in surface.grid.coordinates)
+    form = -(x[:, None] ** 2 + y**2)
+    heights = surface.heights + times * surface.rms * form / form.std()
+    return rc.Surface(heights, surface.grid)
+
+
+def mean_spot(solution):
+    """Return the cells of the mean spot, weighted by force."""
+    return solution.spots.loads @ solution.spots.areas / solution.force / solution.problem.grid.cell_area
+
+
+def test_kinds():
+    flat = rough(64, rolloff=16e-6)  # without long waves, which may look like a form
+    tilted = rc.Surface(flat.heights + 1e-6 * np.arange(64), flat.grid)
+    ridges = rc.Surface(flat.heights[:1].copy(), rc.Grid((1, 64), 1e-6))
+    kinds = {
+        "periodic": rough(64, periodic=True),
+        "nominally flat": flat,
+        "with form": bent(flat, 3.0),
+        "profile": rc.Surface(flat.heights[0], rc.Grid(64, 1e-6)),
+    }
+    for name, surface in kinds.items():
+        assert SurfaceKind.of(surface).value == name
+    assert SurfaceKind.of(bent(flat, 0.3)) is SurfaceKind.FLAT
+    assert SurfaceKind.of(tilted) is SurfaceKind.FLAT  # a plane is no form
+    assert SurfaceKind.of(ridges) is SurfaceKind.FLAT
+    rings = rc.RadialGrid.uniform(9, 1.0)
+    assert SurfaceKind.of(rc.RadialProfile(-(rings.radii**2), rings)) is SurfaceKind.FORM
+
+
+@pytest.mark.parametrize(
+    ("surface", "reason"),
+    [
+        (rough(), "full-contact"),
+        (rough(periodic=True, rolloff=16e-6), "half of the area"),
+        (bent(rough(), 10.0), "border"),
+        (rough(rms=2e-5), "reduced modulus"),
+    ],
+    ids=["fractal", "periodic", "form", "steep"],
+)
+def test_each_end_is_where_it_is_said_to_be(surface, reason):
+    found = rc.load_range(surface, 1e9)
+    assert reason in found.reasons[1]
+    first, before, last, beyond = (
+        rc.press(surface, 1e9, force=force)
+        for force in (found.lowest, found.lowest / STEP, found.highest, found.highest * STEP)
+    )
+    few = 20 * cell_stiffness(first.problem.operator)
+    full = full_contact_stiffness(first.problem)
+
+    def resolved(solution):
+        return solution.stiffness >= few and mean_spot(solution) >= 16
+
+    def ended(solution):
+        return {
+            "full-contact": solution.stiffness >= 0.9 * full,
+            "half of the area": solution.contact_fraction >= 0.5,
+            "border": solution.touches_edge,
+            "reduced modulus": solution.force / solution.contact_area > 0.5e9,
+        }[reason]
+
+    # The search goes up to the first load at which a range ends: one where nothing is resolved has no begin.
+    if found.lowest < found.highest:
+        assert resolved(first)
+        assert not resolved(before)
+    assert ended(beyond)
+    assert not ended(last)
+
+
+def test_half_of_the_loads_are_even_in_stiffness_and_half_in_area():
+    surface = rough(256)
+    found = rc.load_range(surface, 1e9)
+    assert len(found.forces) == 24
+    assert found.below == FORCES_BELOW <= 6
+    assert (np.diff(found.forces) > 0).all()
+    assert found.forces[found.below] == pytest.approx(found.lowest, rel=5e-3)  # three digits
+    assert found.forces[-1] == pytest.approx(found.highest, rel=5e-3)
+    curve = rc.loading_curve(surface, 1e9)
+    np.testing.assert_allclose(curve.force, found.forces, rtol=1e-12)  # sums over some thousand cells
+    inside = curve.force >= found.lowest * (1 - 5e-3)
+    assert curve.resolved[inside].sum() >= 10
+    assert curve.force[inside].max() > 10 * curve.force[inside].min()
+    # Twenty loads cut both ways into twenty parts: none is wider than twice that, nor four times where the curve of the
+    # search, known at four loads a decade, is bent.
+    for quantity in (curve.stiffness, curve.contact_area):
+        steps = np.diff(np.log(quantity[inside]))
+        assert steps.max() < 4 * steps.sum() / 10
+    assert curve.fit().count >= 3
+
+
+def test_loads_follow_the_scales():
+    surface = rough(64)
+    found = rc.load_range(surface, 1e9)
+    higher = rc.load_range(rc.Surface(2 * surface.heights, surface.grid), 4e9)
+    assert higher.lowest / found.lowest == pytest.approx(8, rel=1e-6)
+    np.testing.assert_allclose(higher.forces / found.forces, 8, rtol=1.1e-2)  # both to three digits
+
+
+def test_machine_code_changes_no_load(monkeypatch):
+    surface = rough(96)
+    found = rc.load_range(surface, 1e9)
+    monkeypatch.setattr(loader, "is_available", lambda: False)
+    np.testing.assert_array_equal(rc.load_range(surface, 1e9).forces, found.forces)
+
+
+def test_hardness_ends_the_range():
+    surface = rough(64, rms=2e-6)
+    found = rc.load_range(surface, 1e9, hardness=1e8)
+    assert "hardness" in found.reasons[1]
+    heavy = rc.press(surface, 1e9, force=found.highest, hardness=1e8)
+    assert heavy.force / heavy.contact_area < 0.9e8
+    assert found.highest < rc.load_range(surface, 1e9).highest
+
+
+def test_a_map_on_one_feature_goes_on_until_others_carry():
+    surface = rough(128, rms=1e-8, rolloff=32e-6)
+    x, y = surface.grid.coordinates
+    particle = 3e-7 * np.exp(-(((x[:, None] - 40e-6) ** 2 + (y - 70e-6) ** 2) / (2 * 6e-6**2)))
+    dirty = rc.Surface(surface.heights + particle, surface.grid)
+    found, clean = rc.load_range(dirty, 1e9), rc.load_range(surface, 1e9)
+    assert found.one_feature
+    assert any("one feature" in note and "up to" in note for note in found.notes)
+    assert not clean.one_feature
+    assert not clean.notes
+    light, heavy = (rc.press(dirty, 1e9, force=f) for f in (found.lowest, found.highest))
+    assert light.spots.loads.max() > 0.5 * light.force
+    assert heavy.spots.loads.max() < 0.5 * heavy.force
+
+
+@pytest.mark.parametrize(
+    ("surface", "word"),
+    [
+        (rough(4), "too few cells"),
+        (rough(64, rms=2e-4), "so steep that elasticity ends at first touch"),
+        (rough(32), "only"),
+    ],
+)
+def test_what_is_not_resolved_is_said_with_a_remedy(surface, word):
+    found = rc.load_range(surface, 1e9)
+    (note,) = (note for note in found.notes if "one feature" not in note)
+    assert word in note
+    assert "take a finer" in note or "give a hardness" in note
+
+
+def test_lines_and_springs():
+    line = rc.Surface(rough(64).heights[0], rc.Grid(64, 1e-6))
+    found = rc.load_range(line, 1e9, operator=rc.line(line.grid, 1e9))
+    np.testing.assert_allclose(found.forces[[0, -1]] / (1e9 * line.rms), [0.03, 3.0])
+    springs = rc.foundation(line.grid, 1e9)
+    forces = rc.suggested_forces(line, 1e9, operator=springs)
+    curve = rc.loading_curve(line, 1e9, forces=forces, operator=springs)
+    assert curve.resolved.any()
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 40])
+def test_as_many_loads_as_are_wanted(count):
+    forces = rc.suggested_forces(rough(64), 1e9, count=count)
+    assert len(forces) == count
+    assert (np.diff(forces) > 0).all()
+
+
+def test_refusals():
+    surface = rough(16)
+    with pytest.raises(ValueError, match="flat surface"):
+        rc.load_range(rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1.0)), 1e9)
+    with pytest.raises(ValueError, match="count"):
+        rc.load_range(surface, 1e9, count=0)
+    assert math.isfinite(rc.load_range(surface, 1e9).lowest)
