@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
-from roughcontact.plot.canvas import curve_figure, save, solution_figure, surface_figure
+from roughcontact.plot.canvas import areal_figure, curve_figure, save, solution_figure, surface_figure
 from roughcontact.plot.engineering_units import written
 
 MODULUS = 1e11
@@ -68,6 +68,7 @@ def test_no_text_overlaps_on_curves(periodic):
     law = curve.fit((float(curve.force[0]), float(curve.force[-1])))
     assert overlaps(curve_figure(curve, law)) == []
     assert overlaps(curve_figure(curve)) == []
+    assert overlaps(areal_figure(curve, law)) == []
 
 
 def test_the_frame_shows_what_is_enlarged():
