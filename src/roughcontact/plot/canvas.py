@@ -66,7 +66,8 @@ def areal_figure(
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "gap"]], width_ratios=(1.6, 1))
     areal_curve(axes["stiffness"], curve, "interfacial_stiffness_per_area", law, theories, units)
-    axes["stiffness"].legend(loc="upper left", fontsize=TICK, frameon=False)
+    if axes["stiffness"].get_legend_handles_labels()[0]:
+        axes["stiffness"].legend(loc="upper left", fontsize=TICK, frameon=False)
     areal_curve(axes["area"], curve, "contact_fraction", None, theories, units)
     areal_curve(axes["gap"], curve, "mean_gap", None, theories, units)
     return figure
