@@ -17,7 +17,8 @@ def curve(invoke, rough, tmp_path):
 
 def test_resistance_of_a_curve(invoke, curve):
     """R = E* rho / k for equal bodies (thesis, eq. 4.2)."""
-    answer = invoke("conductance", curve, *COPPER, "--conductivity", "400W/m/K,50W/m/K", "--json")
+    both = (*COPPER, "--conductivity", "400W/m/K,50W/m/K", "--of", "total")
+    answer = invoke("conductance", curve, *both, "--json")
     assert answer.exit_code == 0
     record = json.loads(answer.stdout)
     with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
@@ -35,9 +36,30 @@ def test_loads_that_are_not_resolved_are_marked(invoke, curve):
     with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
         resolved = dataset.resolved.to_numpy().astype(bool).tolist()
     assert set(resolved) == {True, False}
-    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:]
+    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:-1]
     assert [not line.endswith("not resolved") for line in lines] == resolved
     assert json.loads(invoke("conductance", curve, *COPPER, "--json").stdout)["resolved"] == resolved
+
+
+def test_by_default_it_is_that_of_the_interface_per_area(invoke, curve):
+    """h_c = (harmonic mean of the conductivities) K/(E* A0), against pressure."""
+    words = ("conductance", curve, "--conductivity", "16W/m/K,160W/m/K")
+    record = json.loads(invoke(*words, "--json").stdout)
+    with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
+        areal, force = dataset.interfacial_stiffness_per_area.to_numpy(), dataset.force.to_numpy()
+    expected = 2 * 16 * 160 / 176 * areal / 110e9
+    np.testing.assert_allclose(record["thermal_conductance_per_area"], expected, rtol=1e-14)
+    np.testing.assert_allclose(record["thermal_resistance_per_area"], 1 / expected, rtol=1e-14)
+    assert record["units"]["thermal_conductance_per_area"] == "W m-2 K-1"
+    assert record["units"]["thermal_resistance_per_area"] == "m2 K W-1"
+    assert record["force"] == force.tolist()
+    assert record["of"] == "interface"
+    shown = invoke(*words).stdout
+    assert shown.startswith("nominal pressure [")
+    assert "conductance of   the interface alone" in shown
+    whole = invoke(*words, "--of", "total").stdout
+    assert whole.startswith("force [")
+    assert "spreading resistance included" in whole
 
 
 def test_of_the_interface(invoke, curve):
@@ -53,7 +75,7 @@ def test_of_the_interface(invoke, curve):
 def test_a_folder_serves_and_gets_files(invoke, curve):
     answer = invoke("conductance", curve.parent, *COPPER, "--out", curve.parent)
     assert answer.exit_code == 0
-    assert "electrical resistance [" in answer.stdout
+    assert "electrical resistance per area [" in answer.stdout
     assert {"conductance.csv", "conductance.nc", "conductance.png"} <= {
         p.name for p in curve.parent.iterdir()
     }
@@ -65,10 +87,14 @@ def test_a_curve_has_the_columns_at_once(invoke, rough):
     words = ("curve", rough, "--forces", "1mN:1N:3", *MODULUS, *COPPER)
     record = json.loads(invoke(*words, "--json").stdout)
     np.testing.assert_allclose(
-        np.array(record["electrical_resistance"]) * record["stiffness"], 110e9 * 17e-9, rtol=1e-14
+        np.array(record["electrical_resistance"]) * record["interfacial_stiffness"], 110e9 * 17e-9, rtol=1e-14
+    )
+    whole = json.loads(invoke(*words, "--of", "total", "--json").stdout)
+    np.testing.assert_allclose(
+        np.array(whole["electrical_resistance"]) * whole["stiffness"], 110e9 * 17e-9, rtol=1e-14
     )
     assert record["units"]["electrical_conductance"] == "S"
-    assert "resistance [" in invoke(*words).stdout
+    assert "resistance per area [" in invoke(*words).stdout
 
 
 @pytest.mark.parametrize(

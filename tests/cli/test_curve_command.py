@@ -212,3 +212,81 @@ def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
     assert answer.exit_code == 2
     assert message.lower() in answer.stderr.lower()
     assert len(answer.stderr.strip().splitlines()) == 1
+
+
+def periodic(tmp_path):
+    grid = rc.Grid((32, 32), 1e-6, periodic=True)
+    path = tmp_path / "periodic.npz"
+    rc.write(rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0)), path)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("loads", "on", "areal"),
+    [
+        (("--forces", "1mN,2mN"), "periodic", True),
+        (("--pressures", "1MPa,2MPa"), "rough", True),
+        (("--forces", "1mN,2mN", "--unit-pressure", "MPa"), "rough", True),
+        (("--forces", "1mN,2mN"), "rough", False),
+        (("--depths", "10nm,20nm"), "rough", False),
+    ],
+)
+def test_a_joint_is_told_per_area_against_pressure(invoke, rough, tmp_path, loads, on, areal):
+    path = periodic(tmp_path) if on == "periodic" else rough
+    answer = invoke("curve", path, *loads, *MODULUS)
+    (header,) = [line for line in answer.stdout.splitlines() if "mean gap [" in line]
+    assert header.startswith("nominal pressure [" if areal else "force [")
+    assert ("K/A0 [N/µm/mm²]" in header) is areal
+    # The stiffness of a free patch is in N/m, whatever else is told.
+    assert (" stiffness [" in header) is not areal
+    assert ("never per area" in answer.stderr) is (areal and on == "rough")
+
+
+def test_units_are_those_of_the_user(invoke, rough, tmp_path):
+    """Numbers of the table, the CSV and the NetCDF in them, to a rounding or two; JSON stays in SI."""
+    words = ("curve", rough, "--pressures", "1MPa,10MPa", *MODULUS, "--out", tmp_path / "out")
+    units = ("--unit-pressure", "bar", "--unit-stiffness", "MPa/mm")
+    record = json.loads(invoke(*words, *units, "--json").stdout)
+    np.testing.assert_allclose(record["nominal_pressure"], [1e6, 1e7], rtol=1e-9)
+    areal = np.array(record["interfacial_stiffness"]) / record["nominal_area"]
+    np.testing.assert_allclose(record["interfacial_stiffness_per_area"], areal, rtol=1e-15)
+    assert record["units"]["interfacial_stiffness_per_area"] == "Pa m-1"
+    expected = {"nominal_pressure": ("bar", np.array(record["nominal_pressure"]) / 1e5)}
+    expected["interfacial_stiffness_per_area"] = "MPa/mm", areal / 1e9
+    table = np.genfromtxt(
+        tmp_path / "out" / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
+    )
+    with xarray.open_dataset(tmp_path / "out" / "curve.nc") as dataset:
+        for name, (unit, values) in expected.items():
+            np.testing.assert_allclose(dataset[name], values, rtol=1e-15)
+            np.testing.assert_allclose(table[name], values, rtol=1e-15)
+            assert dataset[name].units == unit
+    assert "nominal_pressure [bar]" in (tmp_path / "out" / "curve.csv").read_text(encoding="utf-8")
+    lines = invoke(*words, *units).stdout.splitlines()
+    (header,) = [k for k, line in enumerate(lines) if "mean gap [" in line]
+    assert "nominal pressure [bar]" in lines[header]
+    assert "K/A0 [MPa/mm]" in lines[header]
+    row = lines[header + 1].split()
+    assert float(row[0]) == pytest.approx(10, rel=5e-4)  # four digits are shown
+    assert float(row[2]) == pytest.approx(areal[0] / 1e9, rel=5e-4)
+    # The file is still the curve: what is read back is in SI.
+    assert (
+        rc.read_curve(tmp_path / "out" / "curve.nc").nominal_pressure.tolist() == record["nominal_pressure"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("option", "unit", "message"),
+    [
+        ("--unit-stiffness", "N/um", "'N/um' is no unit of a stiffness per area; give one such as N/um/mm^2"),
+        ("--unit-stiffness", "2MPa/mm", "is no unit of a stiffness per area"),
+        ("--unit-stiffness", "", "is no unit of a stiffness per area"),
+        ("--unit-pressure", "mm", "'mm' is no unit of a pressure; give one such as MPa"),
+        ("--unit-pressure", "degC", "is no unit of a pressure"),
+    ],
+)
+def test_units_that_are_none_are_refused_before_the_work(invoke, rough, option, unit, message):
+    answer = invoke("curve", rough, *FORCES, *MODULUS, option, unit)
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+    assert "Pressing" not in answer.stderr

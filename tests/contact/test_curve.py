@@ -248,3 +248,34 @@ def test_nominal_area_leaves_out_the_hole_in_rings():
     for body in (rc.foundation, rc.line):
         curve = rc.loading_curve(profile, 1.0, forces=[0.1], operator=body(line, 1.0))
         assert curve.nominal_area == 16.0
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_per_area(periodic):
+    grid = rc.Grid((16, 32), (2e-6, 1e-6), periodic)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    pressures = np.array([1e6, 1e7])
+    curve = rc.loading_curve(rough, 1e11, pressures=pressures)
+    area = 32e-6 * 32e-6
+    np.testing.assert_allclose(curve.nominal_pressure, pressures, rtol=1e-9)
+    np.testing.assert_allclose(
+        curve.interfacial_stiffness_per_area, curve.interfacial_stiffness / area, rtol=1e-15
+    )
+    np.testing.assert_allclose(curve.contact_fraction, curve.contact_area / area, rtol=1e-15)
+    names = {"nominal_pressure": "Pa", "contact_fraction": "1", "interfacial_stiffness_per_area": "Pa m-1"}
+    dataset, record = curve.to_dataset(), curve.to_record()
+    for name, unit in names.items():
+        assert dataset[name].units == record["units"][name] == unit
+        assert dataset[name].to_numpy().tolist() == record[name] == getattr(curve, name).tolist()
+
+
+def test_per_area_is_per_length_on_a_line_and_per_springs():
+    grid = rc.Grid(16, 1e-6)
+    line = rc.Surface(np.arange(16) * 1e-9, grid)
+    units = {}
+    for name, operator in (("line", rc.line(grid, 1e11)), ("springs", rc.foundation(grid, 1e11))):
+        curve = rc.loading_curve(line, 1e11, forces=[1.0, 2.0], operator=operator)
+        np.testing.assert_allclose(curve.nominal_pressure, np.array([1.0, 2.0]) / 16e-6, rtol=1e-9)
+        dataset = curve.to_dataset()
+        units[name] = [dataset[each].units for each in ("nominal_pressure", "interfacial_stiffness_per_area")]
+    assert units == {"line": ["Pa", "Pa m-1"], "springs": ["N m-1", "N m-2"]}

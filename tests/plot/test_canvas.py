@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
-from roughcontact.plot.canvas import curve_figure, save, solution_figure, surface_figure
+from roughcontact.plot.canvas import areal_figure, curve_figure, save, solution_figure, surface_figure
 from roughcontact.plot.engineering_units import written
 
 MODULUS = 1e11
@@ -68,6 +68,7 @@ def test_no_text_overlaps_on_curves(periodic):
     law = curve.fit((float(curve.force[0]), float(curve.force[-1])))
     assert overlaps(curve_figure(curve, law)) == []
     assert overlaps(curve_figure(curve)) == []
+    assert overlaps(areal_figure(curve, law)) == []
 
 
 def test_the_frame_shows_what_is_enlarged():
@@ -140,3 +141,13 @@ def test_no_pyplot_and_no_settings_are_touched(tmp_path):
     command = [sys.executable, "-c", program, str(tmp_path / "a.png")]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.filterwarnings("error")
+def test_a_joint_of_flat_faces_has_a_picture(periodic):
+    """Infinitely stiff from the first load on: no point has a place on the axes."""
+    flat = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1e-6, periodic))
+    curve = rc.loading_curve(flat, MODULUS, pressures=[1e6, 2e6])
+    assert np.isinf(curve.interfacial_stiffness_per_area).all()
+    FigureCanvasAgg(areal_figure(curve)).draw()

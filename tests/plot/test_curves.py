@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.canvas import curve_figure
-from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
+from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, stiffness_curve
+from roughcontact.plot.engineering_units import Scale
 from roughcontact.plot.ticks import readable_ticks
 
 MODULUS = 1e11
@@ -193,3 +194,56 @@ def test_no_point_lies_under_words(lowest, highest):
     for box in boxes:
         inside = (pixels > (box.x0 - 2, box.y0 - 2)) & (pixels < (box.x1 + 2, box.y1 + 2))
         assert not inside.all(axis=1).any()
+
+
+AREAL = ("interfacial_stiffness_per_area", "contact_fraction", "mean_gap")
+
+
+@pytest.mark.parametrize("name", AREAL)
+def test_per_area_is_drawn_in_the_unit_that_is_named(axes, curve, name):
+    units = {"nominal_pressure": Scale(1e-5, "bar"), name: Scale(3.0, "thirds")}
+    areal_curve(axes, curve, name, units=units)
+    drawn = line(axes, "resolved")
+    np.testing.assert_allclose(drawn.get_xdata(), curve.nominal_pressure[curve.resolved] / 1e5, rtol=1e-14)
+    np.testing.assert_allclose(drawn.get_ydata(), 3 * getattr(curve, name)[curve.resolved], rtol=1e-14)
+    assert axes.get_xlabel() == "nominal pressure [bar]"
+    assert axes.get_ylabel().endswith("[thirds]")
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_what_belongs_to_k_is_drawn_with_the_interface_only_where_the_two_are_one(axes, periodic):
+    grid = rc.Grid((48, 48), (1e-7, 1e-7), periodic)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    scale = MODULUS * 1e-7 * 48e-7
+    computed = rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(1e-2, 0.3, 8))
+    law = computed.fit((float(computed.force[2]), float(computed.force[-1])))
+    areal_curve(axes, computed, AREAL[0], law)
+    strong = [each for each in axes.lines if each.get_linewidth() == 2]
+    assert bool(strong) is periodic
+    if periodic:
+        area, to_pressure = (
+            48e-7**2,
+            line(axes, "resolved").get_xdata()[0] / computed.force[computed.resolved][0],
+        )
+        np.testing.assert_allclose(strong[0].get_xdata(), np.array(law.window) * to_pressure, rtol=1e-12)
+        expected = law.stiffness(np.array(law.window)) / area * 1e-12  # N/um/mm^2
+        np.testing.assert_allclose(strong[0].get_ydata(), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", AREAL)
+def test_theories_pass_through_what_they_say_per_area(axes, curve, name):
+    """A theory that says what was computed goes through the points."""
+    from roughcontact.theory.law import LoadingLaw
+
+    given = {"interfacial_stiffness": 1e3, "contact_area": 1e-13, "mean_gap": 1e-8}
+    law = LoadingLaw("straight", "", {each: lambda f, c=c: c * f for each, c in given.items()})
+    areal_curve(axes, curve, name, theories=[law])
+    (drawn,) = [each for each in axes.lines if each.get_label() == "straight"]
+    points = line(axes, "resolved")
+    area = curve.nominal_area
+    to_y = points.get_ydata()[0] / getattr(curve, name)[curve.resolved][0]
+    to_x = points.get_xdata()[0] / curve.nominal_pressure[curve.resolved][0]
+    of_force = np.array(drawn.get_xdata()) / to_x * area
+    quantity = {AREAL[0]: "interfacial_stiffness", AREAL[1]: "contact_area", AREAL[2]: "mean_gap"}[name]
+    expected = given[quantity] * of_force * to_y / (1.0 if name == "mean_gap" else area)
+    np.testing.assert_allclose(drawn.get_ydata(), expected, rtol=1e-12)

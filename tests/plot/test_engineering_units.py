@@ -7,7 +7,7 @@ import math
 import pytest
 
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.engineering_units import pretty, scale, written
+from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 
 
 @pytest.mark.parametrize(
@@ -62,4 +62,11 @@ def test_values_are_written_for_people(value, unit, text):
 
 def test_every_unit_of_the_table_can_be_printed():
     mechanics, conductance = {"", "N", "m", "N/m", "m²", "J", "Pa"}, {"S", "ohm", "W/K", "K/W"}
-    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance
+    per_area = {"Pa/m", "S/m²", "m²·ohm", "W/m²/K", "m²·K/W"}
+    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance | per_area
+
+
+def test_a_stiffness_per_area_is_in_the_unit_of_machine_design():
+    for value in (1e3, 3e13, 1e20):
+        assert scale(value, "Pa m-1") == Scale(1e-12, "N/µm/mm²")
+    assert written(2.96e13, "Pa m-1") == "29.6 N/µm/mm²"

@@ -11,29 +11,27 @@ from roughcontact.cli import options
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import emit, load_table, note_files, print_table
+from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY, parse_pair
+from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
     import xarray
 
     from roughcontact.contact.conduction import Conductors
 
-__all__ = ["COLUMNS", "EXAMPLES", "Materials", "conductance"]
+__all__ = ["EXAMPLES", "Materials", "conductance", "conduction_facts", "shown_columns"]
 
 EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa --out result
 roughcontact conductance result/curve.nc --resistivity 17nohm*m
 roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
+roughcontact conductance result --resistivity 17nohm*m --of total
 """
 
-COLUMNS = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
 _CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
 
-Part = StrEnum("Part", ["TOTAL", "INTERFACE"])
-_OF = option(
-    "Total resistance, macro-constriction included, or that of the interface alone.", default=Part.TOTAL
-)
+Part = StrEnum("Part", ["INTERFACE", "TOTAL"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +44,11 @@ class Materials:
         "17nohm*m[,...]",
     )
     conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
+    of: Part = option(
+        "Conductance and resistance of the interface alone, per area, or the total of this patch between two "
+        "half-spaces, its spreading resistance included.",
+        default=Part.INTERFACE,
+    )
 
     def conductors(self) -> Conductors | None:
         """Return the bodies; None where nothing was said."""
@@ -67,11 +70,10 @@ def conductance(
     file: Path = _CURVE,
     *,
     materials: Materials,
-    of: Part = _OF,
     out: Path | None = options.OUT,
     json: bool = options.JSON,
 ) -> None:
-    """Tell what a contact conducts: electrical and thermal resistance against force."""
+    """Tell what a contact conducts: electrical and thermal resistance against pressure or force."""
     from roughcontact.contact.conduction import with_conductance
 
     with reported(file, out):
@@ -81,15 +83,30 @@ def conductance(
         path = file / "curve.nc" if file.is_dir() else file
         with output(out) as folder:
             curve = _read(path)
-            answer = with_conductance(curve, conductors, of.value)
-            names = ["force", *(name for name in COLUMNS if name in answer)]
+            answer = with_conductance(curve, conductors, materials.of.value)
+            names = shown_columns(answer)
+            names = ["nominal_pressure" if names[0] in CONDUCTION_PER_AREA else "force", *names]
             if folder is not None:
                 _write(answer, names, folder)
         if json:
-            emit(_record(answer, names, path))
+            emit(_record(answer, names, path) | {"of": materials.of.value})
         else:
             print_table(*load_table(answer, names))
+            print_facts(conduction_facts(answer, materials.of.value))
         note_files(folder, ("conductance.csv", "conductance.nc", "conductance.png"))
+
+
+def shown_columns(dataset: xarray.Dataset) -> list[str]:
+    """Return the names of what a contact conducts: per area where it is so given."""
+    found = [[name for name in names if name in dataset] for names in (CONDUCTION_PER_AREA, CONDUCTION)]
+    return found[0] or found[1]
+
+
+def conduction_facts(dataset: xarray.Dataset, of: str) -> list[tuple[str, str]]:
+    """Return a line that says what conductance and resistance are of."""
+    from roughcontact.contact.conduction import part_words
+
+    return [("conductance of", part_words(dataset, of))]
 
 
 def _read(path: Path) -> xarray.Dataset:
@@ -109,6 +126,7 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
     from roughcontact.labels.labelled import plain_values
 
     remarks = [name for name in ("resolved", "status") if name in answer]
+    names = list(dict.fromkeys(["force", *names, *(name for name in CONDUCTION if name in answer)]))
     columns = {name: plain_values(answer[name].to_numpy()) for name in (*names, *remarks)}
     units = {name: answer[name].attrs["units"] for name in names}
     return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}

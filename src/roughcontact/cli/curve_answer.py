@@ -9,17 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
 from roughcontact.cli import report
-from roughcontact.cli.conductance_command import COLUMNS
+from roughcontact.cli.conductance_command import conduction_facts, shown_columns
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.theory_options import deviations, parameters
+from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve
+    from roughcontact.plot.engineering_units import Scale
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
@@ -48,6 +51,12 @@ class CurveAnswer:
         What they took from the surface, in SI units.
     conductors : Conductors or None
         The conducting bodies.
+    of : str
+        What conducts, see `roughcontact.conductance`.
+    per_area : bool
+        Whether table and picture are those of a joint, against nominal pressure.
+    units : mapping of str to Scale
+        Units that were asked for, by column.
     """
 
     curve: Curve
@@ -58,6 +67,9 @@ class CurveAnswer:
     laws: Mapping[str, LoadingLaw]
     taken: Mapping[str, float]
     conductors: Conductors | None
+    of: str
+    per_area: bool
+    units: Mapping[str, Scale]
 
     @property
     def converged(self) -> bool:
@@ -80,13 +92,15 @@ class CurveAnswer:
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """The curve with the columns of theories and conductance."""
+        """The curve with the columns of theories and conductance, in the units that were asked for."""
         from roughcontact.contact.compare import with_theories
         from roughcontact.contact.conduction import with_conductance
         from roughcontact.contact.dataset import curve_dataset
 
         dataset = with_theories(curve_dataset(self.curve), self.comparisons)
-        return dataset if self.conductors is None else with_conductance(dataset, self.conductors)
+        if self.conductors is not None:
+            dataset = with_conductance(dataset, self.conductors, self.of)
+        return dataset.assign({name: _in_unit(dataset[name], unit) for name, unit in self.units.items()})
 
     @cached_property
     def record(self) -> dict[str, Any]:
@@ -94,7 +108,9 @@ class CurveAnswer:
         from roughcontact.contact.dataset import curve_record
         from roughcontact.labels.labelled import plain_values
 
-        conducted = {name: self.dataset[name] for name in COLUMNS if name in self.dataset}
+        conducted = {
+            name: self.dataset[name] for name in CONDUCTION + CONDUCTION_PER_AREA if name in self.dataset
+        }
         record = {
             "command": "curve",
             "file": plain(str(self.file)),
@@ -115,7 +131,7 @@ class CurveAnswer:
         """Write NetCDF, CSV, picture and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
-        from roughcontact.plot.canvas import curve_figure, save
+        from roughcontact.plot.canvas import save
 
         source = provenance(
             self.surface,
@@ -127,7 +143,7 @@ class CurveAnswer:
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
-            save(curve_figure(self.curve, self.fit, tuple(self.laws.values())), aside / "curve.png")
+            save(self._figure(), aside / "curve.png")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
@@ -140,9 +156,10 @@ class CurveAnswer:
             report.print_facts(
                 [("surface", report.size_of(self.surface.grid)), ("reduced modulus E*", modulus)]
             )
-            conducted = [name for name in COLUMNS if name in self.dataset]
-            report.print_table(*report.load_table(self.dataset, (*report.CURVE_COLUMNS, *conducted)))
-            report.print_facts(_fit_facts(self.fit, curve))
+            columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
+            report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
+            conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
+            report.print_facts([*_fit_facts(self.fit, curve), *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
@@ -150,6 +167,25 @@ class CurveAnswer:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
         for line in self.notes:
             note(line)
+        if self.per_area and not all(curve.periodic):
+            note(
+                "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
+                "in N/m only, never per area (docs/joints.md)"
+            )
+
+    def _figure(self) -> Figure:
+        """Return the picture: of a joint against pressure, of a patch against force."""
+        from roughcontact.plot.canvas import areal_figure, curve_figure
+
+        laws = tuple(self.laws.values())
+        if self.per_area:
+            return areal_figure(self.curve, self.fit, laws, self.units)
+        return curve_figure(self.curve, self.fit, laws)
+
+
+def _in_unit(column: xarray.DataArray, unit: Scale) -> xarray.DataArray:
+    """Return a column in another unit, and its name with it."""
+    return (column * unit.factor).assign_attrs(column.attrs | {"units": unit.unit})
 
 
 def _fit_record(law: PowerLaw) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from roughcontact.cli.output import output
 from roughcontact.cli.report import note_files, quantity, screen
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_loads
+from roughcontact.cli.units_of_answer import Units
 
 if TYPE_CHECKING:
     import numpy as np
@@ -35,7 +36,7 @@ roughcontact curve part.x3p --modulus 110GPa
 roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
-roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --json
+roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
 """
 
 _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
@@ -71,11 +72,16 @@ def curve(
     materials: Materials,
     theories: Theories,
     asked: options.Answer,
+    units: Units,
 ) -> None:
-    """Press a rough surface by rising loads: stiffness, area and depth against force."""
+    """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
+
+    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
+    """
     file, out = reading.source.file, asked.out
     with reported(file, out):
         name, loads = given.values()
+        chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
         conductors = materials.conductors()
         theories.check()
@@ -87,7 +93,9 @@ def curve(
                 loads = _suggested(surface, modulus, hardness)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness}
             computed, notes = _load(surface, modulus, path, loads.size)
-            answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors)
+            per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
+            joint = (materials.of.value, per_area, chosen)
+            answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
                 answer.write(folder, f"{name} {ends}, {loads.size} of them")

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
+    "AREAL_COLUMNS",
     "CURVE_COLUMNS",
     "emit",
     "load_table",
@@ -42,6 +43,10 @@ __all__ = [
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
 CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
+AREAL_COLUMNS = (
+    *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
+    *("mean_gap", "spots", "residual"),
+)
 
 
 def screen() -> Console:
@@ -112,8 +117,8 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
         if name == "mean_gap":
             values = _closed(values, dataset["depth"].to_numpy())
         plain = known.unit in ("", "1")
-        chosen = _scale(values, known.unit)
-        label = known.label if name in CURVE_COLUMNS else name.replace("_", " ")
+        chosen = _scale(values, dataset[name].attrs.get("units", ""), known.unit)
+        label = known.label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
         header.append(label if plain else f"{label} [{chosen.unit or pretty(known.unit)}]")
         digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
         columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
@@ -130,8 +135,10 @@ def note_files(folder: Path | None, names: Sequence[str]) -> None:
         note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 
 
-def _scale(values: Any, unit: str) -> Scale:
-    """Return the unit that suits a column."""
+def _scale(values: Any, unit: str, known: str) -> Scale:
+    """Return the unit that suits a column; one that the user chose stays."""
+    if unit != known:
+        return Scale(1.0, unit)
     return scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), unit)
 
 

@@ -11,7 +11,15 @@ import numpy.typing as npt
 
 from roughcontact.cli.messages import UsageError
 from roughcontact.files import quantity
-from roughcontact.files.quantity import CONDUCTIVITY, FORCE, LENGTH, PRESSURE, RESISTIVITY, Kind
+from roughcontact.files.quantity import (
+    CONDUCTIVITY,
+    FORCE,
+    LENGTH,
+    PRESSURE,
+    RESISTIVITY,
+    STIFFNESS_PER_AREA,
+    Kind,
+)
 
 __all__ = [
     "CONDUCTIVITY",
@@ -19,6 +27,7 @@ __all__ = [
     "LENGTH",
     "PRESSURE",
     "RESISTIVITY",
+    "STIFFNESS_PER_AREA",
     "Kind",
     "parse",
     "parse_band",
@@ -31,6 +40,7 @@ __all__ = [
     "parse_seed",
     "parse_size",
     "parse_tolerance",
+    "parse_unit",
 ]
 
 _MOST_LOADS = 100_000
@@ -76,6 +86,24 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
     if value < 0:
         raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
     return value
+
+
+def parse_unit(text: str, kind: Kind, option: str) -> float:
+    """Return how many SI units of its `kind` one unit is, such as 1e6 of "MPa".
+
+    Raises
+    ------
+    UsageError
+        If the text is no unit of that kind.
+    """
+    unit = kind.example.lstrip("0123456789")
+    refusal = UsageError(f"{option}: {text!r} is no unit of {kind.name}; give one such as {unit}")
+    if not text.strip():
+        raise refusal
+    try:
+        return quantity.parse(f"1 {text}", kind)
+    except ValueError as error:
+        raise refusal from error
 
 
 def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
+from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
 from roughcontact.validation import number
@@ -20,9 +21,12 @@ from roughcontact.validation import number
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Conductors", "conductance", "with_conductance"]
+__all__ = ["Conductors", "conductance", "part_words", "with_conductance"]
 
 Array = npt.NDArray[np.float64]
+
+# What a conductance is of, and the stiffness that it follows from.
+_PARTS = {"interface": "interfacial_stiffness", "total": "stiffness"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +77,7 @@ def conductance(
     *,
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
-    of: Literal["total", "interface"] = "total",
+    of: Literal["interface", "total"] = "interface",
 ) -> dict[str, Array]:
     """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
@@ -84,34 +88,38 @@ def conductance(
         way conduct like the others.
     resistivities, conductivities : tuple of float
         At least one of the two, see `Conductors`.
-    of : {"total", "interface"}
-        The total conductance of two half-spaces, the macro-constriction towards the contact included, from the
-        stiffness; or that of the interface alone, from the interfacial stiffness.
+    of : {"interface", "total"}
+        The conductance of the interface alone, from the interfacial stiffness; or the total one of two half-spaces that
+        touch on this patch and nowhere else, from the stiffness: the spreading resistance of the patch (the
+        macro-constriction towards it) is in it.
 
     Returns
     -------
     dict of str to array
         ``electrical_conductance`` [S] and ``electrical_resistance`` [ohm], ``thermal_conductance`` [W/K] and
-        ``thermal_resistance`` [K/W], what was asked for: along the curve, or one number. Films, gas and
-        radiation carry nothing here.
+        ``thermal_resistance`` [K/W], what was asked for: along the curve, or one number. Of the interface also over the
+        nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm m^2],
+        ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films, gas
+        and radiation carry nothing here.
 
     Raises
     ------
     ValueError
         If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
-        reference length, or if it is a curve under a hardness, whose stiffness leaves out cells that conduct.
+        reference length, if it is a curve under a hardness, whose stiffness leaves out cells that conduct, or if the
+        interface is asked for of a Winkler foundation, which has none.
 
     Examples
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
     >>> solution = rc.press(ball, 1e9, force=1e-3)
-    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8))
+    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8), of="total")
     >>> f"{copper['electrical_resistance'] * 1e3:.1f} mOhm"
     '2.0 mOhm'
     """
     materials = Conductors(resistivities, conductivities)
-    stiffness = _stiffness_for(of)
+    _require_part(of)
     if not isinstance(contact, Curve | Solution):
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
@@ -121,12 +129,16 @@ def conductance(
         elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
         contact = replace(contact, problem=elastic, _frozen=None)
     scales = contact.problem if isinstance(contact, Solution) else contact
-    _require_conducting(scales.geometry, scales.hardness < math.inf)
-    return materials.of(np.asarray(getattr(contact, stiffness), dtype=np.float64), scales.modulus)
+    area = scales.nominal_area if isinstance(scales, Curve) else scales.grid.area
+    _require_conducting(scales.geometry, scales.hardness < math.inf, of)
+    stiffness = np.asarray(getattr(contact, _PARTS[of]), dtype=np.float64)
+    return _of_part(materials.of(stiffness, scales.modulus), area, of)
 
 
-def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = "total") -> xarray.Dataset:
-    """Return the dataset of a curve with what it conducts as further columns along ``load``.
+def with_conductance(
+    dataset: xarray.Dataset, conductors: Conductors, of: str = "interface"
+) -> xarray.Dataset:
+    """Return the dataset of a curve with what it conducts as further columns along ``load``, instead of any it has.
 
     Parameters
     ----------
@@ -134,37 +146,68 @@ def with_conductance(dataset: xarray.Dataset, conductors: Conductors, of: str = 
         As `roughcontact.Curve.to_dataset` makes it, or as it was read from a file.
     conductors : Conductors
         The two bodies.
-    of : {"total", "interface"}
-        See `roughcontact.conductance`.
+    of : {"interface", "total"}
+        See `roughcontact.conductance`; the long name of each column says which it is.
 
     Raises
     ------
     ValueError
-        If the dataset is not that of a curve, or that of a line contact or of a plastic body.
+        If the dataset is not that of a curve, or that of a line contact or of a plastic body, or if the interface is
+        asked for of a Winkler foundation.
     """
-    stiffness = _stiffness_for(of)
-    missing = [name for name in ("force", stiffness, "modulus") if name not in dataset]
+    _require_part(of)
+    stiffness = _PARTS[of]
+    missing = [name for name in ("force", stiffness, "modulus", "nominal_area") if name not in dataset]
     if missing or dataset[stiffness].dims != ("load",):
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
-    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset)
+    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset, of)
     found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
-    return dataset.assign({name: variable(name, ("load",), values) for name, values in found.items()})
+    columns, words = {}, part_words(dataset, of)
+    for name, values in _of_part(found, float(dataset["nominal_area"]), of).items():
+        columns[name] = variable(name, ("load",), values)
+        columns[name][2]["long_name"] += f", of {words}"
+    return dataset.drop_vars(CONDUCTION + CONDUCTION_PER_AREA, errors="ignore").assign(columns)
 
 
-def _stiffness_for(of: str) -> str:
-    """Return the name of the stiffness that a conductance follows from."""
-    names = {"total": "stiffness", "interface": "interfacial_stiffness"}
-    if of not in names:
-        raise ValueError(f"of must be 'total' or 'interface', not {of!r}")
-    return names[of]
+def part_words(dataset: xarray.Dataset, of: str) -> str:
+    """Return in words what a conductance of a curve's dataset is of."""
+    if of == "interface":
+        return "the interface alone"
+    if dataset["periodic"].to_numpy().all():
+        return "the interface: a periodic map has no spreading resistance"
+    return "the whole patch between two half-spaces, its spreading resistance included"
 
 
-def _require_conducting(geometry: Geometry, yielding: bool) -> None:
+def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
+    """Return conductances and resistances, of the interface also over the nominal area.
+
+    The spreading resistance of a patch falls with its side, not with its area: of the total there is no such number.
+    """
+    if of != "interface":
+        return found
+    areal = {
+        f"{name}_per_area": values * area if name.endswith("resistance") else values / area
+        for name, values in found.items()
+    }
+    return found | areal
+
+
+def _require_part(of: str) -> None:
+    """Refuse what is neither the interface nor the total."""
+    if of not in _PARTS:
+        raise ValueError(
+            f"of must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
+        )
+
+
+def _require_conducting(geometry: Geometry, yielding: bool, of: str) -> None:
     """Refuse a curve that does not say what its contact conducts: that of a line, or of a plastic body."""
     if geometry is Geometry.LINE:
         raise ValueError(
             "a line contact has no conductance of its own: it depends on how far away the bodies end"
         )
+    if geometry is Geometry.FOUNDATION and of == "interface":
+        raise ValueError("a Winkler foundation has a total conductance only: take of='total'")
     if yielding:
         raise ValueError(
             "under a hardness the plastic cells conduct, but the stiffness of a curve leaves them out: take "

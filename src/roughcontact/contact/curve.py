@@ -130,6 +130,25 @@ class Curve:
         return self.stiffness / self.stiffness_scale
 
     @property
+    def nominal_pressure(self) -> Array:
+        """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
+        return self.force / self.nominal_area
+
+    @property
+    def contact_fraction(self) -> Array:
+        """Relative real contact area A/A0, missing cells included in A0."""
+        return self.contact_area / self.nominal_area
+
+    @property
+    def interfacial_stiffness_per_area(self) -> Array:
+        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; of a foundation over its length [N/m^2].
+
+        What a joint has whatever its size. There is no such number of `stiffness`: on a free grid that contains the
+        compliance of the body under the map, whose part grows with the map.
+        """
+        return self.interfacial_stiffness / self.nominal_area
+
+    @property
     def secant_stiffness(self) -> Array:
         """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,).
 

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 __all__ = ["curve_dataset", "curve_record", "solution_dataset", "solution_record"]
 
 _CURVE_ARRAYS = (
-    *(*CURVE_POINTS, "spots", "dimensionless_force", "dimensionless_stiffness"),
+    *(*CURVE_POINTS, "nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
+    *("spots", "dimensionless_force", "dimensionless_stiffness"),
     *("residual", "stiffness_residual", "resolved"),
 )
 _SOLUTION_MAPS = ("pressure", "displacement", "gap", "contact")

@@ -14,6 +14,7 @@ __all__ = [
     "LENGTH",
     "PRESSURE",
     "RESISTIVITY",
+    "STIFFNESS_PER_AREA",
     "Kind",
     "parse",
     "parse_number",
@@ -41,6 +42,7 @@ class Kind:
 FORCE = Kind("a force", "N", "10N")
 LENGTH = Kind("a length", "m", "5um")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
+STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
 

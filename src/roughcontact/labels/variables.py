@@ -11,13 +11,19 @@ from types import MappingProxyType
 
 from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["CURVE_POINTS", "CURVE_SCALES", "VARIABLES", "Variable", "unit_of"]
+__all__ = [
+    *("CONDUCTION", "CONDUCTION_PER_AREA", "CURVE_POINTS", "CURVE_SCALES"),
+    *("VARIABLES", "Variable", "unit_of"),
+]
 
 # What a curve takes over from each state, and what it is measured by.
 CURVE_POINTS = (
     *("force", "depth", "stiffness", "interfacial_stiffness"),
     *("contact_area", "mean_gap", "elastic_energy"),
 )
+# What it conducts, as a patch and over its nominal area.
+CONDUCTION = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
+CONDUCTION_PER_AREA = tuple(f"{name}_per_area" for name in CONDUCTION)
 CURVE_SCALES = ("modulus", "rms", "full_contact_stiffness", "cell_stiffness", "nominal_area")
 
 
@@ -49,12 +55,15 @@ _VARIABLES = {
     "interfacial_stiffness": Variable(
         "N m-1", "normal stiffness against the mean gap, contact region held fixed"
     ),
+    "interfacial_stiffness_per_area": Variable(
+        "Pa m-1", "interfacial stiffness over the nominal area", "interfacial stiffness per area K/A0"
+    ),
     "secant_stiffness": Variable(
         "N m-1", "difference of force over difference of depth between one load and the next"
     ),
     "contact_area": Variable("m2", "real contact area"),
     "contact_fraction": Variable(
-        "1", "relative real contact area, real over nominal", "relative real contact area"
+        "1", "relative real contact area, real over nominal", "relative real contact area A/A0"
     ),
     "mean_gap": Variable("m", "gap averaged over the measured cells"),
     "elastic_energy": Variable("J", "elastic energy of the bodies"),
@@ -81,6 +90,12 @@ _VARIABLES = {
     "electrical_resistance": Variable("ohm", "electrical resistance of the contact", "resistance"),
     "thermal_conductance": Variable("W K-1", "thermal conductance of the contact"),
     "thermal_resistance": Variable("K W-1", "thermal resistance of the contact"),
+    "electrical_conductance_per_area": Variable("S m-2", "electrical conductance over the nominal area"),
+    "electrical_resistance_per_area": Variable("m2 ohm", "electrical resistance times the nominal area"),
+    "thermal_conductance_per_area": Variable(
+        "W m-2 K-1", "thermal conductance over the nominal area", "thermal conductance per area h_c"
+    ),
+    "thermal_resistance_per_area": Variable("m2 K W-1", "thermal resistance times the nominal area"),
     # how far the answer can be trusted
     "residual": Variable("1", "violation of the contact conditions, recomputed on the answer"),
     "stiffness_residual": Variable("1", "residual of the linear problem of the stiffness"),
@@ -115,7 +130,7 @@ _VARIABLES = {
     "slip": Variable("m", "slip of surface 1 over surface 2 since the start"),
     "slipping": Variable("", "whether the cell bears all the traction that friction holds"),
     "largest_pressure": Variable("Pa", "largest contact pressure of a cell"),
-    "nominal_pressure": Variable("Pa", "force over the area of the whole map"),
+    "nominal_pressure": Variable("Pa", "force over the nominal area"),
     "spot_label": Variable("1", "number of the contact spot a cell belongs to, 0 outside contact", "spot"),
     "spot_area": Variable("m2", "area of a contact spot"),
     "spot_load": Variable("N", "force carried by a contact spot"),
@@ -130,7 +145,7 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
 # On a line all that adds up over the contact is per unit length.
 _ON_A_LINE = {"N": "N m-1", "N m-1": "N m-2", "m2": "m", "J": "J m-1"}
 # Springs feel a force per length, and touch over a length; their modulus stays a pressure.
-_ON_SPRINGS = {"Pa": "N m-1", "m2": "m"}
+_ON_SPRINGS = {"Pa": "N m-1", "m2": "m", "Pa m-1": "N m-2"}
 
 
 def unit_of(name: str, geometry: Geometry = Geometry.SURFACE) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,16 +13,16 @@ from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.plot.curves import area_curve, depth_curve, stiffness_curve
-from roughcontact.plot.engineering_units import written
+from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, stiffness_curve
+from roughcontact.plot.engineering_units import Scale, written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window
 from roughcontact.plot.raster import Window
-from roughcontact.plot.ticks import LABEL
+from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.surface import Surface
 
-__all__ = ["curve_figure", "save", "solution_figure", "surface_figure"]
+__all__ = ["areal_figure", "curve_figure", "save", "solution_figure", "surface_figure"]
 
 _FORMATS = ("png", "pdf", "svg")
 
@@ -53,6 +53,23 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
     stiffness_curve(axes["stiffness"], curve, law, theories)
     area_curve(axes["area"], curve, theories)
     depth_curve(axes["depth"], curve, theories)
+    return figure
+
+
+def areal_figure(
+    curve: Curve,
+    law: PowerLaw | None = None,
+    theories: Sequence[Law] = (),
+    units: Mapping[str, Scale] | None = None,
+) -> Figure:
+    """Return K/A0, A/A0 and mean gap against nominal pressure: what a joint has whatever its size."""
+    figure = Figure(figsize=(9.5, 5.2), layout="constrained")
+    axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "gap"]], width_ratios=(1.6, 1))
+    areal_curve(axes["stiffness"], curve, "interfacial_stiffness_per_area", law, theories, units)
+    if axes["stiffness"].get_legend_handles_labels()[0]:
+        axes["stiffness"].legend(loc="upper left", fontsize=TICK, frameon=False)
+    areal_curve(axes["area"], curve, "contact_fraction", None, theories, units)
+    areal_curve(axes["gap"], curve, "mean_gap", None, theories, units)
     return figure
 
 

@@ -1,12 +1,12 @@
 """Loading curves and theories beside them, drawn on axes that the caller owns.
 
-All are logarithmic, with force along x. Points that the grid resolves are filled, the others open.
+All are logarithmic, with force or nominal pressure along x. Points that the grid resolves are filled, the others open.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
@@ -27,7 +27,10 @@ from roughcontact.statistics.fit_window import CELLS
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.validation import Array
 
-__all__ = ["area_curve", "depth_curve", "resistance_curve", "resistance_figure", "stiffness_curve"]
+__all__ = [
+    *("area_curve", "areal_curve", "depth_curve", "resistance_curve", "resistance_figure"),
+    "stiffness_curve",
+]
 
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
 _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
@@ -35,6 +38,12 @@ _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
 # colours and four dashes have no common period: of twenty laws no two look the same.
 _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
+# What is drawn against nominal pressure, and the quantity of the patch that theories give for it.
+_PER_AREA = {
+    "interfacial_stiffness_per_area": "interfacial_stiffness",
+    "contact_fraction": "contact_area",
+    "mean_gap": "mean_gap",
+}
 _SMOOTH = 200  # points of a line
 _FULL = "full contact"
 _WORDS = (0.25, 0.06, 0.015)  # of the axes: width and height of words on a level, and of a point beside them
@@ -83,9 +92,45 @@ def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
     _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
 
 
+def areal_curve(
+    axes: Axes,
+    curve: Curve,
+    name: str,
+    law: PowerLaw | None = None,
+    theories: Sequence[Law] = (),
+    units: Mapping[str, Scale] | None = None,
+) -> None:
+    """Draw K/A0, A/A0 or the mean gap against nominal pressure, both logarithmic, in `units` where they are given.
+
+    `law`, a power law of k, and the limits of what is resolved belong to k, and are drawn with K/A0 where the two are
+    one: on a periodic grid. `theories` are drawn as lines in colours of their own.
+    """
+    quantity = _PER_AREA[name]
+    words = [(VARIABLES[each].label, unit_of(each, curve.geometry)) for each in ("nominal_pressure", name)]
+    numbers = (curve.nominal_pressure, np.asarray(getattr(curve, name)))
+    given = tuple((units or {}).get(each) for each in ("nominal_pressure", name))
+    x, y = _draw_points(axes, numbers, words, np.asarray(curve.resolved), _POINTS, given)
+    # From what belongs to the patch to what is drawn: over the nominal area, the gap as it is.
+    of_force = Scale(x.factor / curve.nominal_area, x.unit)
+    of_patch = y if quantity == name else Scale(y.factor / curve.nominal_area, y.unit)
+    if name == "interfacial_stiffness_per_area" and np.array_equal(
+        curve.stiffness, curve.interfacial_stiffness
+    ):
+        low, high = axes.get_ylim()
+        if law is not None:
+            _draw_law(axes, curve, law, (of_force, of_patch))
+        for text, value in _limits(curve).items():
+            place = value * of_patch.factor
+            if low <= place <= high:
+                level(axes, place, text, (0, (6, 3)), **_free_corner(axes, place))
+        axes.set_ylim(low, high)
+    _draw_laws(axes, theories, quantity, _forces(curve), (of_force, of_patch))
+
+
 def resistance_figure(dataset: xarray.Dataset) -> Figure:
-    """Return the electrical and the thermal resistance against force, those that the dataset holds."""
-    names = [name for name in _RESISTANCES if name in dataset]
+    """Return the electrical and the thermal resistance, those that the dataset holds: of the interface per area."""
+    areal = [f"{name}_per_area" for name in _RESISTANCES if f"{name}_per_area" in dataset]
+    names = areal or [name for name in _RESISTANCES if name in dataset]
     figure = Figure(figsize=(4.8 * len(names), 4.0), layout="constrained")
     for axes, name in zip(np.ravel(figure.subplots(1, len(names))), names, strict=True):
         resistance_curve(axes, dataset, name)
@@ -93,11 +138,18 @@ def resistance_figure(dataset: xarray.Dataset) -> Figure:
 
 
 def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
-    """Draw one resistance against force, both logarithmic; what is infinite has no place on the axis."""
-    numbers = (dataset["force"].to_numpy(), dataset[name].to_numpy())
-    labels = {"force": VARIABLES["force"].label, name: name.replace("_", " ")}
-    words = [(label, VARIABLES[each].unit) for each, label in labels.items()]
-    _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), _RESISTANCES[name])
+    """Draw one resistance against force, one per area against pressure; what is infinite has no place on the axis."""
+    load = "nominal_pressure" if name.endswith("_per_area") else "force"
+    numbers = (dataset[load].to_numpy(), dataset[name].to_numpy())
+    included = "" if load == "nominal_pressure" else ", spreading resistance included"
+    labels = {load: VARIABLES[load].label, name: name.replace("_", " ") + included}
+    words = [(label, dataset[each].attrs["units"]) for each, label in labels.items()]
+    given = tuple(
+        None if unit == VARIABLES[each].unit else Scale(1.0, unit)
+        for each, (_, unit) in zip(labels, words, strict=True)
+    )
+    colour = _RESISTANCES[name.removesuffix("_per_area")]
+    _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), colour, given)
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)
 
@@ -144,15 +196,16 @@ def _draw_points(
     words: Sequence[tuple[str, str]],
     resolved: npt.NDArray[np.bool_],
     colour: str,
+    units: tuple[Scale | None, ...] = (None, None),
 ) -> tuple[Scale, Scale]:
-    """Draw values against forces and label both axes by their names and SI units; return their scales.
+    """Draw values against loads and label both axes by names and units, in SI if none is given; return their scales.
 
     A logarithmic axis has no place for zero, and none for infinity: such points are left out.
     """
     loads, values = numbers
     x, y = (
-        scale(float(np.max(each, initial=0.0, where=np.isfinite(each))), unit)
-        for each, (_, unit) in zip(numbers, words, strict=True)
+        given or scale(float(np.max(each, initial=0.0, where=np.isfinite(each))), unit)
+        for each, (_, unit), given in zip(numbers, words, units, strict=True)
     )
     axes.set(xscale="log", yscale="log")
     shown = np.isfinite(values) & (values > 0) & (loads > 0)
@@ -166,7 +219,8 @@ def _draw_points(
         if drawn.size:
             readable_ticks(axis, float(drawn.max() / drawn.min()))
     (force, _), (name, _) = words
-    label_axes(axes, f"{force} [{x.unit}]", f"{name} [{y.unit}]", grid=True)
+    labels = (f"{text} [{each.unit}]" if each.unit else text for text, each in ((force, x), (name, y)))
+    label_axes(axes, *labels, grid=True)
     return x, y
 
 

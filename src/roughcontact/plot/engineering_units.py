@@ -24,8 +24,11 @@ def scale(largest: float, unit: str) -> Scale:
     """Return the scale that brings `largest`, in the SI unit `unit`, between 1 and 1000.
 
     The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and counts as often as
-    that unit does (``"m2"`` becomes µm², a factor of 1e12). Kilometres are the largest length.
+    that unit does (``"m2"`` becomes µm², a factor of 1e12). Kilometres are the largest length. A stiffness per area
+    is in N/µm/mm² (MPa/µm).
     """
+    if unit == "Pa m-1":  # the unit of machine design, whatever the number
+        return Scale(1e-12, "N/µm/mm²")
     first = unit.split()[0] if unit else ""
     power = int(re.search(r"\d+$", first).group()) if re.search(r"\d$", first) else 1  # type: ignore[union-attr]
     exponent = 0
