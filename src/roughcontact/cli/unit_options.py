@@ -23,8 +23,8 @@ __all__ = [
     "parse",
     "parse_load",
     "parse_loads",
+    "parse_modulus",
     "parse_number",
-    "parse_pair",
     "parse_points",
     "parse_positive",
     "parse_seed",
@@ -33,6 +33,7 @@ __all__ = [
 ]
 
 _MOST_LOADS = 100_000
+_FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
 
 
 def parse(text: str, kind: Kind, option: str) -> float:
@@ -61,6 +62,24 @@ def parse_positive(text: str, kind: Kind, option: str, what: str) -> float:
     return value
 
 
+def parse_modulus(text: str, option: str, what: str) -> float:
+    """Return a modulus or a hardness above 0 [Pa]; a bare number that is softer than any foam is asked about.
+
+    Raises
+    ------
+    UsageError
+        If it is none, or is below a megapascal and has no unit.
+    """
+    value = parse_positive(text, PRESSURE, option, what)
+    if value < _FOAM and not quantity.has_unit(text):
+        bare = text.strip()
+        raise UsageError(
+            f"{option}: {bare} without a unit is {bare} Pa, softer than foam: write {bare}GPa if gigapascals are "
+            f"meant, or {bare}Pa if it is so"
+        )
+    return value
+
+
 def parse_load(text: str, kind: Kind, option: str) -> float:
     """Return one load in the SI unit of its `kind`: a force or pressure above 0, a depth not below it.
 
@@ -75,25 +94,6 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
     if value < 0:
         raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
     return value
-
-
-def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:
-    """Return a quantity of both bodies in SI, from "17nohm*m,26nohm*m" or one value for both.
-
-    Raises
-    ------
-    UsageError
-        If the text holds none or more than two, or a negative one.
-    """
-    parts = [part for part in text.split(",") if part.strip()]
-    if len(parts) not in (1, 2):
-        raise UsageError(
-            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}"
-        )
-    values = [parse(part, kind, option) for part in parts]
-    if min(values) < 0:
-        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
-    return values[0], values[-1]
 
 
 def parse_number(text: str, option: str, example: str) -> float:
