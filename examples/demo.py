@@ -80,6 +80,9 @@ def power_law(curve):
         return None
     formula = f"k / (E* L) = {law.prefactor:.3f} (F / (E* h L))^{law.exponent:.3f}"
     print(f"power law: {formula}, {law.count} resolved loads, scatter {law.scatter:.3f}")
+    if not law.straight:
+        low, high = law.ends
+        print(f"but no single one: its exponent goes from {low:.2f} to {high:.2f} over these loads")
     return law
 
 

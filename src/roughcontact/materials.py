@@ -56,13 +56,17 @@ class Material:
     sources: Mapping[str, str]
 
 
-def _alloy(name: str, grade: str, solid: Solid, vickers: float, *conducting: float) -> Material:
+def _alloy(
+    name: str, grade: str, solid: Solid, vickers: float, conductivity: float, resistivity: float
+) -> Material:
     """Return an alloy, all from one data sheet."""
     sources = dict.fromkeys(("solid", "hardness", "conductivity", "resistivity"), f"{_ASM}: {grade}")
-    return Material(name, grade, solid, vickers * _VICKERS, *conducting, MappingProxyType(sources))
+    return Material(
+        name, grade, solid, vickers * _VICKERS, conductivity, resistivity, MappingProxyType(sources)
+    )
 
 
-def _element(name: str, solid: Solid, hardness: float, *conducting: float) -> Material:
+def _element(name: str, solid: Solid, hardness: float, conductivity: float, resistivity: float) -> Material:
     """Return a pure metal."""
     sources = {
         "solid": _MODULI,
@@ -71,7 +75,7 @@ def _element(name: str, solid: Solid, hardness: float, *conducting: float) -> Ma
         "resistivity": f"{_CRC}: electrical resistivity of pure metals, 293 K",
     }
     grade = "pure, polycrystalline"
-    return Material(name, grade, solid, hardness, *conducting, MappingProxyType(sources))
+    return Material(name, grade, solid, hardness, conductivity, resistivity, MappingProxyType(sources))
 
 
 # Young's modulus, Poisson's ratio; Vickers number (of an element: hardness in Pa); W/(m K); ohm m.

@@ -41,6 +41,9 @@ def test_the_power_law_is_that_of_the_curve(invoke, tmp_path):
         "scatter": law.scatter,
         "window": list(law.window),
         "count": law.count,
+        "bend": law.bend,
+        "bend_error": law.bend_error,
+        "straight": law.straight,
     }
     assert f"(F/(E* L h))^{law.exponent:.4f}" in invoke(*words).stdout
 
@@ -201,9 +204,10 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
         (("--theory", ","), "each theory once"),
         (("--hurst", "0.8"), "--hurst is for theories"),
         (("--theory", "hertz"), "by --radius"),
-        (("--theory", "power-law", "--hurst", "5"), "hurst"),
+        (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
-        (("--theory", "cgp", "--periodic"), "cgp is about a body"),
+        (("--theory", "cmy"), "by --hardness"),
+        (("--hardness", "1GPa", "--conductivity", "steel"), "plastic cells conduct"),
     ],
 )
 def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
@@ -211,3 +215,40 @@ def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
     assert answer.exit_code == 2
     assert message.lower() in answer.stderr.lower()
     assert len(answer.stderr.strip().splitlines()) == 1
+
+
+def test_a_theory_that_does_not_apply_is_left_out_and_the_curve_is_kept(invoke, rough, tmp_path):
+    folder = tmp_path / "result"
+    words = (
+        "curve",
+        rough,
+        *FORCES,
+        *MODULUS,
+        "--level",
+        "mean",
+        "--periodic",
+        "--theory",
+        "cgp,persson,rough-sphere",
+    )
+    words = (*words, "--radius", "1mm", "--hurst", "2.5")
+    answer = invoke(*words, "--out", folder)
+    assert answer.exit_code == 0
+    notes = [line for line in answer.stderr.splitlines() if "is left out" in line]
+    assert len(notes) == 2
+    assert notes[0].startswith("Note: theory cgp is left out: cgp is about a body that sinks in as a whole")
+    assert "Persson" in answer.stdout
+    record = json.loads((folder / "curve.json").read_text(encoding="utf-8"))
+    assert set(record["theories"]) == {"persson"}
+    assert set(record["theories_left_out"]) == {"cgp", "rough-sphere"}
+
+
+def test_local_exponents_stand_beside_those_of_theories(invoke, rough, surface):
+    words = ("curve", rough, "--forces", "0.1N:2N:24", *MODULUS, "--level", "none", "--theory", "persson")
+    record = json.loads(invoke(*words, "--json").stdout)
+    curve = rc.loading_curve(surface, 110e9, forces=np.geomspace(0.1, 2, 24))
+    found = curve.local_exponents()
+    assert [each["exponent"] for each in record["local_exponents"]] == [each.exponent for each in found]
+    assert found  # so that the lines below are about something
+    text = invoke(*words).stdout
+    assert f"{found[0].exponent:.3f} +- {found[0].error:.3f} from" in text
+    assert "; Persson " in text

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
 from roughcontact.cli import report
 from roughcontact.cli.conductance_command import COLUMNS
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import is_ours, note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.cli.theory_options import deviations, parameters
+from roughcontact.cli.theory_options import deviations, exponents, parameters
 
 if TYPE_CHECKING:
     import xarray
@@ -48,6 +49,8 @@ class CurveAnswer:
         What they took from the surface, in SI units.
     conductors : Conductors or None
         The conducting bodies.
+    refused : mapping of str to str
+        Why theories that were asked for do not apply to the surface, by their names.
     """
 
     curve: Curve
@@ -58,6 +61,7 @@ class CurveAnswer:
     laws: Mapping[str, LoadingLaw]
     taken: Mapping[str, float]
     conductors: Conductors | None
+    refused: Mapping[str, str]
 
     @property
     def converged(self) -> bool:
@@ -75,8 +79,26 @@ class CurveAnswer:
 
     @cached_property
     def comparisons(self) -> dict[str, Comparison]:
-        """The curve beside each theory."""
-        return {key: self.curve.compare(law) for key, law in self.laws.items()}
+        """The curve beside each theory that applies."""
+        return self._compared[0]
+
+    @property
+    def left_out(self) -> dict[str, str]:
+        """Why a theory does not stand beside the curve, by its name."""
+        return {**self.refused, **self._compared[1]}
+
+    @cached_property
+    def _compared(self) -> tuple[dict[str, Comparison], dict[str, str]]:
+        found: dict[str, Comparison] = {}
+        failed: dict[str, str] = {}
+        for key, law in self.laws.items():
+            try:
+                found[key] = self.curve.compare(law)
+            except ValueError as error:
+                if not is_ours(error):
+                    raise
+                failed[key] = str(error)
+        return found, failed
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
@@ -102,7 +124,9 @@ class CurveAnswer:
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
+            "local_exponents": [asdict(each) for each in self.curve.local_exponents()],
             "theory_parameters": dict(self.taken),
+            "theories_left_out": self.left_out,
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
             "tolerance": self.tolerance,
             "converged": self.converged,
@@ -124,10 +148,11 @@ class CurveAnswer:
             tolerance=self.tolerance,
             command=command_line(),
         )
+        shown = tuple(self.laws[key] for key in self.comparisons)
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
-            save(curve_figure(self.curve, self.fit, tuple(self.laws.values())), aside / "curve.png")
+            save(curve_figure(self.curve, self.fit, shown), aside / "curve.png")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
@@ -142,19 +167,35 @@ class CurveAnswer:
             )
             conducted = [name for name in COLUMNS if name in self.dataset]
             report.print_table(*report.load_table(self.dataset, (*report.CURVE_COLUMNS, *conducted)))
-            report.print_facts(_fit_facts(self.fit, curve))
+            report.print_facts([*_fit_facts(self.fit, curve), *exponents(curve, self.comparisons)])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
+        if self.fit is not None and not self.fit.straight:
+            low, high = self.fit.ends
+            note(
+                f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
+                f"({self.fit.bend:+.2f} +- {self.fit.bend_error:.2f}); quote local exponents with their windows"
+            )
+        for name, why in self.left_out.items():
+            note(f"theory {name} is left out: {why}")
         for line in self.notes:
             note(line)
 
 
 def _fit_record(law: PowerLaw) -> dict[str, Any]:
-    numbers = {name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter")}
-    return numbers | {"window": [float(end) for end in law.window], "count": int(law.count)}
+    numbers: dict[str, float | None] = {
+        name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter", "bend")
+    }
+    error = float(law.bend_error)
+    numbers["bend_error"] = error if math.isfinite(error) else None
+    return numbers | {
+        "straight": law.straight,
+        "window": [float(end) for end in law.window],
+        "count": int(law.count),
+    }
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.unit_options import Kind, parse
 from roughcontact.material import Solid, reduced_modulus
