@@ -8,6 +8,7 @@ import xarray
 
 import roughcontact as rc
 from roughcontact.cli.report import quantity
+from roughcontact.plot import canvas
 from roughcontact.theory.waves import Waves
 
 MODULUS = ("--modulus", "110GPa")
@@ -252,3 +253,31 @@ def test_local_exponents_stand_beside_those_of_theories(invoke, rough, surface):
     text = invoke(*words).stdout
     assert f"{found[0].exponent:.3f} +- {found[0].error:.3f} from" in text
     assert "; Persson " in text
+
+
+def test_no_stiffness_of_flowing_spots_is_drawn_beside_that_of_a_plastic_curve(
+    invoke, rough, tmp_path, monkeypatch
+):
+    drawn = []
+
+    def figure(curve, fit, laws):
+        drawn.extend(laws)
+        return canvas.Figure()
+
+    monkeypatch.setattr(canvas, "curve_figure", figure)
+    words = (
+        "curve",
+        rough,
+        *FORCES,
+        *MODULUS,
+        "--level",
+        "none",
+        "--hardness",
+        "steel",
+        "--theory",
+        "cmy,mikic",
+    )
+    assert invoke(*words, "--out", tmp_path / "result").exit_code == 0
+    plastic, elastic = drawn
+    assert set(plastic.quantities) == {"contact_area"}
+    assert "stiffness" in elastic.quantities

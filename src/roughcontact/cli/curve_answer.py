@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -83,6 +83,15 @@ class CurveAnswer:
         return self._compared[0]
 
     @property
+    def drawn(self) -> tuple[LoadingLaw, ...]:
+        """The theories that apply, with what the curve has of them."""
+        return tuple(
+            replace(law, quantities={name: law.quantities[name] for name in self.comparisons[key].predicted})
+            for key, law in self.laws.items()
+            if key in self.comparisons
+        )
+
+    @property
     def left_out(self) -> dict[str, str]:
         """Why a theory does not stand beside the curve, by its name."""
         return {**self.refused, **self._compared[1]}
@@ -148,11 +157,10 @@ class CurveAnswer:
             tolerance=self.tolerance,
             command=command_line(),
         )
-        shown = tuple(self.laws[key] for key in self.comparisons)
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
-            save(curve_figure(self.curve, self.fit, shown), aside / "curve.png")
+            save(curve_figure(self.curve, self.fit, self.drawn), aside / "curve.png")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
