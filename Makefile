@@ -1,7 +1,8 @@
 # Everything a checkout can do, on a machine with Python (3.11 or later), pip and make.
 #
 #   make demo               press two rough surfaces: tables, files and pictures in out/demo/
-#   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm")
+#   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm";
+#                           of what bodies: ARGS="--materials steel,aluminium")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
@@ -28,7 +29,7 @@ ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,11s/^# *//p' Makefile
+	@sed -n '3,12s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)

@@ -18,6 +18,7 @@ from roughcontact.files.write import write_csv, write_netcdf
 from roughcontact.plot.canvas import curve_figure, save, solution_figure
 
 GRANITE = rc.Solid(young_modulus=60e9, poisson_ratio=0.25)
+ON_GRANITE = "granite on granite (both 60 GPa, Poisson's ratio 0.25)"
 METRES_PER_DEGREE = 6371e3 * math.pi / 180  # of latitude, on a sphere of the Earth's mean radius
 SHOWN = 20  # which of the thirty loads is drawn as a map
 TOLERANCE = 1e-8
@@ -40,9 +41,8 @@ def landscape():
     return rc.Surface(data["elevation"], rc.Grid(data["elevation"].shape, spacing), ("Jacksboro fault",))
 
 
-def demonstrate(name, surface, folder):
+def demonstrate(name, surface, modulus, folder):
     """Press `surface` by rising loads; print, write and draw; return the curve."""
-    modulus = rc.reduced_modulus(GRANITE, GRANITE)
     curve = rc.loading_curve(surface, modulus, tolerance=TOLERANCE)
     solution = rc.press(surface, modulus, force=curve.force[SHOWN], tolerance=TOLERANCE)
     tell(name, surface, curve)
@@ -80,6 +80,9 @@ def power_law(curve):
         return None
     formula = f"k / (E* L) = {law.prefactor:.3f} (F / (E* h L))^{law.exponent:.3f}"
     print(f"power law: {formula}, {law.count} resolved loads, scatter {law.scatter:.3f}")
+    if not law.straight:
+        low, high = law.ends
+        print(f"but no single one: its exponent goes from {low:.2f} to {high:.2f} over these loads")
     return law
 
 
@@ -100,12 +103,34 @@ def measured(file, unit, size):
     return surface
 
 
+def bodies(materials):
+    """Return the reduced modulus of two materials by name, of granite without names; say which it is."""
+    if materials is None:
+        modulus, words = rc.reduced_modulus(GRANITE, GRANITE), ON_GRANITE
+    else:
+        names = materials.split(",")
+        if len(names) != 2:
+            sys.exit(f"Error: --materials: name both bodies, such as steel,aluminium, not {materials!r}")
+        try:
+            first, second = (rc.handbook(name.strip()) for name in names)
+        except ValueError as error:
+            sys.exit(f"Error: --materials: {error}")
+        modulus = rc.reduced_modulus(first.solid, second.solid)
+        words = f"{first.name} ({first.grade}) on {second.name} ({second.grade})"
+    other = " (--materials steel,aluminium for others)" if materials is None else ""
+    print(f"Pressed with the reduced modulus E* = {modulus / 1e9:.4g} GPa of {words}{other}")
+    return modulus
+
+
 def main():
     """Press the two surfaces of the demonstration, or the user's."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--file", type=Path, help="a measured surface to press instead")
     parser.add_argument("--unit", help="unit of its heights, where the file has none, such as um")
     parser.add_argument("--size", help="its width, where the file has none, such as 1mm")
+    parser.add_argument(
+        "--materials", help="both bodies, such as steel,aluminium (default: granite on granite)"
+    )
     parser.add_argument("--out", type=Path, default=Path("out/demo"), help="folder for files and pictures")
     given = parser.parse_args()
     if given.file:
@@ -114,8 +139,9 @@ def main():
     else:
         cases = {"fractal": fractal(), "landscape": landscape().levelled("plane")}
         out = given.out
+    modulus = bodies(given.materials)
     with output_folder(out) as folder:
-        curves = [demonstrate(name, surface, folder) for name, surface in cases.items()]
+        curves = [demonstrate(name, surface, modulus, folder) for name, surface in cases.items()]
     loads, resolved = sum(map(len, curves)), sum(int(curve.resolved.sum()) for curve in curves)
     answers = loads + len(curves)  # and a map of each
     if max(curve.residual.max() for curve in curves) > TOLERANCE:

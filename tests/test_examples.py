@@ -116,10 +116,26 @@ def test_the_demo_takes_a_file_of_the_user(tmp_path):
     answer = demo(tmp_path, *words, "--unit", "nm", "--size", "1um")
     assert answer.returncode == 0, answer.stderr
     assert "surface: 24 x 48 cells" in answer.stdout
+    # 60 GPa over 2 (1 - 0.25^2)
+    assert answer.stdout.startswith("Pressed with the reduced modulus E* = 32 GPa of granite on granite")
     assert (tmp_path / "out" / "part" / "surface_curve.png").is_file()
     # White noise is no surface: a note, and no lines of code.
     assert answer.stderr.startswith("Note: part.npy: ")
     assert answer.stderr.count("\n") == answer.stderr.count("Note: ")
+
+
+def test_the_demo_takes_bodies_by_name(tmp_path):
+    np.save(tmp_path / "part.npy", np.random.default_rng(1).random((8, 8)))
+    words = ("--file", "part.npy", "--out", "out", "--unit", "nm", "--size", "1um", "--materials")
+    answer = demo(tmp_path, *words, "steel,aluminium")
+    assert "E* = 57.47 GPa of steel (AISI 1045, cold drawn) on aluminium (6061-T6)" in answer.stdout
+    for names, complaint in (
+        ("steel", "name both bodies"),
+        ("steel,cheese", "there is no material named 'cheese'"),
+    ):
+        refused = demo(tmp_path, *words, names)
+        assert refused.returncode == 1
+        assert refused.stderr.splitlines()[-1].startswith(f"Error: --materials: {complaint}")
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])

@@ -21,6 +21,7 @@ ORDER = [
     {"arrays"},
     {"transforms"},
     {"grid", "material"},
+    {"materials"},
     {"surface"},
     {"halfspace"},
     {"labels"},

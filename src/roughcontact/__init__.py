@@ -61,6 +61,7 @@ if TYPE_CHECKING or _LATE is None:
         reduced_modulus as reduced_modulus,
         reduced_shear_modulus as reduced_shear_modulus,
     )
+    from roughcontact.materials import Material as Material, handbook as handbook
     from roughcontact.mdr.foundation import foundation as foundation
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
     from roughcontact.solver.control import Depth as Depth, Force as Force, Status as Status

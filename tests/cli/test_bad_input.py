@@ -115,7 +115,7 @@ PRESS_OPTIONS = {
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
     "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
     "negative modulus": (changed(modulus="-1GPa"), "modulus must be positive"),
-    "no modulus": (changed(modulus=None), "--modulus or --young"),
+    "no modulus": (changed(modulus=None), "--modulus or --materials or --young"),
     "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
     "half a body": (changed(modulus=None, young="1GPa"), "--poisson is missing"),
     "half of the other body": (

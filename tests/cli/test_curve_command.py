@@ -8,6 +8,7 @@ import xarray
 
 import roughcontact as rc
 from roughcontact.cli.report import quantity
+from roughcontact.plot import canvas
 from roughcontact.theory.waves import Waves
 
 MODULUS = ("--modulus", "110GPa")
@@ -41,6 +42,9 @@ def test_the_power_law_is_that_of_the_curve(invoke, tmp_path):
         "scatter": law.scatter,
         "window": list(law.window),
         "count": law.count,
+        "bend": law.bend,
+        "bend_error": law.bend_error,
+        "straight": law.straight,
     }
     assert f"(F/(E* L h))^{law.exponent:.4f}" in invoke(*words).stdout
 
@@ -202,9 +206,10 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
         (("--theory", ","), "each theory once"),
         (("--hurst", "0.8"), "--hurst is for theories"),
         (("--theory", "hertz"), "by --radius"),
-        (("--theory", "power-law", "--hurst", "5"), "hurst"),
+        (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
-        (("--theory", "cgp", "--periodic"), "cgp is about a body"),
+        (("--theory", "cmy"), "by --hardness"),
+        (("--hardness", "1GPa", "--conductivity", "steel"), "plastic cells conduct"),
     ],
 )
 def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
@@ -290,3 +295,68 @@ def test_units_that_are_none_are_refused_before_the_work(invoke, rough, option, 
     assert answer.exit_code == 2
     assert message in answer.stderr
     assert "Pressing" not in answer.stderr
+
+
+def test_a_theory_that_does_not_apply_is_left_out_and_the_curve_is_kept(invoke, rough, tmp_path):
+    folder = tmp_path / "result"
+    words = (
+        "curve",
+        rough,
+        *FORCES,
+        *MODULUS,
+        "--level",
+        "mean",
+        "--periodic",
+        "--theory",
+        "cgp,persson,rough-sphere",
+    )
+    words = (*words, "--radius", "1mm", "--hurst", "2.5")
+    answer = invoke(*words, "--out", folder)
+    assert answer.exit_code == 0
+    notes = [line for line in answer.stderr.splitlines() if "is left out" in line]
+    assert len(notes) == 2
+    assert notes[0].startswith("Note: theory cgp is left out: cgp is about a body that sinks in as a whole")
+    assert "Persson" in answer.stdout
+    record = json.loads((folder / "curve.json").read_text(encoding="utf-8"))
+    assert set(record["theories"]) == {"persson"}
+    assert set(record["theories_left_out"]) == {"cgp", "rough-sphere"}
+
+
+def test_local_exponents_stand_beside_those_of_theories(invoke, rough, surface):
+    words = ("curve", rough, "--forces", "0.1N:2N:24", *MODULUS, "--level", "none", "--theory", "persson")
+    record = json.loads(invoke(*words, "--json").stdout)
+    curve = rc.loading_curve(surface, 110e9, forces=np.geomspace(0.1, 2, 24))
+    found = curve.local_exponents()
+    assert [each["exponent"] for each in record["local_exponents"]] == [each.exponent for each in found]
+    assert found  # so that the lines below are about something
+    text = invoke(*words).stdout
+    assert f"{found[0].exponent:.3f} +- {found[0].error:.3f} from" in text
+    assert "; Persson " in text
+
+
+def test_no_stiffness_of_flowing_spots_is_drawn_beside_that_of_a_plastic_curve(
+    invoke, rough, tmp_path, monkeypatch
+):
+    drawn = []
+
+    def figure(curve, fit, laws):
+        drawn.extend(laws)
+        return canvas.Figure()
+
+    monkeypatch.setattr(canvas, "curve_figure", figure)
+    words = (
+        "curve",
+        rough,
+        *FORCES,
+        *MODULUS,
+        "--level",
+        "none",
+        "--hardness",
+        "steel",
+        "--theory",
+        "cmy,mikic",
+    )
+    assert invoke(*words, "--out", tmp_path / "result").exit_code == 0
+    plastic, elastic = drawn
+    assert set(plastic.quantities) == {"contact_area"}
+    assert "stiffness" in elastic.quantities

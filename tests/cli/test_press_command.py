@@ -233,3 +233,47 @@ def test_a_hardness(invoke, rough):
     assert any("they are plastic" in note for note in soft["notes"])
     for bad in ("--hardness=-1GPa", "--hardness=2N"):
         assert invoke(*words, bad).exit_code == 2
+
+
+def test_bodies_can_be_named(invoke, rough, surface):
+    answer = invoke("press", rough, *FORCE, "--materials", "steel, Aluminium", "--level", "none", "--json")
+    steel, aluminium = rc.handbook("steel"), rc.handbook("aluminium")
+    assert json.loads(answer.stdout)["modulus"] == rc.reduced_modulus(steel.solid, aluminium.solid)
+    assert "steel is AISI 1045" in answer.stderr  # it says which steel, and who says so
+    assert "ASM" in answer.stderr
+    rigid = invoke("press", rough, *FORCE, "--materials", "rigid,copper", "--level", "none", "--json")
+    assert json.loads(rigid.stdout)["modulus"] == rc.reduced_modulus(rc.handbook("copper").solid)
+
+
+def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
+    given = ("press", rough, "--force", "1N", "--materials", "steel,aluminium", "--level", "none", "--json")
+    record = json.loads(invoke(*given, "--hardness", "aluminium").stdout)
+    assert record["largest_pressure"] == pytest.approx(rc.handbook("aluminium").hardness)
+    assert json.loads(invoke(*given).stdout)["largest_pressure"] > record["largest_pressure"]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (("--materials", "steel"), "name both bodies, such as steel,aluminium or steel,steel"),
+        (("--materials", "steel,aluminium,copper"), "name both bodies"),
+        (("--materials", "steel,cheese"), "no material named 'cheese'; there are steel"),
+        (("--materials", "steel,110GPa"), "'110GPa' is no name"),
+        (("--materials", "rigid,rigid"), "one of the two bodies must be elastic"),
+        (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
+        (("--materials", "steel,steel", "--poisson", "0.3"), "--materials is about the pair: leave out"),
+        (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam: write 110GPa"),
+        (("--young", "210", "--poisson", "0.3"), "--young: 210 without a unit"),
+        (("--modulus", "1GPa", "--hardness", "2"), "--hardness: 2 without a unit"),
+    ],
+)
+def test_bodies_that_make_no_sense_are_asked_about(invoke, rough, given, message):
+    answer = invoke("press", rough, *FORCE, *given)
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+
+
+def test_a_soft_body_is_pressed_if_its_unit_is_given(invoke, rough):
+    """And a bare number of pascals from a megapascal on."""
+    for modulus in ("110Pa", "110 kPa", "1e6"):
+        assert invoke("press", rough, "--depth", "10nm", "--modulus", modulus).exit_code == 0

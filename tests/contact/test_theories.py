@@ -29,7 +29,7 @@ def curve(wide):
     return rc.loading_curve(wide, MODULUS, pressures=np.geomspace(3e7, 3e9, 8))
 
 
-@pytest.mark.parametrize("name", ["persson", "gw", "bgt"])
+@pytest.mark.parametrize("name", ["persson", "gw", "bgt", "mikic"])
 def test_theories_of_a_nominally_flat_surface(wide, curve, name):
     """They are no identities. A lost factor of two, or of pi, would show: ln 2 = 0.69."""
     comparison = curve.compare(rc.loading_laws(wide, MODULUS, name)[0])
@@ -113,3 +113,49 @@ def test_perssons_pressures_stand_beside_the_computed_ones(wide, curve):
     cone = rc.press(rc.RadialProfile(-grid.radii, grid), MODULUS, force=1.0)
     with pytest.raises(ValueError, match="two axes"):
         persson_pressures(cone)
+
+
+def test_a_law_of_another_contact_is_refused_unless_told_otherwise(wide, curve):
+    rough = rc.Surface(2 * wide.heights, wide.grid)
+    large = rc.Surface(wide.heights, rc.Grid(wide.grid.shape, 2e-6, True))
+    for surface, modulus, what in (
+        (rough, MODULUS, f"rms height is {2 * wide.rms:.6g} m, that of the curve {wide.rms:.6g} m"),
+        (large, MODULUS, "nominal area"),
+        (wide, 2 * MODULUS, "reduced modulus"),
+    ):
+        law = rc.loading_laws(surface, modulus, "gw")[0]
+        with pytest.raises(ValueError, match=f"was made for another contact: its {what}"):
+            curve.compare(law)
+        assert curve.compare(law, other_surface=True).predicted["stiffness"][0] > 0
+
+
+def test_a_law_carries_the_contact_it_was_made_for(wide):
+    law = rc.loading_laws(wide, MODULUS, "persson")[0]
+    assert (law.made_for.modulus, law.made_for.area) == (MODULUS, wide.grid.area)
+    assert law.made_for.rms == wide.rms
+    assert law.made_for.spectrum.m0 == pytest.approx(wide.rms**2, rel=1e-12)
+    assert rc.loading_laws(wide, MODULUS, "power-law", hurst=0.8)[0].made_for.spectrum is None
+
+
+def test_a_law_of_flowing_spots_stands_beside_the_area_of_a_plastic_curve(wide, curve):
+    """Where every cell is plastic the area is F/H; the stiffness of a plastic curve leaves those cells out."""
+    hardness = 1e-3 * MODULUS  # E* g/H is 80: all but the rims of spots flow
+    plastic = rc.loading_curve(wide, MODULUS, pressures=[1e6, 3e6], hardness=hardness)
+    law = rc.loading_laws(wide, MODULUS, "cmy", hardness=hardness)[0]
+    comparison = plastic.compare(law)
+    assert set(comparison.predicted) == {"contact_area"}
+    np.testing.assert_array_less(1, 1 / comparison.ratio("contact_area"))  # some cells bear less
+    np.testing.assert_allclose(comparison.ratio("contact_area"), 1, atol=0.1)
+    assert "stiffness" in curve.compare(law).predicted  # of an elastic curve it is that of all cells
+
+
+def test_local_exponents_of_curve_and_law_share_their_windows(wide):
+    curve = rc.loading_curve(wide, MODULUS, pressures=np.geomspace(3e7, 3e9, 24))
+    mikic = curve.compare(rc.loading_laws(wide, MODULUS, "mikic")[0])
+    pairs = mikic.local_exponents("stiffness")
+    assert tuple(each for each, _ in pairs) == curve.local_exponents()
+    assert pairs[0][1].exponent == pytest.approx(0.94, abs=1e-12)
+    assert pairs[-1][1] is None  # there the law has ended
+    assert all(0.5 < each.exponent < 1.5 for each, _ in pairs)
+    with pytest.raises(ValueError, match="a curve has no 'glow'"):
+        curve.local_exponents("glow")

@@ -12,6 +12,7 @@ from roughcontact.theory import (
     greenwood_williamson,
     hertz,
     interaction,
+    joint,
     laws,
     persson,
     pohrt_popov,
@@ -29,6 +30,7 @@ FACTS = {
     "hurst": 0.8,
     "rolloff": 5e-4,
     "radius": 0.5,
+    "hardness": 2e9,
 }
 DIRECT = {
     "persson": persson.law(SPECTRUM, MODULUS, AREA),
@@ -37,6 +39,8 @@ DIRECT = {
     "gw-exponential": greenwood_williamson.law(MOMENTS, MODULUS, AREA, distribution="exponential"),
     "bgt": bush_gibson_thomas.law(MOMENTS, MODULUS, AREA),
     "cgp": interaction.law(MOMENTS, MODULUS, AREA),
+    "mikic": joint.mikic(MOMENTS, MODULUS, AREA),
+    "cmy": joint.cooper_mikic_yovanovich(MOMENTS, 2e9, MODULUS, AREA),
     "power-law": pohrt_popov.law(0.8, 1e-6, LENGTH, MODULUS),
     "hertz": hertz.law(0.5, MODULUS),
     "rough-sphere": rough_sphere.law(0.5, 0.8, 1e-6, LENGTH, MODULUS),

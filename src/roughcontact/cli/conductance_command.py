@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.material_options import parse_bodies
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
-from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY, parse_pair
+from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ __all__ = ["EXAMPLES", "Materials", "conductance", "conduction_facts", "shown_co
 EXAMPLES = """
 roughcontact curve part.x3p --modulus 110GPa --out result
 roughcontact conductance result/curve.nc --resistivity 17nohm*m
+roughcontact conductance result --conductivity steel,aluminium
 roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
 roughcontact conductance result --resistivity 17nohm*m --of total
 """
@@ -40,7 +42,8 @@ class Materials:
 
     PANEL: ClassVar = "The two bodies"
     resistivity: str | None = option(
-        "Electrical resistivity of both bodies, or of one and the other: gives the resistance of the contact.",
+        "Electrical resistivity of both bodies, or of one and the other, as numbers or names of materials such as "
+        "copper,gold: gives the resistance of the contact.",
         "17nohm*m[,...]",
     )
     conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
@@ -57,10 +60,10 @@ class Materials:
         if self.resistivity is None and self.conductivity is None:
             return None
         pairs = [
-            None if text is None else parse_pair(text, kind, option)
-            for text, kind, option in (
-                (self.resistivity, RESISTIVITY, "--resistivity"),
-                (self.conductivity, CONDUCTIVITY, "--conductivity"),
+            None if text is None else parse_bodies(text, kind, name)
+            for text, kind, name in (
+                (self.resistivity, RESISTIVITY, "resistivity"),
+                (self.conductivity, CONDUCTIVITY, "conductivity"),
             )
         ]
         return Conductors(*pairs)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cached import cached_property
 from roughcontact.cli import report
 from roughcontact.cli.conductance_command import conduction_facts, shown_columns
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import is_ours, note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.cli.theory_options import deviations, parameters
+from roughcontact.cli.theory_options import deviations, exponents, parameters
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ class CurveAnswer:
         Whether table and picture are those of a joint, against nominal pressure.
     units : mapping of str to Scale
         Units that were asked for, by column.
+    refused : mapping of str to str
+        Why theories that were asked for do not apply to the surface, by their names.
     """
 
     curve: Curve
@@ -70,6 +73,7 @@ class CurveAnswer:
     of: str
     per_area: bool
     units: Mapping[str, Scale]
+    refused: Mapping[str, str]
 
     @property
     def converged(self) -> bool:
@@ -87,8 +91,35 @@ class CurveAnswer:
 
     @cached_property
     def comparisons(self) -> dict[str, Comparison]:
-        """The curve beside each theory."""
-        return {key: self.curve.compare(law) for key, law in self.laws.items()}
+        """The curve beside each theory that applies."""
+        return self._compared[0]
+
+    @property
+    def drawn(self) -> tuple[LoadingLaw, ...]:
+        """The theories that apply, with what the curve has of them."""
+        return tuple(
+            replace(law, quantities={name: law.quantities[name] for name in self.comparisons[key].predicted})
+            for key, law in self.laws.items()
+            if key in self.comparisons
+        )
+
+    @property
+    def left_out(self) -> dict[str, str]:
+        """Why a theory does not stand beside the curve, by its name."""
+        return {**self.refused, **self._compared[1]}
+
+    @cached_property
+    def _compared(self) -> tuple[dict[str, Comparison], dict[str, str]]:
+        found: dict[str, Comparison] = {}
+        failed: dict[str, str] = {}
+        for key, law in self.laws.items():
+            try:
+                found[key] = self.curve.compare(law)
+            except ValueError as error:
+                if not is_ours(error):
+                    raise
+                failed[key] = str(error)
+        return found, failed
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
@@ -118,7 +149,9 @@ class CurveAnswer:
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
+            "local_exponents": [asdict(each) for each in self.curve.local_exponents()],
             "theory_parameters": dict(self.taken),
+            "theories_left_out": self.left_out,
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
             "tolerance": self.tolerance,
             "converged": self.converged,
@@ -159,12 +192,21 @@ class CurveAnswer:
             columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
-            report.print_facts([*_fit_facts(self.fit, curve), *conducting])
+            local = exponents(curve, self.comparisons)
+            report.print_facts([*_fit_facts(self.fit, curve), *local, *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
+        if self.fit is not None and not self.fit.straight:
+            low, high = self.fit.ends
+            note(
+                f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
+                f"({self.fit.bend:+.2f} +- {self.fit.bend_error:.2f}); quote local exponents with their windows"
+            )
+        for name, why in self.left_out.items():
+            note(f"theory {name} is left out: {why}")
         for line in self.notes:
             note(line)
         if self.per_area and not all(curve.periodic):
@@ -177,7 +219,7 @@ class CurveAnswer:
         """Return the picture: of a joint against pressure, of a patch against force."""
         from roughcontact.plot.canvas import areal_figure, curve_figure
 
-        laws = tuple(self.laws.values())
+        laws = self.drawn
         if self.per_area:
             return areal_figure(self.curve, self.fit, laws, self.units)
         return curve_figure(self.curve, self.fit, laws)
@@ -189,8 +231,16 @@ def _in_unit(column: xarray.DataArray, unit: Scale) -> xarray.DataArray:
 
 
 def _fit_record(law: PowerLaw) -> dict[str, Any]:
-    numbers = {name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter")}
-    return numbers | {"window": [float(end) for end in law.window], "count": int(law.count)}
+    numbers: dict[str, float | None] = {
+        name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter", "bend")
+    }
+    error = float(law.bend_error)
+    numbers["bend_error"] = error if math.isfinite(error) else None
+    return numbers | {
+        "straight": law.straight,
+        "window": [float(end) for end in law.window],
+        "count": int(law.count),
+    }
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:

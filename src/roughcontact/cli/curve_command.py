@@ -13,7 +13,7 @@ from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import note, reported
+from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.report import note_files, quantity, screen
@@ -37,6 +37,7 @@ roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
+roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 """
 
 _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
@@ -84,17 +85,22 @@ def curve(
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
         conductors = materials.conductors()
+        if conductors is not None and hardness is not None:
+            raise UsageError(
+                "under a --hardness plastic cells conduct, but have no part in the stiffness of a curve: leave out "
+                "--hardness, or take rc.conductance of each solution of rc.loading_path"
+            )
         theories.check()
         tolerance = asked.residual
         with output(out) as folder:
             surface = reading.surface()
-            laws, taken = theories.laws(surface, modulus)
+            laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
                 loads = _suggested(surface, modulus, hardness)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness}
             computed, notes = _load(surface, modulus, path, loads.size)
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
-            joint = (materials.of.value, per_area, chosen)
+            joint = (materials.of.value, per_area, chosen, refused)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"

@@ -18,7 +18,7 @@ import typer
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 
-__all__ = ["UsageError", "as_typed", "note", "plain", "reported"]
+__all__ = ["UsageError", "as_typed", "is_ours", "note", "plain", "reported"]
 
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
@@ -62,7 +62,7 @@ def reported(*paths: Path | None) -> Iterator[None]:
         typer.echo("Error: the memory does not suffice: use fewer points, or another machine", err=True)
         raise typer.Exit(BAD_INPUT) from None
     except (ValueError, OSError) as error:
-        if not _is_ours(error):
+        if not is_ours(error):
             raise
         message = _message(error)
         for path in paths:
@@ -95,7 +95,7 @@ def plain(text: str) -> str:
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
-def _is_ours(error: ValueError | OSError) -> bool:
+def is_ours(error: ValueError | OSError) -> bool:
     """Return whether `error` speaks to the user: a file's trouble, or an error that our own code raises.
 
     A ValueError of NumPy or another library, raised inside a call of ours, is a mistake of ours and no

@@ -7,15 +7,11 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.material_options import known_material, modulus_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, option
-from roughcontact.cli.unit_options import (
-    PRESSURE,
-    parse_number,
-    parse_positive,
-    parse_size,
-    parse_tolerance,
-)
+from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
+from roughcontact.materials import MATERIALS
 
 if TYPE_CHECKING:
     from roughcontact.material import Solid
@@ -162,12 +158,17 @@ class Elasticity:
 
     PANEL: ClassVar = "The two bodies"
     modulus: str | None = option("Reduced modulus E*.", "110GPa")
+    materials: str | None = option(
+        f"Both bodies by name, in place of --modulus: {', '.join(MATERIALS)}; or rigid for one of them.",
+        "steel,aluminium",
+    )
     young: str | None = option("Young's modulus, in place of --modulus.", "210GPa")
     poisson: str | None = option("Poisson's ratio.", "0.3")
     young2: str | None = option("Young's modulus of the other body (default: rigid).", "70GPa")
     poisson2: str | None = option("Poisson's ratio of the other.", "0.33")
     hardness: str | None = option(
-        "Largest pressure of a cell: there the softer body is perfectly plastic.", "2GPa"
+        "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
+        "2GPa",
     )
 
     def reduced_modulus(self) -> float:
@@ -176,16 +177,20 @@ class Elasticity:
         Raises
         ------
         UsageError
-            If neither a reduced modulus nor a Young's modulus is given, or both, or half a body.
+            If none of a reduced modulus, two materials and a Young's modulus is given, or several, or half a body.
         """
         import roughcontact as rc
 
-        given = {"modulus": self.modulus, "young": self.young}
-        only_one(given, "the elastic constants, such as --modulus 110GPa")
+        given = {"modulus": self.modulus, "materials": self.materials, "young": self.young}
+        name = only_one(
+            given, "the elastic constants, such as --modulus 110GPa or --materials steel,aluminium"
+        )
+        if name != "young" and any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
+            raise UsageError(f"--{name} is about the pair: leave out --poisson, --young2, --poisson2")
         if self.modulus is not None:
-            if any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
-                raise UsageError("--modulus is that of the pair: leave out --poisson, --young2, --poisson2")
-            return parse_positive(self.modulus, PRESSURE, "--modulus", "the reduced modulus")
+            return parse_modulus(self.modulus, "--modulus", "the reduced modulus")
+        if self.materials is not None:
+            return modulus_of(self.materials)
         first = _solid(self.young, self.poisson, "--young", "--poisson")
         if self.young2 is None and self.poisson2 is None:
             return rc.reduced_modulus(first)
@@ -194,7 +199,11 @@ class Elasticity:
     def yield_pressure(self) -> float | None:
         """Return the hardness [Pa] that was given, if one was."""
         text = self.hardness
-        return None if text is None else parse_positive(text, PRESSURE, "--hardness", "a hardness")
+        if text is None:
+            return None
+        if (material := known_material(text)) is not None:
+            return material.hardness
+        return parse_modulus(text, "--hardness", "a hardness")
 
 
 def only_one(given: dict[str, Any], what: str) -> str:
@@ -221,7 +230,7 @@ def _solid(young: str | None, poisson: str | None, young_option: str, poisson_op
     if young is None or poisson is None:
         missing = poisson_option if poisson is None else young_option
         raise UsageError(f"{young_option} and {poisson_option} belong together: {missing} is missing")
-    modulus = parse_positive(young, PRESSURE, young_option, "Young's modulus")
+    modulus = parse_modulus(young, young_option, "Young's modulus")
     ratio = parse_number(poisson, poisson_option, "0.3")
     if not -1 < ratio <= 0.5:
         raise UsageError(

@@ -33,8 +33,8 @@ __all__ = [
     "parse_band",
     "parse_load",
     "parse_loads",
+    "parse_modulus",
     "parse_number",
-    "parse_pair",
     "parse_points",
     "parse_positive",
     "parse_seed",
@@ -44,6 +44,7 @@ __all__ = [
 ]
 
 _MOST_LOADS = 100_000
+_FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
 
 
 def parse(text: str, kind: Kind, option: str) -> float:
@@ -69,6 +70,24 @@ def parse_positive(text: str, kind: Kind, option: str, what: str) -> float:
     value = parse(text, kind, option)
     if not value > 0:
         raise UsageError(f"{option}: {what} must be positive, not {text!r}")
+    return value
+
+
+def parse_modulus(text: str, option: str, what: str) -> float:
+    """Return a modulus or a hardness above 0 [Pa]; a bare number that is softer than any foam is asked about.
+
+    Raises
+    ------
+    UsageError
+        If it is none, or is below a megapascal and has no unit.
+    """
+    value = parse_positive(text, PRESSURE, option, what)
+    if value < _FOAM and not quantity.has_unit(text):
+        bare = text.strip()
+        raise UsageError(
+            f"{option}: {bare} without a unit is {bare} Pa, softer than foam: write {bare}GPa if gigapascals are "
+            f"meant, or {bare}Pa if it is so"
+        )
     return value
 
 
@@ -104,25 +123,6 @@ def parse_unit(text: str, kind: Kind, option: str) -> float:
         return quantity.parse(f"1 {text}", kind)
     except ValueError as error:
         raise refusal from error
-
-
-def parse_pair(text: str, kind: Kind, option: str) -> tuple[float, float]:
-    """Return a quantity of both bodies in SI, from "17nohm*m,26nohm*m" or one value for both.
-
-    Raises
-    ------
-    UsageError
-        If the text holds none or more than two, or a negative one.
-    """
-    parts = [part for part in text.split(",") if part.strip()]
-    if len(parts) not in (1, 2):
-        raise UsageError(
-            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}"
-        )
-    values = [parse(part, kind, option) for part in parts]
-    if min(values) < 0:
-        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
-    return values[0], values[-1]
 
 
 def parse_band(text: str, option: str) -> tuple[float, float]:

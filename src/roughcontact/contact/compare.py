@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.labels.labelled import plain_values
+from roughcontact.statistics.local_exponent import LocalExponent, exponent_within, local_exponents
 
 if TYPE_CHECKING:
     import xarray
@@ -118,6 +119,27 @@ class Comparison:
         """
         ratio = self.ratio(quantity)
         return np.asarray(self.resolved & np.isfinite(ratio) & (ratio > 0))
+
+    def local_exponents(self, quantity: str) -> list[tuple[LocalExponent, LocalExponent | None]]:
+        """Return the local exponents of the curve, and those of the theory in the same windows.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a quantity that both have, such as ``"stiffness"``.
+
+        Returns
+        -------
+        list of tuple
+            Computed and predicted exponents, window by window; None where the theory holds at fewer than four loads.
+        """
+        values = self.computed[quantity]
+        shown = self.resolved & np.isfinite(values) & (values > 0)
+        force, predicted = self.force[shown], self.predicted[quantity][shown]
+        return [
+            (each, exponent_within(force, predicted, each.window))
+            for each in local_exponents(force, values[shown])
+        ]
 
     def words(self) -> str:
         """Return the deviations as a text.

@@ -19,12 +19,15 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CURVE_POINTS, unit_of
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
+from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Mask, number
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughcontact.theory.law import Basis
 
 __all__ = ["Curve", "collect"]
 
@@ -200,7 +203,34 @@ class Curve:
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
         )
 
-    def compare(self, theory: Law, quantities: Sequence[str] | None = None) -> Comparison:
+    def local_exponents(self, quantity: str = "stiffness") -> tuple[LocalExponent, ...]:
+        """Return the exponents d ln y/d ln F of a quantity over windows of half a decade of the resolved forces.
+
+        Parameters
+        ----------
+        quantity : str
+            Of this curve, such as ``"stiffness"``, ``"interfacial_stiffness"`` or ``"contact_area"``.
+
+        Returns
+        -------
+        tuple of LocalExponent
+            Each with its window, its standard error and the number of its points; empty where fewer than four points
+            are resolved.
+
+        Raises
+        ------
+        ValueError
+            If the curve has no such quantity.
+        """
+        if quantity not in (*CURVE_POINTS, "spots"):
+            raise ValueError(f"a curve has no {quantity!r}; it has {', '.join(CURVE_POINTS)}")
+        values = np.asarray(getattr(self, quantity), dtype=np.float64)
+        shown = self.resolved & np.isfinite(values) & (values > 0)
+        return local_exponents(self.force[shown], values[shown])
+
+    def compare(
+        self, theory: Law, quantities: Sequence[str] | None = None, *, other_surface: bool = False
+    ) -> Comparison:
         """Return what a theory predicts at the loads of this curve, beside what was computed.
 
         Parameters
@@ -208,7 +238,10 @@ class Curve:
         theory : Law
             For example ``rc.theory.persson.law(...)``, or one of `rc.loading_laws`.
         quantities : sequence of str, optional
-            Names of quantities of this curve; by default all that the theory predicts.
+            Names of quantities of this curve; by default all that the theory predicts, but of a theory of spots that
+            flow no stiffness under a hardness, where that of the curve leaves out plastic cells.
+        other_surface : bool
+            Whether a law that was made for another contact will do.
 
         Returns
         -------
@@ -219,7 +252,7 @@ class Curve:
         ------
         ValueError
             If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
-            is that of a line contact.
+            is that of a line contact, or if the theory was made for another modulus, area or rms height.
         """
         if not hasattr(theory, "quantities"):
             raise ValueError(
@@ -227,9 +260,13 @@ class Curve:
             )
         if self.geometry is Geometry.LINE:
             raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
+        basis = getattr(theory, "made_for", None)  # laws of the user's own need not say
+        if basis is not None and not other_surface:
+            self._require_alike(theory.name, basis)
         names = list(theory.quantities if quantities is None else quantities)
         if quantities is None:
-            names = [name for name in names if hasattr(self, name)]
+            hidden = self.hardness < math.inf and getattr(theory, "plastic", False)
+            names = [name for name in names if hasattr(self, name) and not (hidden and "stiffness" in name)]
         for name in names:
             if not hasattr(self, name):
                 raise ValueError(f"a curve has no {name!r}; {theory.name} gives {sorted(theory.quantities)}")
@@ -249,6 +286,21 @@ class Curve:
             return self.resolved
         span = self.force[light].max() / self.force[light].min()
         return light if span >= DECADE else self.resolved
+
+    def _require_alike(self, name: str, basis: Basis) -> None:
+        """Refuse a law that was made for another contact than that of this curve."""
+        pairs = {
+            "reduced modulus": (basis.modulus, self.modulus, "Pa"),
+            "nominal area": (basis.area, self.nominal_area, "m^2"),
+            "rms height": (basis.rms, self.rms, "m"),
+        }
+        for what, (theirs, ours, unit) in pairs.items():
+            if not math.isclose(theirs, ours, rel_tol=ROUNDING):
+                raise ValueError(
+                    f"the law of {name} was made for another contact: its {what} is {theirs:.6g} {unit}, that of the "
+                    f"curve {ours:.6g} {unit}; make it by loading_laws from the surface that was pressed, or "
+                    "compare with other_surface=True"
+                )
 
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""

@@ -20,7 +20,7 @@ from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
 from roughcontact.theory import interaction, laws, persson
-from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.law import Basis, LoadingLaw
 from roughcontact.theory.waves import Waves
 
 __all__ = ["facts_for", "loading_laws", "persson_pressures"]
@@ -43,13 +43,14 @@ def loading_laws(
         Of `roughcontact.theory.laws.LAWS`: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
     **knowns : dict
         What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
-        ``radius``, see `roughcontact.theory.laws.SurfaceFacts`.
+        ``radius``, ``hardness``, see `roughcontact.theory.laws.SurfaceFacts`.
 
     Returns
     -------
     list of LoadingLaw
-        In the order of the names. A theory of the interface alone gets the stiffness against the approach as
-        well: on a periodic grid the same, on a free one with the compliance of the body under its nominal area.
+        In the order of the names, each with the contact it was `made_for`. A theory of the interface alone gets the
+        stiffness against the approach as well: on a periodic grid the same, on a free one with the compliance of the
+        body under its nominal area.
 
     Raises
     ------
@@ -79,7 +80,9 @@ def loading_laws(
     if "cgp" in wanted and all(surface.grid.periodic):
         raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
     known = {"modulus": value, "area": surface.grid.area} | facts_for(surface, wanted, **knowns)
-    return _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
+    found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
+    basis = Basis(value, surface.grid.area, surface.rms, known.get("spectrum"))
+    return [replace(law, made_for=basis) for law in found]
 
 
 def facts_for(surface: Surface, names: Sequence[str], **knowns: Any) -> dict[str, Any]:

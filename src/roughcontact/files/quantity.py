@@ -16,6 +16,7 @@ __all__ = [
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
     "Kind",
+    "has_unit",
     "parse",
     "parse_number",
 ]
@@ -70,6 +71,12 @@ def parse(text: str, kind: Kind) -> float:
             f"{text!r} is beyond anything of this world: check its exponent and unit; {expected}"
         )
     return value
+
+
+def has_unit(text: str) -> bool:
+    """Return whether anything stands behind the number in a text."""
+    match = _NUMBER.fullmatch(text)
+    return match is None or bool(match[2])
 
 
 def parse_number(text: str, example: str) -> float:

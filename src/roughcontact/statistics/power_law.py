@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import stdtrit
 
 from roughcontact.validation import Array, numeric, require
 
 __all__ = ["FORCE_LIMIT", "ROUNDING", "PowerLaw", "fit_power_law"]
 
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
+# Change of the exponent from one end of the window to the other. The exponents 1/(1 + H) of surfaces with H = 0.5 and
+# 0.8 differ by 0.11: a curve that bends by as much has no exponent that tells one surface from another.
+BEND = 0.1
+CHANCE = 0.00135  # of a bend as large in each direction without one: three standard errors of many points
 ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
 
 
@@ -30,6 +36,9 @@ class PowerLaw:
         Number of points.
     force_scale, stiffness_scale : float
         E* h L [N] and E* L [N/m].
+    bend, bend_error : float
+        Change of the exponent from the lowest force of the window to the highest, by the parabola through the
+        logarithms, and its standard error; infinite of three points.
     """
 
     exponent: float
@@ -39,6 +48,26 @@ class PowerLaw:
     count: int
     force_scale: float
     stiffness_scale: float
+    bend: float = 0.0
+    bend_error: float = math.inf
+
+    @property
+    def straight(self) -> bool:
+        """Whether it is a power law as far as the points say: the exponent changes by less than 0.1, or by chance."""
+        if self.count < 4:
+            return True
+        sure = (
+            -float(stdtrit(self.count - 3, CHANCE)) * self.bend_error
+        )  # by Student: few points deviate by more
+        return abs(self.bend) <= max(BEND, sure)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The local exponents at the lowest and at the highest force of the window, by the parabola.
+
+        Exact for points evenly spaced in the logarithm, whose slope on the mean is that of the middle.
+        """
+        return self.exponent - self.bend / 2, self.exponent + self.bend / 2
 
     @numeric
     def stiffness(self, force: float | Array) -> Array:
@@ -70,6 +99,7 @@ def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_
     x, y = np.log(force / force_scale), np.log(stiffness / stiffness_scale)
     slope, offset = np.polyfit(x, y, 1)
     rest = y - (slope * x + offset)
+    bend, bend_error = _bend(x, y)
     return PowerLaw(
         float(slope),
         float(np.exp(offset)),
@@ -78,4 +108,20 @@ def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_
         len(force),
         force_scale,
         stiffness_scale,
+        bend,
+        bend_error,
     )
+
+
+def _bend(x: Array, y: Array) -> tuple[float, float]:
+    """Return by how much the slope of the parabola through points changes over them, and its standard error."""
+    width = float(np.ptp(x))
+    if len(x) < 4 or width == 0:
+        return 0.0, math.inf
+    powers = np.vander((x - x.mean()) / width, 3)
+    factors, _, rank, _ = np.linalg.lstsq(powers, y)
+    if rank < 3:
+        return 0.0, math.inf  # two forces, however often
+    rest = y - powers @ factors
+    variance = float(rest @ rest) / (len(x) - 3) * np.linalg.inv(powers.T @ powers)[0, 0]
+    return float(2 * factors[0] / width), float(2 * math.sqrt(variance) / width)

@@ -6,12 +6,35 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from roughcontact.validation import Array, number
 
-__all__ = ["LoadingLaw", "composed", "over_area"]
+__all__ = ["Basis", "LoadingLaw", "composed", "over_area"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Basis:
+    """The contact that a law was made for.
+
+    Parameters
+    ----------
+    modulus : float
+        Reduced modulus E* [Pa].
+    area : float
+        Nominal area [m^2].
+    rms : float
+        Root mean square of the heights [m].
+    spectrum : Waves, measured or continuous spectrum, optional
+        That the law took from the surface; None if it needs none.
+    """
+
+    modulus: float
+    area: float
+    rms: float
+    spectrum: Any = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,12 +53,19 @@ class LoadingLaw:
         a function of an array of forces [N] that returns an array of its shape.
     domain : tuple of float
         Lowest and highest force [N] at which the theory claims to hold.
+    made_for : Basis, optional
+        The contact it was made for, as `roughcontact.loading_laws` knows it: the curve of another is not compared with
+        it unless that is asked for.
+    plastic : bool
+        Whether its stiffness counts spots that have yielded, which that of a curve under a hardness leaves out.
     """
 
     name: str
     source: str
     quantities: Mapping[str, Callable[[Array], Array]]
     domain: tuple[float, float] = (0.0, math.inf)
+    made_for: Basis | None = None
+    plastic: bool = False
 
     def predict(self, quantity: str, force: float | Array) -> Array:
         """Return a quantity at the forces [N]; NaN outside the domain.

@@ -15,6 +15,7 @@ from roughcontact.theory import (
     greenwood_williamson,
     hertz,
     interaction,
+    joint,
     persson,
     pohrt_popov,
     rough_sphere,
@@ -51,6 +52,8 @@ class SurfaceFacts:
         Length of the longest waves [m]; by default `length`.
     radius : float, optional
         Radius of curvature of the surface at large [m].
+    hardness : float, optional
+        Indentation hardness of the softer body [Pa].
     """
 
     modulus: float | None = None
@@ -62,6 +65,7 @@ class SurfaceFacts:
     hurst: float | None = None
     rolloff: float | None = None
     radius: float | None = None
+    hardness: float | None = None
 
     def completed(self) -> SurfaceFacts:
         """Return the facts with the defaults that follow from others.
@@ -138,6 +142,12 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
             "asperities on a body that yields as a whole (Ciavarella, Greenwood and Paggi)",
             _NOMINALLY_FLAT,
             interaction.law,
+        ),
+        "mikic": NamedLaw("elastic spots of a nominally flat joint (Mikic)", _NOMINALLY_FLAT, joint.mikic),
+        "cmy": NamedLaw(
+            "spots of a nominally flat joint that flow (Cooper, Mikic and Yovanovich)",
+            ("moments", "hardness", "modulus", "area"),
+            joint.cooper_mikic_yovanovich,
         ),
         "power-law": NamedLaw(
             "self-affine up to its own size (Pohrt and Popov)",

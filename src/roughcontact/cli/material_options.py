@@ -1,0 +1,90 @@
+"""Materials by name, where an option takes a number."""
+
+from __future__ import annotations
+
+import math
+
+from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.unit_options import Kind, parse
+from roughcontact.material import Solid, reduced_modulus
+from roughcontact.materials import Material, handbook
+
+__all__ = ["known_material", "modulus_of", "parse_bodies"]
+
+_RIGID = "rigid"
+
+
+def known_material(text: str) -> Material | None:
+    """Return the material that a text names; None where it is a number.
+
+    Raises
+    ------
+    UsageError
+        If the text is neither.
+    """
+    word = text.strip()
+    if not word[:1].isalpha():
+        return None
+    try:
+        return handbook(word.lower())
+    except ValueError as error:
+        raise UsageError(str(error)) from error
+
+
+def modulus_of(text: str) -> float:
+    """Return the reduced modulus [Pa] of two materials, "steel,aluminium"; say on standard error what they are.
+
+    Raises
+    ------
+    UsageError
+        If the text does not name two bodies, or names two rigid ones.
+    """
+    names = [part.strip() for part in text.split(",")]
+    if len(names) != 2 or not all(names):
+        raise UsageError(
+            f"--materials: name both bodies, such as steel,aluminium or steel,steel or steel,rigid, not {text!r}"
+        )
+    solids = []
+    for name in names:
+        if name.lower() == _RIGID:
+            solids.append(Solid(math.inf, 0.0))
+            continue
+        material = known_material(name)
+        if material is None:
+            raise UsageError(
+                f"--materials: {name!r} is no name; for a number of yours take --young or --modulus"
+            )
+        solids.append(material.solid)
+        solid = material.solid
+        note(
+            f"{material.name} is {material.grade}: E {solid.young_modulus / 1e9:.4g} GPa, "
+            f"nu {solid.poisson_ratio:g} ({material.sources['solid']})"
+        )
+    if all(math.isinf(solid.young_modulus) for solid in solids):
+        raise UsageError("--materials: one of the two bodies must be elastic, such as steel,rigid")
+    return reduced_modulus(*solids)
+
+
+def parse_bodies(text: str, kind: Kind, name: str) -> tuple[float, float]:
+    """Return a quantity of both bodies in SI: numbers with units or names of materials, or one for both.
+
+    The `name` is that of the option, and of the property of a material: resistivity or conductivity.
+
+    Raises
+    ------
+    UsageError
+        If the text holds none or more than two, or a negative one.
+    """
+    option, parts = f"--{name}", [part for part in text.split(",") if part.strip()]
+    if len(parts) not in (1, 2):
+        raise UsageError(
+            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}, or names of "
+            "materials, such as steel,aluminium"
+        )
+    values = []
+    for part in parts:
+        material = known_material(part)
+        values.append(parse(part, kind, option) if material is None else getattr(material, name))
+    if min(values) < 0:
+        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
+    return values[0], values[-1]

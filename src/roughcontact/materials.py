@@ -1,0 +1,133 @@
+"""Metals by name: what handbooks say of them at room temperature, and which handbook."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from roughcontact.material import Solid
+from roughcontact.validation import require
+
+__all__ = ["MATERIALS", "Material", "handbook"]
+
+_VICKERS = 9.80665e6  # Pa: a Vickers number is a force over the faces of the indentation, in kgf/mm^2
+_ASM = "ASM Material Data Sheets (ASM International, MatWeb)"
+_MODULI = "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995), section 2.2.2"
+_CRC = "CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 12"
+_SAMSONOV = "Samsonov (ed.), Handbook of the Physicochemical Properties of the Elements (1968)"
+_ALIASES = {"aluminum": "aluminium"}
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """A metal of a handbook, at room temperature.
+
+    Parameters
+    ----------
+    name : str
+        By which it is asked for.
+    grade : str
+        Which alloy and state the values belong to.
+    solid : Solid
+        Young's modulus [Pa] and Poisson's ratio.
+    hardness : float
+        Vickers hardness [Pa]: 9.807 MPa times the number in kgf/mm^2.
+    conductivity : float
+        Thermal conductivity [W/(m K)].
+    resistivity : float
+        Electrical resistivity [ohm m].
+    sources : mapping of str to str
+        Where each value comes from, by the name of its field.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.handbook("gold").conductivity
+    317.0
+    """
+
+    name: str
+    grade: str
+    solid: Solid
+    hardness: float
+    conductivity: float
+    resistivity: float
+    sources: Mapping[str, str]
+
+
+def _alloy(
+    name: str, grade: str, solid: Solid, vickers: float, conductivity: float, resistivity: float
+) -> Material:
+    """Return an alloy, all from one data sheet."""
+    sources = dict.fromkeys(("solid", "hardness", "conductivity", "resistivity"), f"{_ASM}: {grade}")
+    return Material(
+        name, grade, solid, vickers * _VICKERS, conductivity, resistivity, MappingProxyType(sources)
+    )
+
+
+def _element(name: str, solid: Solid, hardness: float, conductivity: float, resistivity: float) -> Material:
+    """Return a pure metal."""
+    sources = {
+        "solid": _MODULI,
+        "hardness": _SAMSONOV,
+        "conductivity": f"{_CRC}: thermal conductivity of metals, 300 K",
+        "resistivity": f"{_CRC}: electrical resistivity of pure metals, 293 K",
+    }
+    grade = "pure, polycrystalline"
+    return Material(name, grade, solid, hardness, conductivity, resistivity, MappingProxyType(sources))
+
+
+# Young's modulus, Poisson's ratio; Vickers number (of an element: hardness in Pa); W/(m K); ohm m.
+_ALL = (
+    _alloy("steel", "AISI 1045, cold drawn", Solid(205e9, 0.29), 188, 49.8, 162e-9),
+    _alloy("stainless-steel", "AISI 304, annealed", Solid(193e9, 0.29), 129, 16.2, 720e-9),
+    _alloy("aluminium", "6061-T6", Solid(68.9e9, 0.33), 107, 167.0, 39.9e-9),
+    _alloy("titanium", "Ti-6Al-4V, annealed", Solid(113.8e9, 0.342), 349, 6.7, 1780e-9),
+    _element("copper", Solid(129.8e9, 0.343), 369e6, 401.0, 16.78e-9),
+    _element("silver", Solid(82.7e9, 0.367), 251e6, 429.0, 15.87e-9),
+    _element("gold", Solid(78.0e9, 0.44), 216e6, 317.0, 22.14e-9),
+    _element("nickel", Solid(199.5e9, 0.312), 638e6, 90.7, 69.3e-9),
+    _element("tungsten", Solid(411.0e9, 0.280), 3430e6, 174.0, 52.8e-9),
+)
+MATERIALS: Mapping[str, Material] = MappingProxyType({each.name: each for each in _ALL})
+
+
+def handbook(name: str) -> Material:
+    """Return a metal by its name, with the values of handbooks at room temperature.
+
+    Parameters
+    ----------
+    name : str
+        One of ``"steel"``, ``"stainless-steel"``, ``"aluminium"``, ``"titanium"``, ``"copper"``, ``"silver"``,
+        ``"gold"``, ``"nickel"``, ``"tungsten"``.
+
+    Returns
+    -------
+    Material
+        Its `solid`, `hardness`, `conductivity`, `resistivity`, and their `sources`.
+
+    Raises
+    ------
+    ValueError
+        If there is no material of this name.
+
+    Notes
+    -----
+    Moduli hold to a few per cent. Hardness depends on cold work and heat treatment, by a factor of two or more, and
+    at the size of contact spots is often larger; a resistivity depends on impurities. Where an answer depends on one
+    of them, measure it, and give the number.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel, aluminium = rc.handbook("steel"), rc.handbook("aluminium")
+    >>> f"{rc.reduced_modulus(steel.solid, aluminium.solid) / 1e9:.2f} GPa"
+    '57.47 GPa'
+    """
+    key = _ALIASES.get(name, name)
+    require(
+        key in MATERIALS,
+        f"there is no material named {name!r}; there are {', '.join(MATERIALS)}: for another give its numbers",
+    )
+    return MATERIALS[key]
