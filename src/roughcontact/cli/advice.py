@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -94,8 +93,7 @@ def _cells(surface: Surface) -> Iterator[str]:
             "measure more points, or read another --channel"
         )
     if surface.missing:
-        share = surface.missing / surface.grid.size
         yield (
-            f"missing points: {math.ceil(1000 * share) / 10:g} %, which contact leaves out: "
+            f"missing points: {surface.missing / surface.grid.size:.2%}, which contact leaves out: "
             "--fill for spectra and filters, or --crop"
         )

@@ -40,9 +40,9 @@ class Wishes:
         "2. Spikes, clusters of a few cells far out of all around them: to missing points, or filled smoothly."
     )
     mask: list[str] | None = option(
-        "3. Take a region out, to missing points: a box or an ellipse of rows,columns, before levelling; heights "
-        "above or below a limit, after 5. With outside- in front all but the region. May be given again.",
-        "box=0:99,10:50|ellipse=0:99,10:50|above=3um",
+        "3. Take a region out, to missing points: box= or ellipse= of rows,columns; after 5. heights beyond above=3um "
+        "or below=-3um. outside- in front takes out all but the region. May be given again.",
+        "box=0:99,10:50",
     )
     level: Trend = option(
         "4. Remove the mean height, or a least-squares plane or quadratic.", default=Trend.NONE

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
-from roughcontact.cli.advice import advice
 from roughcontact.cli.messages import as_typed, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import surface_facts, surface_record, tell
@@ -40,6 +39,7 @@ def info(source: options.Source, *, json: bool = options.JSON) -> None:
     """
     file = source.file
     with reported(file):
+        from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
         channels = _channels(file)
