@@ -123,6 +123,7 @@ if TYPE_CHECKING or _LATE is None:
         SelfAffineSpectrum as SelfAffineSpectrum,
         StretchedSpectrum as StretchedSpectrum,
     )
+    from roughcontact.surface.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.surface import Surface as Surface
 
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]

@@ -294,3 +294,109 @@ def test_spectrum_says_that_a_fit_is_poor_and_why(invoke, tmp_path):
     assert ask("filtered.npz", "--shortest", "3e-05") == []
     (line,) = ask("silent.npz")
     assert line.endswith("the spectrum is no power law; narrow the band by --longest and --shortest")
+
+
+@pytest.fixture
+def spiky(tmp_path):
+    """Return the file of a tilted rough map with two spikes and a step, and the map."""
+    grid = rc.Grid((64, 80), 1e-6)
+    heights = rc.self_affine(grid, 0.8, 1e-7, np.random.default_rng(3)).heights + 5e-8 * np.arange(80)
+    heights[20, 30:32] += 5e-6
+    heights[40, 10] -= 4e-6
+    made = rc.Surface(heights, grid)
+    rc.write(made, tmp_path / "spiky.npz")
+    return tmp_path / "spiky.npz", made
+
+
+def test_prepare_despikes_and_masks_in_its_order(invoke, spiky, tmp_path):
+    path, made = spiky
+    out = tmp_path / "out.npz"
+    answer = invoke(
+        *(
+            "surface",
+            "prepare",
+            path,
+            out,
+            "--level",
+            "plane",
+            "--despike",
+            "filled",
+            "--mask",
+            "above=0.2um",
+        ),
+        *("--mask", "ellipse=0:20,0:30", "--mask", "outside-box=0:60,:", "--crop", ":,:70"),
+    )
+    assert answer.exit_code == 0, answer.stderr
+    assert "'surface prepare --despike'" in answer.stderr
+    assert "Note: despiked: 2 spikes of 3 cells filled in, harmonic" in answer.stderr
+    expected = made.cropped(slice(None), slice(None, 70)).despiked("filled")
+    expected = expected.masked(ellipse=(slice(0, 20), slice(0, 30)))
+    expected = expected.masked(box=(slice(0, 60), slice(None)), outside=True).levelled("plane")
+    expected = expected.masked(above=0.2e-6)
+    found = rc.read(out)
+    np.testing.assert_allclose(found.heights, expected.heights, rtol=0, atol=1e-13 * made.rms)
+    assert [line for line in found.provenance if "mask" in line or "despiked: " in line] == [
+        line for line in expected.provenance if "mask" in line or "despiked: " in line
+    ]
+    again = invoke("surface", "prepare", out, tmp_path / "again.npz", "--despike", "missing")
+    assert "Note: no spikes were found" in again.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("circle=0:5,0:5", "--mask: 'circle=0:5,0:5' is no region"),
+        ("box=1-5,3", "--mask box: '1-5,3' is no part of a map"),
+        ("ellipse=0:5", "has 1 range(s)"),
+        ("above=3N", "--mask above: '3N' is not a length"),
+        ("above=-1m", "leaves no measured point"),
+    ],
+)
+def test_prepare_refuses_what_is_no_mask(invoke, spiky, tmp_path, text, words):
+    answer = invoke("surface", "prepare", spiky[0], tmp_path / "out.npz", "--mask", text)
+    assert (answer.exit_code, words in answer.stderr) == (2, True), answer.stderr
+
+
+@pytest.mark.parametrize("kind", ["missing", "filled"])
+def test_press_and_curve_leave_spikes_out_when_asked(invoke, spiky, kind):
+    path, made = spiky
+    words = ("press", path, "--force", "1mN", "--modulus", "1GPa", "--json")
+    with_spikes, without = invoke(*words), invoke(*words, "--despike", kind)
+    assert "2 spikes of 3 cells" in with_spikes.stderr  # never pressed in silence
+    assert "despiked: 2 spikes of 3 cells" in without.stderr
+    clean = made.despiked(kind).levelled("plane")
+    assert json.loads(without.stdout)["depth"] == rc.press(clean, 1e9, force=1e-3).depth
+    assert json.loads(with_spikes.stdout)["depth"] == rc.press(made.levelled("plane"), 1e9, force=1e-3).depth
+    assert any(line.startswith("despiked: ") for line in json.loads(without.stdout)["surface"])
+
+
+def _suspicions(invoke, surface, path):
+    rc.write(surface, path)
+    record = json.loads(invoke("surface", "info", path, "--json").stdout)
+    table = invoke("surface", "info", path).stdout
+    assert all(line in table for line in record["suspicious"])
+    assert ("these options of 'roughcontact surface prepare'" in table) == bool(record["suspicious"])
+    return record
+
+
+def test_info_says_what_is_suspicious_and_what_mends_it(invoke, spiky, tmp_path):
+    """Each in a map that has it, and gone once the option that is named has been taken."""
+    path, made = tmp_path / "map.npz", spiky[1]
+    plain = made.despiked("filled").without_form(2)
+    assert _suspicions(invoke, plain, path)["suspicious"] == []
+    y, x = np.mgrid[:64, :80]
+    cases = {
+        "spikes: 2 spikes of 3 cells, the largest by 5": (made.heights - 5e-8 * x, "--despike"),
+        "tilt: the plane has an rms height of 1.": (plain.heights + 5e-8 * x, "--level plane"),
+        "form: the quadratic part has an rms height of ": (plain.heights + 5e-10 * (x - 40) ** 2, "--form 2"),
+        "step: ": (plain.heights + 1e-6 * (y > 22), "between rows 22 and 23: --crop 23:64,:"),
+        "missing points: 10": (np.where(x < 8, np.nan, plain.heights), "--fill"),
+    }
+    for start, (heights, option) in cases.items():
+        found = _suspicions(invoke, rc.Surface(heights, plain.grid), path)
+        lines = [line for line in found["suspicious"] if line.startswith(start)]
+        assert len(lines) == 1, (start, found["suspicious"])
+        assert option in lines[0]
+        assert found["spikes"] == (2 if start.startswith("spikes") else 0)
+    few = _suspicions(invoke, plain.cropped(slice(0, 12), slice(0, 40)), path)["suspicious"]
+    assert any(line.startswith("few cells: 12 x 40") for line in few)

@@ -46,9 +46,11 @@ WARNED = {
     "image.nid": "took 'Scan forward (Z-Axis)'",
     "sample_0.jpk-qi-image": "took 'Height (measured)'",
     # Spikes that are in the measurement.
-    "derived_frt2_masked.gwy": "40 lone points stand out",
-    "frt-2.frt": "53 lone points stand out",
-    "sur-2.sur": "12 lone points stand out",
+    "derived_frt2_masked.gwy": "24 points lie more than 100 interquartile ranges",
+    "frt-2.frt": "28 points lie more than 100 interquartile ranges",
+    "sur-2.sur": "18 spikes of 59 cells",
+    "KautschukInfiniteFocus.x3p": "1 spike of 4 cells",
+    "test_1.opd": "2 spikes of 10 cells",
 }
 # A derived file lies as the file it was made from: its corners serve where the manifest has none.
 TWIN = {"derived_di3_nm.npy": "di-3.di", "derived_mi1.mat": "mi-1.mi"}
@@ -144,9 +146,9 @@ def test_another_channel_is_taken_when_named(surfaces):
     surface = rc.read(surfaces / "di-3.di", channel="height")
     np.testing.assert_allclose(surface.rms * 1e9, 264.002853, rtol=1e-6)  # the manifest's second height
     assert "channel 'Height'" in surface.provenance[0]
-    with pytest.warns(SurfaceWarning, match="lone points"):
+    with pytest.warns(SurfaceWarning, match="1 spike of 2 cells"):
         second = rc.read(surfaces / "sample_0.jpk-qi-image", channel="Height (measured)#2")
-    with pytest.warns(SurfaceWarning, match="lone points"):
+    with pytest.warns(SurfaceWarning, match="1 spike of 2 cells"):
         first = rc.read(surfaces / "sample_0.jpk-qi-image", channel=1)
     assert np.array_equal(second.heights, first.heights)
 

@@ -46,12 +46,17 @@ def test_a_single_level_row_is_no_broken_scan(heights):
 
 
 def test_a_lone_point(heights):
-    """One that differs from its neighbours fifteen times more than 99 of 100 do."""
-    steps = np.abs(np.diff(heights)).ravel()
-    common = np.quantile(steps, 0.99)  # above that of the least of four
-    heights[30, 30] += 40 * common
+    heights[30, 30] += 40 * np.quantile(np.abs(np.diff(heights)), 0.99)
     (doubt,) = doubts_about(heights, CELL)
-    assert doubt.startswith("1 lone points stand out")
+    assert doubt.startswith("1 spike of 1 cell, far out of all around; remove what is faulty by despiked()")
+
+
+def test_points_beyond_all_heights(heights):
+    """A patch too large for a spike, where an instrument wrote a number for what it had not seen."""
+    heights[20:30, 20:30] = -3e-5
+    (doubt,) = doubts_about(heights, CELL)
+    assert doubt.startswith("100 points lie more than 100 interquartile ranges from the median height")
+    assert "masked()" in doubt
 
 
 def test_heights_that_no_instrument_sees(heights):

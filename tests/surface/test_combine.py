@@ -142,16 +142,35 @@ def test_missing_points_stay_missing(interpolation):
 def test_two_grids():
     """A rough flat of fine cells and a small coarse ball: on the finer grid, missing where there is no ball."""
     lower, upper = rough(rc.Grid((80, 80), 0.1)), shapes.paraboloid(rc.Grid((20, 20), 0.2), 3.0)
-    both = combined(lower, upper)
+    with pytest.warns(UserWarning, match="4800 of 6400 cells"):
+        both = combined(lower, upper)
     assert both.grid == lower.grid
-    assert combined(upper, lower).grid == lower.grid
+    with pytest.warns(UserWarning, match="of the upper surface"):
+        assert combined(upper, lower).grid == lower.grid
     inside = np.zeros((80, 80), dtype=bool)
     inside[20:60, 20:60] = True
     np.testing.assert_array_equal(both.measured, inside)
     bowl = shapes.paraboloid(rc.Grid((80, 80), 0.1), 3.0)  # of degree two: no cost
     np.testing.assert_allclose(both.heights[inside], (lower + bowl).heights[inside], rtol=0, atol=1e-13)
     named = rc.Grid((16, 16), 0.25)
-    assert combined(lower, upper, grid=named).grid == named
+    with pytest.warns(UserWarning, match="of the lower surface"):
+        assert combined(lower, upper, grid=named).grid == named
+
+
+@pytest.mark.filterwarnings("ignore:combined")
+def test_what_is_lost_is_said():
+    """Of bodies that cover unlike parts of the plane, each loses the cells beyond the other."""
+    wide, high = rough(rc.Grid((30, 60), 0.1)), rough(rc.Grid((50, 40), 0.1))
+    loss = combined(wide, high).provenance[-1]
+    assert loss.startswith(
+        "600 of 1800 cells (34 %) of the lower surface and 800 of 2000 cells (40 %) of the upper"
+    )
+    assert loss.endswith("crop the larger one to choose its part")
+    assert np.count_nonzero(combined(wide, high).measured) == 1200
+    small = rc.Grid((20, 20), 0.1)
+    assert "1400 of 1800" in combined(wide, high, grid=small).provenance[-1]
+    same = combined(wide, wide.flipped("x"))
+    assert same.provenance[-1].startswith("combined with: ")
 
 
 def test_the_cost_to_a_contact():

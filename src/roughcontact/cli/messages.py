@@ -26,6 +26,8 @@ _OPTIONS = (
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
     (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
+    (re.compile(r"\b(despike)d\(\)"), r"'surface prepare --\1'"),
+    (re.compile(r"\b(mask)ed\(\)"), r"'surface prepare --\1'"),
 )
 _RAISE = opmap["RAISE_VARARGS"]
 _PACKAGE = "roughcontact"

@@ -18,12 +18,14 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
+    "DESPIKE",
     "JSON",
     "LEVEL",
     "OUT",
     "OUTPUT",
     "PERIODIC",
     "Answer",
+    "Despike",
     "Elasticity",
     "Levelling",
     "Reading",
@@ -37,6 +39,21 @@ _MAPS_ONLY = (
 )
 
 Levelling = StrEnum("Levelling", ["PLANE", "MEAN", "NONE"])
+
+
+class Despike(StrEnum):
+    """What becomes of the cells of spikes."""
+
+    MISSING = "missing"
+    FILLED = "filled"
+
+    def remove(self, surface: Surface) -> Surface:
+        """Return the surface without its spikes; say on standard error how many there were."""
+        clean = surface.despiked(self.value)
+        note("no spikes were found" if clean is surface else clean.provenance[-1])
+        return clean
+
+
 PERIODIC = option(
     "Whether the surface repeats itself (default: what the file says, else free).",
     None,
@@ -44,6 +61,10 @@ PERIODIC = option(
     rich_help_panel=_READING,
 )
 LEVEL = option("What is removed from the heights (default: a least-squares plane).", rich_help_panel=_READING)
+DESPIKE = option(
+    "Before levelling: the cells of spikes to missing points, or filled smoothly (default: kept).",
+    rich_help_panel=_READING,
+)
 OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
 JSON = option("One JSON object on standard output, in SI units.", default=False, rich_help_panel=_ANSWER)
@@ -124,6 +145,7 @@ class Reading:
     source: Source
     periodic: bool | None = PERIODIC
     level: Levelling | None = LEVEL
+    despike: Despike | None = DESPIKE
 
     def surface(self) -> Surface:
         """Return the surface to press, read and levelled; say on standard error what was decided unasked.
@@ -139,6 +161,8 @@ class Reading:
 
         surface = self.source.map(self.periodic)
         require_memory_for(surface)
+        if self.despike is not None:
+            surface = self.despike.remove(surface)
         level = self.level
         if level is None and self.periodic is None and all(surface.grid.periodic):
             level = Levelling.MEAN

@@ -16,6 +16,7 @@ __all__ = ["EXAMPLES", "prepare"]
 EXAMPLES = """
 roughcontact surface prepare part.x3p flat.npz --level plane --long-cutoff 0.8mm
 roughcontact surface prepare part.x3p small.x3p --crop 100:612,0:512 --fill --downsample 2
+roughcontact surface prepare part.x3p clean.npz --despike filled --mask above=20um
 roughcontact surface prepare rough.npz seen.npz --tip 2um --average 4
 """
 _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the work of a filter
@@ -29,9 +30,9 @@ def prepare(
     periodic: bool | None = options.PERIODIC,
     json: bool = options.JSON,
 ) -> None:
-    """Crop, level, remove form, fill, scan, filter, average, subsample and taper a surface, in this order; save it.
+    """Crop, despike, mask, level, remove form, fill, scan, filter, average, subsample and taper a surface; save it.
 
-    Nothing is done unasked. What is done stands in the file's history. A profile is prepared in the same way.
+    In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
     """
     with reported(source.file, out):
         require_output(out, source.file)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import option
+from roughcontact.cli.options import Despike
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse
 
@@ -35,24 +36,32 @@ class Wishes:
         "1. Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
         "0:512,100:612",
     )
+    despike: Despike | None = option(
+        "2. Spikes, clusters of a few cells far out of all around them: to missing points, or filled smoothly."
+    )
+    mask: list[str] | None = option(
+        "3. Take a region out, to missing points: box= or ellipse= of rows,columns; after 5. heights beyond above=3um "
+        "or below=-3um. outside- in front takes out all but the region. May be given again.",
+        "box=0:99,10:50",
+    )
     level: Trend = option(
-        "2. Remove the mean height, or a least-squares plane or quadratic.", default=Trend.NONE
+        "4. Remove the mean height, or a least-squares plane or quadratic.", default=Trend.NONE
     )
-    form: str | None = option("3. Remove a form: a polynomial's degree, sphere or cylinder.", "2")
-    fill: bool = option("4. Fill missing points smoothly; else they stay missing.", default=False)
-    tip: str | None = option("5. What a tip of this radius records; a large one takes long.", "2um")
-    tip_shape: TipShape | None = option("5. Shape of its end (default: sphere).")
+    form: str | None = option("5. Remove a form: a polynomial's degree, sphere or cylinder.", "2")
+    fill: bool = option("6. Fill missing points smoothly; else they stay missing.", default=False)
+    tip: str | None = option("7. What a tip of this radius records; a large one takes long.", "2um")
+    tip_shape: TipShape | None = option("7. Shape of its end (default: sphere).")
     short_cutoff: str | None = option(
-        "6. Gaussian filter: remove waves shorter than this (S-filter).", "10um"
+        "8. Gaussian filter: remove waves shorter than this (S-filter).", "10um"
     )
-    long_cutoff: str | None = option("6. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
-    average: int | None = option("7. Average over pixels of K x K cells, as a camera does.", "K")
+    long_cutoff: str | None = option("8. Gaussian filter: remove waves longer than this (L-filter).", "1mm")
+    average: int | None = option("9. Average over pixels of K x K cells, as a camera does.", "K")
     downsample: int | None = option(
-        "8. Keep every K-th row and column; shorter waves are filtered out first.", "K"
+        "10. Keep every K-th row and column; shorter waves are filtered out first.", "K"
     )
-    alias: bool = option("8. Subsample without that filter.", default=False)
-    window: WindowShape | None = option("9. Taper the heights about their mean to zero at free edges.")
-    share: float | None = option("9. Part of the length that a Tukey window tapers (default: 0.25).", "0.25")
+    alias: bool = option("10. Subsample without that filter.", default=False)
+    window: WindowShape | None = option("11. Taper the heights about their mean to zero at free edges.")
+    share: float | None = option("11. Part of the length that a Tukey window tapers (default: 0.25).", "0.25")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,10 +80,14 @@ def steps(wishes: Wishes) -> list[Preparation]:
     UsageError
         If an option makes no sense, alone or without another.
     """
+    masks = [_mask(text) for text in wishes.mask or []]
     found = [
         _crop(wishes.crop),
+        _despike(wishes.despike),
+        *(step for step, of_heights in masks if not of_heights),
         _level(wishes.level),
         _form(wishes.form),
+        *(step for step, of_heights in masks if of_heights),
         Preparation("Filling", lambda surface: surface.filled() if surface.missing else surface)
         if wishes.fill
         else None,
@@ -91,10 +104,16 @@ def _crop(text: str | None) -> Preparation | None:
     """Return the cut of ``0:512,100:612``, of a line ``0:512``; an end left open is that of the map."""
     if text is None:
         return None
+    parts = _ranges(text, "--crop")
+    return Preparation("Cropping", lambda surface: surface.cropped(*parts(surface)))
+
+
+def _ranges(text: str, name: str) -> Callable[[Surface], list[slice]]:
+    """Return what makes the ranges of cells that the user wrote those of a surface, with as many axes."""
     matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
     if len(matches) > 2 or not all(matches):
         raise UsageError(
-            f"--crop: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a profile"
+            f"{name}: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a profile"
         )
     parts = [
         slice(*(int(end) if end else None for end in match.groups()))
@@ -102,15 +121,39 @@ def _crop(text: str | None) -> Preparation | None:
         if match is not None
     ]
 
-    def apply(surface: Surface) -> Surface:
+    def of(surface: Surface) -> list[slice]:
         if len(parts) != surface.grid.ndim:
             wanted = (
                 "rows,columns such as 0:512,100:612" if surface.grid.ndim == 2 else "one range such as 0:512"
             )
-            raise UsageError(f"--crop: {text!r} has {len(parts)} range(s); write {wanted}")
-        return surface.cropped(*parts)
+            raise UsageError(f"{name}: {text!r} has {len(parts)} range(s); write {wanted}")
+        return parts
 
-    return Preparation("Cropping", apply)
+    return of
+
+
+def _despike(kind: Despike | None) -> Preparation | None:
+    return None if kind is None else Preparation("Looking for spikes", kind.remove)
+
+
+def _mask(text: str) -> tuple[Preparation, bool]:
+    """Return the mask that the user wrote, and whether it is one of heights."""
+    found = re.fullmatch(r"\s*(outside-)?(box|ellipse|above|below)\s*=(.+)", text)
+    if found is None:
+        raise UsageError(
+            f"--mask: {text!r} is no region; write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um"
+        )
+    outside, kind, value = bool(found[1]), found[2], found[3]
+    if kind in ("above", "below"):
+        ends: dict[str, Any] = {kind: parse(value, LENGTH, f"--mask {kind}")}
+        return Preparation("Masking", lambda surface: surface.masked(**ends, outside=outside)), True
+    parts = _ranges(value, f"--mask {kind}")
+
+    def apply(surface: Surface) -> Surface:
+        region: Any = {kind: parts(surface)}
+        return surface.masked(**region, outside=outside)
+
+    return Preparation("Masking", apply), False
 
 
 def _level(trend: Trend) -> Preparation | None:

@@ -36,14 +36,18 @@ MAKE_EXAMPLES = """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 """
-_BYTES_TO_LOOK = 40  # a point, beside the surface: its levelled twin and the roughness of both
+_BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
 _BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
 
 def info(source: options.Source, *, json: bool = options.JSON) -> None:
-    """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness."""
+    """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness.
+
+    What looks suspicious comes with the option of 'surface prepare' that mends it.
+    """
     file = source.file
     with reported(file):
+        from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
         channels = _channels(file)
@@ -58,8 +62,12 @@ def info(source: options.Source, *, json: bool = options.JSON) -> None:
             )
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        record = {"file": plain(str(file)), "channels": channels} | surface_record(surface)
-        tell(record, [*_channel_facts(channels), *surface_facts(surface, record)], as_json=json)
+        spikes, lines = advice(surface)
+        found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
+        record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
+        facts = [*_channel_facts(channels), *surface_facts(surface, record)]
+        mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
+        tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughcontact.files.heightmap import Array
+from roughcontact.surface.spikes import spikes_in
 
 __all__ = ["IMPOSSIBLE", "doubts_about", "highest"]
 
@@ -14,9 +15,6 @@ _HIGHEST = 1.0  # [m]
 _FLATTEST = 1e-14  # rms height that is no height at all [m]: an atom is ten thousand times as large
 # Beyond any body to be pressed: random bytes read as numbers, not a wrong unit.
 IMPOSSIBLE = 1e9  # [m]
-# A lone point: it differs from each of its neighbours so many times more than 99 of 100 points do. Tidy scans
-# reach 12; scans with spikes, as optical instruments and hopping tips leave them, 60 to 2000.
-_LONE = 15.0
 _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
 _CHOSEN = 100_000  # points that a quantile is taken of
@@ -59,9 +57,14 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     """Return doubts that need many points: rows without heights, spikes, slopes, noise."""
     found = _broken_off(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
-    if (count := _lone_points(steps, heights)) > 0:
+    if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
         found.append(
-            f"{count} lone points stand out from all around them; look at these spikes before they are pressed"
+            f"{spikes}, far out of all around; remove what is faulty by despiked() before it is pressed"
+        )
+    if (count := _far_points(heights)) > 0:
+        found.append(
+            f"{count} points lie more than {_FAR:g} interquartile ranges from the median height; "
+            "take them out by masked()"
         )
     slopes = [_quantile(step, 0.5) / width for step, width in zip(steps, spacing, strict=True)]
     if (slope := max(slopes)) > _STEEPEST:
@@ -88,23 +91,10 @@ def _broken_off(heights: Array) -> list[str]:
     return found
 
 
-def _lone_points(steps: list[Array], heights: Array) -> int:
-    """Count the points that stand out from every neighbour, or lie far from all the heights."""
-    least = np.full(heights.shape, np.inf)
-    for axis, step in enumerate(steps):
-        for part in (slice(1, None), slice(None, -1)):
-            here = (slice(None),) * axis + (part,)
-            # NaN, a neighbour that was not measured, does not count.
-            least[here] = np.fmin(least[here], step)
-    least[np.isinf(least) | np.isnan(heights)] = np.nan
+def _far_points(heights: Array) -> int:
+    """Count the points that lie far from all the heights."""
     low, middle, high = (_quantile(heights, q) for q in (0.25, 0.5, 0.75))
-    common = _quantile(least, 0.99)
-    lone = np.zeros(heights.shape, dtype=np.bool_)
-    if common > 0:
-        lone |= least > _LONE * common
-    if high > low:
-        lone |= np.abs(heights - middle) > _FAR * (high - low)
-    return int(lone.sum())
+    return int(np.count_nonzero(np.abs(heights - middle) > _FAR * (high - low))) if high > low else 0
 
 
 def _noise(heights: Array) -> float:

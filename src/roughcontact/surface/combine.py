@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -57,6 +59,12 @@ def combined(
     ValueError
         If one is periodic along an axis and the other is not, their periods differ, or they do not overlap.
 
+    Warns
+    -----
+    UserWarning
+        If cells of either lie beyond the other or beyond the grid, so that they are lost: how many. The provenance
+        says so, too.
+
     Examples
     --------
     >>> import numpy as np
@@ -75,7 +83,11 @@ def combined(
     if np.isnan(heights).all():
         raise ValueError("the two surfaces have no measured point in common: nothing can touch")
     line = "combined with: " + ("; ".join(above.provenance) or "a surface")
-    return below.with_heights(heights, line, target)
+    whole = below.with_heights(heights, line, target)
+    if loss := _lost(lower.grid, upper.grid, target):
+        warnings.warn(f"combined: {loss}", stacklevel=2)
+        whole = whole.with_heights(heights, loss)
+    return whole
 
 
 def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
@@ -131,6 +143,27 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     require(not np.isnan(heights).all(), "the new grid holds no measured point of the surface")
     shape = " x ".join(str(n) for n in grid.shape)
     return surface.with_heights(heights, f"resampled to {shape} cells, {interpolation} interpolation", grid)
+
+
+def _lost(lower: Grid, upper: Grid, target: Grid) -> str:
+    """Return in words how many cells of each body have their centre outside of the other one or of the new grid."""
+    common = [min(ends) for ends in zip(lower.lengths, upper.lengths, target.lengths, strict=True)]
+    found = []
+    for name, grid in (("lower", lower), ("upper", upper)):
+        kept = 1
+        for n, step, length in zip(grid.shape, grid.spacing, common, strict=True):
+            places = np.abs(np.arange(n) - (n - 1) / 2) * step
+            kept *= int(np.count_nonzero(places <= length / 2 * (1 + _SAME)))
+        if lost := grid.size - kept:
+            found.append(
+                f"{lost} of {grid.size} cells ({math.ceil(100 * lost / grid.size)} %) of the {name} surface"
+            )
+    both = " and ".join(found)
+    return (
+        f"{both} lie beyond what both cover and are left out; crop the larger one to choose its part"
+        if both
+        else ""
+    )
 
 
 def _turned(upper: Surface, about: str | None) -> Surface:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from roughcontact.validation import number
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
-__all__ = ["averaged", "cropped", "downsampled"]
+__all__ = ["averaged", "cell_ranges", "cropped", "downsampled", "range_words"]
 
 
 def cropped(surface: Surface, *parts: slice) -> Surface:
@@ -38,20 +39,14 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
         If there is not one slice for each axis, a slice has a step, is empty, or holds no measured point.
     """
     grid = surface.grid
-    if len(parts) != grid.ndim:
-        raise ValueError(f"cropping needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
-    if any(part.step not in (None, 1) for part in parts):
-        raise ValueError("a crop has no step: use downsampled for a subsample")
-    ranges = [part.indices(n) for part, n in zip(parts, grid.shape, strict=True)]
-    if any(stop <= start for start, stop, _ in ranges):
-        raise ValueError(f"nothing is left of {grid.shape} cells in {_words(ranges)}")
-    whole = [stop - start == n for (start, stop, _), n in zip(ranges, grid.shape, strict=True)]
+    ranges = cell_ranges(grid, parts, "a crop")
+    whole = [stop - start == n for (start, stop), n in zip(ranges, grid.shape, strict=True)]
     small = Grid(
-        [stop - start for start, stop, _ in ranges],
+        [stop - start for start, stop in ranges],
         grid.spacing,
         [kept and repeats for kept, repeats in zip(whole, grid.periodic, strict=True)],
     )
-    line = f"cropped to cells {_words(ranges)} of {' x '.join(map(str, grid.shape))}"
+    line = f"cropped to cells {range_words(ranges)} of {' x '.join(map(str, grid.shape))}"
     return surface.with_heights(surface.heights[parts], line, small)
 
 
@@ -158,5 +153,24 @@ def _coarse(grid: Grid, factors: tuple[int, ...]) -> Grid:
     return Grid(shape, [step * k for step, k in zip(grid.spacing, factors, strict=True)], grid.periodic)
 
 
-def _words(ranges: list[tuple[int, int, int]]) -> str:
-    return ", ".join(f"{start}:{stop}" for start, stop, _ in ranges)
+def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int, int]]:
+    """Return the first cell and the one after the last of slices, one for each axis.
+
+    Raises
+    ------
+    ValueError
+        If there is not one for each axis, one has a step, or holds no cell; the message says `what` they are of.
+    """
+    if len(parts) != grid.ndim:
+        raise ValueError(f"{what} needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
+    if any(part.step not in (None, 1) for part in parts):
+        raise ValueError(f"{what} has no step: use downsampled for a subsample")
+    ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]
+    if any(stop <= start for start, stop in ranges):
+        raise ValueError(f"nothing is left of {grid.shape} cells in {range_words(ranges)}")
+    return ranges
+
+
+def range_words(ranges: list[tuple[int, int]]) -> str:
+    """Return ranges of cells as they are written: 0:512, 100:612."""
+    return ", ".join(f"{start}:{stop}" for start, stop in ranges)

@@ -16,9 +16,11 @@ from roughcontact.grid import Grid
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.height_range import own_heights
 from roughcontact.surface.levelling import levelled, without_form
+from roughcontact.surface.mask import masked
 from roughcontact.surface.missing import filled
 from roughcontact.surface.orientation import flipped, rotated, transposed
 from roughcontact.surface.sampling import averaged, cropped, downsampled
+from roughcontact.surface.spikes import despiked
 from roughcontact.surface.tip import scanned
 from roughcontact.surface.windows import tapered
 from roughcontact.validation import Array, require
@@ -176,6 +178,8 @@ class Surface:
         return math.sqrt(float(xp.sum(deviation**2)) / count)
 
     # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
+    despiked = on_host_only(despiked)
+    masked = on_host_only(masked)
     levelled = on_host_only(levelled)
     without_form = on_host_only(without_form)
     filtered = on_host_only(filtered)

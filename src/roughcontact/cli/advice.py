@@ -1,0 +1,99 @@
+"""What looks suspicious in a map that was measured, and the option of ``surface prepare`` that mends it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.cli.report import quantity
+from roughcontact.surface.polynomial import polynomial_trend
+from roughcontact.surface.spikes import find_spikes, tail_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from roughcontact.surface.spikes import Spikes
+    from roughcontact.surface.surface import Surface
+    from roughcontact.validation import Array
+
+__all__ = ["advice"]
+
+_FEW = 32  # cells along a side: fewer hold no decade of waves between a third of the side and two cells
+_LINES = 8  # fewer rows or columns have no statistics of the steps between them
+_WHOLE = 0.5  # share of a row that must be measured
+
+
+def advice(surface: Surface) -> tuple[Spikes, list[str]]:
+    """Return the spikes of a surface, and a line for all that is suspicious with what to do about it."""
+    spikes = find_spikes(surface)
+    return spikes, [*_spikes(surface, spikes), *_trends(surface), *_steps(surface), *_cells(surface)]
+
+
+def _spikes(surface: Surface, spikes: Spikes) -> Iterator[str]:
+    if spikes.count:
+        place = ",".join(str(k) for k in spikes.places[0])
+        largest = quantity("heights", float(spikes.height[0]))
+        yield f"spikes: {spikes}, the largest by {largest}, at cell {place}: --despike missing or filled"
+
+
+def _trends(surface: Surface) -> Iterator[str]:
+    """Yield the plane and the quadratic form if they are higher than what is left without them."""
+    if all(surface.grid.periodic):
+        return
+    clean = surface.despiked().heights
+    flat, tilt = _without(clean, 1)
+    rest, form = _without(flat, 2)
+    trend = "plane" if surface.grid.ndim == 2 else "line"
+    if tilt > float(np.nanstd(flat)):
+        yield f"tilt: the {trend} has an rms height of {quantity('rms', tilt)}, more than the rest: --level plane"
+    if form > float(np.nanstd(rest)) > 0:
+        yield (
+            f"form: the quadratic part has an rms height of {quantity('rms', form)}, more than the rest: "
+            "--form 2, sphere or cylinder, for the roughness alone"
+        )
+
+
+def _without(heights: Array, degree: int) -> tuple[Array, float]:
+    """Return heights less their least-squares polynomial, and its rms height over them."""
+    trend = polynomial_trend(heights, degree)
+    return heights - trend, float(np.std(trend[~np.isnan(heights)]))
+
+
+def _steps(surface: Surface) -> Iterator[str]:
+    """Yield the largest step between two rows or columns, if it is none of chance, and the larger side of it."""
+    if surface.grid.ndim == 1:
+        return
+    for axis, name in enumerate(("rows", "columns")):
+        differences = np.diff(surface.heights, axis=axis)
+        # Of rows that were hardly measured a median says little.
+        known = (
+            np.count_nonzero(~np.isnan(differences), axis=1 - axis) >= _WHOLE * surface.grid.shape[1 - axis]
+        )
+        if np.count_nonzero(known) < _LINES:
+            continue
+        jumps = np.full(known.size, 0.0)
+        jumps[known] = np.nanmedian(differences[known] if axis == 0 else differences[:, known], axis=1 - axis)
+        jumps[known] -= np.median(jumps[known])
+        _, limit = tail_of(np.abs(jumps[known]), int(known.sum()))
+        place = int(np.argmax(np.abs(jumps)))
+        if limit > 0 and abs(jumps[place]) > limit:
+            count = surface.grid.shape[axis]
+            part = f"0:{place + 1}" if 2 * (place + 1) >= count else f"{place + 1}:{count}"
+            crop = f"{part},:" if axis == 0 else f":,{part}"
+            step = quantity("heights", float(jumps[place]))
+            yield f"step: {step} between {name} {place} and {place + 1}: --crop {crop} keeps one side"
+
+
+def _cells(surface: Surface) -> Iterator[str]:
+    if min(surface.grid.shape) < _FEW:
+        cells = " x ".join(str(n) for n in surface.grid.shape)
+        yield (
+            f"few cells: {cells} hold no decade of waves, and no power law: no option mends that; "
+            "measure more points, or read another --channel"
+        )
+    if surface.missing:
+        yield (
+            f"missing points: {surface.missing / surface.grid.size:.2%}, which contact leaves out: "
+            "--fill for spectra and filters, or --crop"
+        )
