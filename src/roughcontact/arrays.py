@@ -6,9 +6,9 @@ from typing import Any
 
 import array_api_compat
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.kernels import buffers
+from roughcontact.validation import Array
 
 __all__ = [
     "Placed",
@@ -27,8 +27,6 @@ __all__ = [
     "times",
     "wants_gradient",
 ]
-
-Array = npt.NDArray[np.float64]
 
 
 def namespace(array: Any) -> Any:

@@ -9,13 +9,10 @@ from numbers import Real
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from roughcontact.validation import LARGEST, SMALLEST, moderate, scalar
+from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,17 +9,16 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.arrays import Placed, is_numpy, namespace
 from roughcontact.kernels import loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution, fits
 from roughcontact.threads import limit_threads, spread, threads
+from roughcontact.validation import Array
 
 __all__ = ["Convolution", "convolve", "even_multiplier", "fast_even_length", "filtered", "padded_length"]
 
-Array = npt.NDArray[np.float64]
 Pair = tuple[int, int]
 
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import minimize_scalar
 
 from roughcontact.contact.solution import Solution
@@ -17,7 +16,7 @@ from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid
 from roughcontact.solver.subdomain import bounding_box
-from roughcontact.validation import numeric, scalar
+from roughcontact.validation import Array, numeric, scalar
 
 __all__ = [
     "StressPeak",
@@ -29,7 +28,6 @@ __all__ = [
     "ratio_of",
 ]
 
-Array = npt.NDArray[np.float64]
 
 ALIKE = 1e-3  # a displacement that is further from the half-space's is another body's
 ROUNDING = 1e-9  # of what the largest pressure does in its own cell: all that a constant one leaves

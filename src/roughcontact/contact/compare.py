@@ -11,13 +11,12 @@ import numpy.typing as npt
 
 from roughcontact.labels.labelled import plain_values
 from roughcontact.statistics.local_exponent import LocalExponent, exponent_within, local_exponents
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["Comparison", "Law", "with_theories"]
-
-Array = npt.NDArray[np.float64]
 
 
 class Law(Protocol):

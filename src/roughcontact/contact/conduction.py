@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
@@ -16,14 +15,13 @@ from roughcontact.labels.labelled import variable
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
-from roughcontact.validation import number
+from roughcontact.validation import Array, number
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["Conductors", "conductance", "part_words", "with_conductance"]
 
-Array = npt.NDArray[np.float64]
 
 # What a conductance is of, and the stiffness that it follows from.
 _PARTS = {"interface": "interfacial_stiffness", "total": "stiffness"}

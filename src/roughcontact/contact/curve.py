@@ -22,7 +22,7 @@ from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Mask, number
+from roughcontact.validation import Array, Mask, number
 
 if TYPE_CHECKING:
     import xarray
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from roughcontact.theory.law import Basis
 
 __all__ = ["Curve", "collect"]
-
-Array = npt.NDArray[np.float64]
 
 
 DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
@@ -18,11 +17,10 @@ from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Solver
-from roughcontact.validation import exactly_one, number, numeric
+from roughcontact.validation import Array, exactly_one, number, numeric
 
 __all__ = ["loading_curve", "loading_path"]
 
-Array = npt.NDArray[np.float64]
 Loads = Sequence[float] | Array
 
 

@@ -9,18 +9,14 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import largest, namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import prescribe
+from roughcontact.validation import Array, Mask
 
 __all__ = ["ACCURACY", "ROUNDING", "mean_opening"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 ACCURACY = 5e-7  # of a mean found as a difference; with what the stiffness k itself lacks, 1e-7, within 1e-6
 SOLVED = 1e-7  # of the mean over the open cells: how far from zero the field may be in contact

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
@@ -22,11 +19,10 @@ from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import exactly_one, scalar
+from roughcontact.validation import Array, exactly_one, scalar
 
 __all__ = ["lock", "press", "solve", "solve_state"]
 
-Array = npt.NDArray[np.float64]
 
 _DEFAULT = ActiveSet()
 

@@ -7,9 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -19,7 +16,7 @@ from roughcontact.solver.control import Control, Depth, Force, Terms, checked_to
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import scalar
+from roughcontact.validation import Array, Mask, scalar
 
 __all__ = [
     "Body",
@@ -28,8 +25,6 @@ __all__ = [
     "separation_of",
 ]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 T = TypeVar("T")
 
 Body = Surface | RadialProfile

@@ -31,14 +31,12 @@ from roughcontact.solver.optimality import UNITS
 from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["Solution"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,10 +14,9 @@ from roughcontact.arrays import namespace
 from roughcontact.grid import AnyGrid
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import bounding_box
+from roughcontact.validation import Array
 
 __all__ = ["Spots", "count_spots", "find_spots"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.problem import ContactProblem
@@ -17,7 +16,7 @@ from roughcontact.material import Solid
 from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, Mask, numeric
 
 __all__ = [
     "FrozenContact",
@@ -28,8 +27,6 @@ __all__ = [
     "full_contact_stiffness",
 ]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
 

@@ -9,7 +9,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
@@ -22,10 +21,9 @@ from roughcontact.surface.surface import Surface
 from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import Basis, LoadingLaw
 from roughcontact.theory.waves import Waves
+from roughcontact.validation import Array
 
 __all__ = ["facts_for", "loading_laws", "persson_pressures"]
-
-Array = npt.NDArray[np.float64]
 
 
 def loading_laws(

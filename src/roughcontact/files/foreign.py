@@ -19,7 +19,6 @@ from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, requi
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import (
-    Array,
     Channel,
     HeightMap,
     as_heights,
@@ -29,6 +28,7 @@ from roughcontact.files.heightmap import (
     pick,
 )
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.validation import Array
 
 __all__ = ["list_foreign", "read_foreign"]
 

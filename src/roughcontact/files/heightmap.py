@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_errors import ContentError
+from roughcontact.validation import Array
 
 __all__ = [
     *("Array", "Channel", "HeightMap", "as_heights", "describe", "names_a_height", "names_something_else"),
     *("pick", "require_line", "require_map"),
 ]
 
-Array = npt.NDArray[np.float64]
 
 _MAP = "give a two-dimensional map of heights, rows by columns"
 _HEIGHT = re.compile(r"height|topograph|z.?axis|z.?sensor", re.IGNORECASE)

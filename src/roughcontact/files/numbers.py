@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Array
+from roughcontact.validation import Array
 
 __all__ = ["Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]
 

@@ -7,9 +7,10 @@ import re
 import numpy as np
 
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.numbers import decode, last_digit, require_rows, unended
+from roughcontact.validation import Array
 
 __all__ = ["read_profile"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.files.heightmap import Array
 from roughcontact.surface.spikes import spikes_in
+from roughcontact.validation import Array
 
 __all__ = ["IMPOSSIBLE", "doubts_about", "highest"]
 

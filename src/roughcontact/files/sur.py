@@ -12,8 +12,9 @@ import numpy.typing as npt
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.validation import Array
 
 __all__ = ["read_sur"]
 

@@ -20,8 +20,9 @@ import numpy.typing as npt
 
 from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = ["parse_xml", "read_x3p", "x3p_bytes"]
 

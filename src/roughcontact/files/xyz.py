@@ -9,9 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Array, HeightMap, as_heights
+from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.numbers import parse_table
+from roughcontact.validation import Array
 
 __all__ = ["read_xyz"]
 

@@ -14,10 +14,10 @@ from roughcontact.kernels.buffers import aligned, empty
 from roughcontact.kernels.constants import APART, HALF, WIDTH
 from roughcontact.kernels.loader import functions
 from roughcontact.threads import join_in, threads
+from roughcontact.validation import Array
 
 __all__ = ["CompiledConvolution", "fits"]
 
-Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
 LARGE = 600_000  # bytes of rows as padded from which on a second thread comes in time (timed by benchmarks/pairs.py)

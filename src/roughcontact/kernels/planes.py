@@ -13,6 +13,7 @@ from roughcontact.kernels.buffers import empty
 from roughcontact.kernels.constants import WIDTH
 from roughcontact.kernels.loader import code_for
 from roughcontact.threads import spread
+from roughcontact.validation import Array, Mask
 
 __all__ = [
     "Extremes",
@@ -26,8 +27,6 @@ __all__ = [
 ]
 
 Field = npt.NDArray[Any]  # of single or double precision
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 CELLS = 2**17  # cells that are taken at once; totals are made part by part, whatever the threads
 SEVERAL = 4  # parts from which on threads are worth waking

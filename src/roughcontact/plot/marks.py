@@ -6,16 +6,14 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 from scipy import ndimage
 
 from roughcontact.contact.solution import Solution
 from roughcontact.plot.raster import Window, part
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["contact_window", "faint_spots"]
 
-Mask = npt.NDArray[np.bool_]
 
 _FAINT = 0.02  # a smaller share of the cells in contact is lost on the page
 _NARROW = 0.01  # a spot narrower than this share of the side cannot be told from dust

@@ -9,7 +9,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
@@ -32,12 +31,9 @@ from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
 from roughcontact.solver.subdomain import prolong
-from roughcontact.validation import require_numbers
+from roughcontact.validation import Array, Mask, require_numbers
 
 __all__ = ["ActiveSet"]
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

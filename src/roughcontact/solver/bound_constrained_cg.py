@@ -11,20 +11,15 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Force
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
 from roughcontact.solver.vectors import Vectors, scaled_vectors
+from roughcontact.validation import Array, Mask
 
 __all__ = ["CGResult", "InnerSolution", "StepEstimate", "bound_constrained_cg", "inner_solve"]
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

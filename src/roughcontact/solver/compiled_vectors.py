@@ -19,12 +19,11 @@ from roughcontact.solver import tuning
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Preconditioned, Products, Projected
 from roughcontact.solver.optimality import Iterate
+from roughcontact.validation import Array, Mask
 
 __all__ = ["CompiledVectors"]
 
 Field = npt.NDArray[Any]  # of single or double precision
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 class CompiledVectors:

@@ -26,11 +26,10 @@ from roughcontact.solver.control import Force, Solver, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
 from roughcontact.solver.refinement import defect_correction
+from roughcontact.validation import Array, Mask
 
 __all__ = ["SLIGHT", "resolve_contact", "weakly_active"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 FINEST = 1.01e-14  # tolerance of the last digits: 45 units in the last place, reached by all operators here
 # Of what a displacement is known to, times what the pressure on a cell then is known to displace there: the sum of a

@@ -7,16 +7,11 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any, Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.kernels.planes import Extremes
-from roughcontact.validation import scalar
+from roughcontact.validation import Array, scalar
 
 __all__ = ["Control", "Depth", "Force", "Solver", "State", "Status", "Tangent", "Terms", "checked_tolerance"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,10 +12,10 @@ from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.inner_product import Measure
+from roughcontact.validation import Array
 
 __all__ = ["DirectSolution", "press_cells", "solve_cells"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 

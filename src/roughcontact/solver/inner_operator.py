@@ -10,9 +10,6 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import is_numpy, largest, over, times
 from roughcontact.halfspace.operators.operator import (
     Capabilities,
@@ -25,6 +22,7 @@ from roughcontact.halfspace.sums.local_inverse import DIAGONAL_CORRECTION, Local
 from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.halfspace.sums.tiles import Tiles
 from roughcontact.solver import tuning
+from roughcontact.validation import Array, Mask
 
 __all__ = [
     "FullGrid",
@@ -34,8 +32,6 @@ __all__ = [
     "inner_operator_on",
 ]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 # Influences between this and its inverse, and squares of displacements, are numbers of single precision.
 SINGLE_RANGE = 1e-25

@@ -9,11 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import Placed
+from roughcontact.validation import Array, Mask
 
 __all__ = ["Measure", "Preconditioned", "Products", "Projected"]
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

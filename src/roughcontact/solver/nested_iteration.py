@@ -6,7 +6,6 @@ from functools import reduce
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
@@ -15,10 +14,9 @@ from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Terms
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
+from roughcontact.validation import Array
 
 __all__ = ["block_minimum", "block_separation", "coarse_operator", "coarse_operator_on", "nested_start"]
-
-Array = npt.NDArray[np.float64]
 
 
 def nested_start(

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.operator import Operator, self_influence
@@ -19,11 +18,10 @@ from roughcontact.kernels import loader, planes
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
+from roughcontact.validation import Array, Mask
 
 __all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 # Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
 # the gap can be no better than some units in the last place of what the largest pressure does in its own cell. Where

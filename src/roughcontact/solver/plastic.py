@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
@@ -14,10 +11,9 @@ from roughcontact.solver.control import Depth, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
+from roughcontact.validation import Array
 
 __all__ = ["press_plastic"]
-
-Array = npt.NDArray[np.float64]
 
 
 def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Array, max_steps: int) -> State:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
@@ -14,11 +13,9 @@ from roughcontact.solver import tuning
 from roughcontact.solver.control import State, Status, Terms
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
-from roughcontact.validation import require_numbers
+from roughcontact.validation import Array, require_numbers
 
 __all__ = ["PolonskyKeer"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

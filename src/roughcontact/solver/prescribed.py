@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import is_array, is_numpy, largest, namespace
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
@@ -27,12 +26,9 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import scalar
+from roughcontact.validation import Array, Mask, scalar
 
 __all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

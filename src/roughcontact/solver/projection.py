@@ -8,16 +8,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
+from roughcontact.validation import Array, Mask
 
 __all__ = ["elastic_control", "feasible_start", "force_multiplier", "project"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 PASSES = 50  # in which a force is redistributed; what is left then is left to the next iteration
 ROUNDING = 1e-14  # of a force: a sum over many cells is no better

@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver.control import Solver, State, Status
 from roughcontact.solver.optimality import Iterate, Optimality
+from roughcontact.validation import Array
 
 __all__ = ["defect_correction"]
-
-Array = npt.NDArray[np.float64]
 
 
 def defect_correction(

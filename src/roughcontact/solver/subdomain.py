@@ -19,11 +19,10 @@ from roughcontact.solver import tuning
 from roughcontact.solver.complementarity import resolve_contact
 from roughcontact.solver.control import Solver, State, Terms
 from roughcontact.solver.inner_product import Measure
+from roughcontact.validation import Array, Mask
 
 __all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 Box = tuple[slice, ...]
 Subdomain = Box | npt.NDArray[np.intp]
 """Some cells of a grid: a box, or a list of flat indices."""

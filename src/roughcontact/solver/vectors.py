@@ -8,9 +8,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-import numpy.typing as npt
-
 from roughcontact.arrays import largest
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
@@ -20,11 +17,9 @@ from roughcontact.solver.control import Terms
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Measure, Preconditioned, Products, Projected
 from roughcontact.solver.optimality import Iterate
+from roughcontact.validation import Array, Mask
 
 __all__ = ["ArrayVectors", "Vectors", "scaled_vectors", "vectors_on"]
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 
 class ArrayVectors:

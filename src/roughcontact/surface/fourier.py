@@ -20,11 +20,10 @@ from roughcontact.surface.wave_grid import (
     wave_integers,
     wavenumbers,
 )
-from roughcontact.validation import number, numeric, require_generator
+from roughcontact.validation import Array, number, numeric, require_generator
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
-Array = npt.NDArray[np.float64]
 
 BLOCK = 2**15  # waves made at once: a megabyte or two of words and angles
 

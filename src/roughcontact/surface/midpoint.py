@@ -6,15 +6,13 @@ import math
 from typing import Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric, require_generator
+from roughcontact.validation import Array, numeric, require_generator
 
 __all__ = ["midpoint_line", "midpoint_surface"]
 
-Array = npt.NDArray[np.float64]
 Distribution: TypeAlias = Literal["uniform", "gaussian"]
 
 

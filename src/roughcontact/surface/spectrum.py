@@ -7,16 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
-from roughcontact.validation import moderate, numeric, require_numbers
+from roughcontact.validation import Array, moderate, numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

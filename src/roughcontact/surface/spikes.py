@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.missing import filled
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, Mask, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -30,8 +30,6 @@ _FEWEST = 100
 _PASSES = 4  # over what is left beside spikes that were found: their flanks
 _SLAB = 2**14  # windows sorted at once
 _ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences that mean nothing
-
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

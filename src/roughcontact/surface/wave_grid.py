@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.validation import pair, positive_scalar
+from roughcontact.validation import Array, pair, positive_scalar
 
 __all__ = [
     "PlanarSpectrum",
@@ -28,7 +28,6 @@ __all__ = [
     "wavenumbers",
 ]
 
-Array = npt.NDArray[np.float64]
 Support: TypeAlias = Literal["square", "disc"]
 
 

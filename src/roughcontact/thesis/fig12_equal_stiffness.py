@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
@@ -17,11 +16,10 @@ import roughcontact as rc
 from roughcontact.theory import punch
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["PunchShape", "case", "draw", "verdicts"]
 
-Mask = npt.NDArray[np.bool_]
 
 TITLE = "contact regions of equal stiffness: a disc, two discs, a square, a triangle"
 SPACING = 3.0  # of the two discs, in radii of the single one

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
@@ -13,10 +12,10 @@ import roughcontact as rc
 from roughcontact.theory import punch
 from roughcontact.thesis import drawing
 from roughcontact.thesis.verdict import Verdict, Verdicts
+from roughcontact.validation import Mask
 
 __all__ = ["Configurations", "case", "draw", "verdicts"]
 
-Mask = npt.NDArray[np.bool_]
 
 TITLE = "stiffness of a contact region that is enlarged, and of one that is stretched one way"
 POINTS = 64

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.validation import Array
+
 __all__ = ["cerruti", "cerruti_table"]
 
-Array = npt.NDArray[np.float64]
 
 # Below NEAR shorter sides the closed form, beyond Gauss's rule across the cell of the integral along it, with fewer
 # points beyond FAR: each is good to some 1e-14 of Love's integral where it is used, at any ratio of the sides

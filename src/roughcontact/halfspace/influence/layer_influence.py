@@ -14,10 +14,10 @@ from roughcontact.halfspace.influence.layer_bases import Base
 from roughcontact.halfspace.influence.layer_kernel import LayerKernel, layer_kernel
 from roughcontact.halfspace.influence.love import love, love_table, wave_compliance
 from roughcontact.halfspace.influence.tables import Love, table_of_waves, wavenumbers
+from roughcontact.validation import Array
 
 __all__ = ["LayerCells", "LayerWaves", "Stack", "kernel_for"]
 
-Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 
 # Nodes of Gauss's rule along an edge that is no longer than twice its distance from what is singular, and along one

@@ -13,9 +13,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import hankel1, j1
 
+from roughcontact.validation import Array
+
 __all__ = ["LayerKernel", "layer_kernel"]
 
-Array = npt.NDArray[np.float64]
 Deviation = Callable[[npt.NDArray[Any]], npt.NDArray[Any]]
 
 # Lengths in thicknesses from here on. The transforms are smooth over a thickness near the load, and over the distance

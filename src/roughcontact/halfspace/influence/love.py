@@ -9,9 +9,10 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import Polynomial
 
+from roughcontact.validation import Array
+
 __all__ = ["love", "love_table", "strip", "wave_compliance"]
 
-Array = npt.NDArray[np.float64]
 
 # Measured against 60-digit arithmetic (tests/halfspace/influence/test_love.py): beyond FAR longer sides the
 # expansion of 1/r by multipoles, beyond NEAR shorter sides Gauss's rule across the cell, else the

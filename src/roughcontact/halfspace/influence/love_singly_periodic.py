@@ -14,11 +14,10 @@ from scipy.special import factorial, xlog1py, zeta
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love
 from roughcontact.halfspace.influence.tables import Love
+from roughcontact.validation import Array, Mask
 
 __all__ = ["SinglyPeriodicLove", "repeated_love"]
 
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 Offsets = npt.NDArray[np.intp]
 Form = Callable[[Array, Array, tuple[float, float], float], Array]
 

@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1, hyp2f1
 
+from roughcontact.validation import Array
+
 __all__ = ["ring_matrix"]
 
-Array = npt.NDArray[np.float64]
 Pairs = npt.NDArray[np.intp]
 
 # Measured against 60-digit arithmetic (tests/halfspace/operators/test_ring.py).

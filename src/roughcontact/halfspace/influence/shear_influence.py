@@ -14,10 +14,10 @@ import scipy.fft
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.cerruti import cerruti, cerruti_table
 from roughcontact.halfspace.influence.tables import Tables, spans, wavenumbers
+from roughcontact.validation import Array
 
 __all__ = ["Cerruti", "Influences", "ShearCompliance", "ShearWaves", "TensorTables"]
 
-Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 Component = Callable[[Offsets, Offsets], Array]
 

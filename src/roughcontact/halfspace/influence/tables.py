@@ -13,6 +13,7 @@ import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love, love_table, strip, wave_compliance
+from roughcontact.validation import Array
 
 __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
@@ -22,7 +23,6 @@ MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that t
 # Cells to the side of the first table: single values cost much within, and a short series beyond.
 FIRST_TABLE = 64
 
-Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 
 

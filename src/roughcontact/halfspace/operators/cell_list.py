@@ -17,10 +17,10 @@ from roughcontact.halfspace.sums.direct_sum import DirectSum
 from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh
 from roughcontact.halfspace.sums.tiles import Tiles
 from roughcontact.kernels import loader
+from roughcontact.validation import Array
 
 __all__ = ["CellsOperator"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 PAIRS_FOR_TILES = 50_000  # pairs of a loaded cell and a cell from which on sums go tile by tile

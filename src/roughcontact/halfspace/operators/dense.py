@@ -10,10 +10,10 @@ import numpy.typing as npt
 from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Capabilities
+from roughcontact.validation import Array
 
 __all__ = ["DenseOperator"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 

@@ -21,10 +21,10 @@ from roughcontact.halfspace.sums.local_inverse import LocalInverse, local_invers
 from roughcontact.halfspace.sums.moving_grid import MovingGrid
 from roughcontact.halfspace.sums.multilevel import Multilevel
 from roughcontact.halfspace.sums.particle_mesh import ParticleMesh, particle_mesh_on
+from roughcontact.validation import Array
 
 __all__ = ["InfluenceOperator", "Sum"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 Sum = Literal["fft", "moving-grid", "multilevel"]
 

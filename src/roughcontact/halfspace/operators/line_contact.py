@@ -15,11 +15,10 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.material import Solid, as_modulus
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 __all__ = ["LineOperator", "line"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 
 

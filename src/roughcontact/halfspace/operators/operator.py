@@ -15,6 +15,7 @@ from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh
+from roughcontact.validation import Array
 
 __all__ = [
     "Capabilities",
@@ -29,7 +30,6 @@ __all__ = [
 ]
 
 AnyOperator = TypeVar("AnyOperator")
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 _known: WeakKeyDictionary[Operator, float] = WeakKeyDictionary()  # what several ask of one operator
 

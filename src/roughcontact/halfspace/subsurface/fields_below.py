@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.cached import cached_property
@@ -23,10 +22,9 @@ from roughcontact.halfspace.subsurface.wave_field import displacement_waves, str
 from roughcontact.halfspace.sums.fourier_sum import Parity, padded_lengths, transfer_function
 from roughcontact.material import Solid
 from roughcontact.transforms import SLAB
+from roughcontact.validation import Array
 
 __all__ = ["Displacement", "Stress", "displacement", "stress"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

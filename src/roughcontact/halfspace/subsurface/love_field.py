@@ -13,6 +13,8 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.validation import Array
+
 __all__ = [
     "DISPLACEMENT_PARITY",
     "STRESS_PARITY",
@@ -22,7 +24,6 @@ __all__ = [
     "stress_table",
 ]
 
-Array = npt.NDArray[np.float64]
 Primitive = Callable[[Array, Array, float, float], Array]
 
 # Whether a component is odd in (y, x): of the stresses xx, yy, zz, xy, xz, yz and the displacements x, y, z.

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.halfspace.subsurface.love_field import STRESS_PARITY, love_stress
+from roughcontact.validation import Array
 
 __all__ = ["row_stress_table"]
 
-Array = npt.NDArray[np.float64]
 
 # Images on either side that are summed one by one; the others are a strip, and what that lacks is of the order of the
 # fifth power of their distance: below 1e-8 of the mean pressure (tests/halfspace/subsurface/test_fields_below.py).

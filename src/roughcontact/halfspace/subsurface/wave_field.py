@@ -6,14 +6,12 @@ Conventions are those of `roughcontact.halfspace.subsurface.love_field`.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
+from roughcontact.validation import Array
 
 __all__ = ["displacement_waves", "stress_waves"]
-
-Array = npt.NDArray[np.float64]
 
 
 def stress_waves(grid: Grid, depth: float, poisson_ratio: float) -> Array:

@@ -19,10 +19,10 @@ from scipy.special import erf, erfc
 
 from roughcontact.halfspace.influence.tables import Love, Periodic, wavenumbers
 from roughcontact.transforms import even_multiplier
+from roughcontact.validation import Array
 
 __all__ = ["SCREENING", "FreeSplit", "PeriodicSplit"]
 
-Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 Pair = tuple[int, int]
 

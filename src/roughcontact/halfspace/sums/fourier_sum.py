@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.transforms import Convolution, fast_even_length, filtered, padded_length
+from roughcontact.validation import Array
 
 __all__ = ["Parity", "TensorConvolution", "fourier_sum", "inverse_sum", "padded_lengths", "transfer_function"]
 
-Array = npt.NDArray[np.float64]
 Pair = tuple[int, int]
 Parity = tuple[bool, bool]
 """Whether a kernel is odd along y and along x."""

@@ -11,10 +11,10 @@ from scipy.sparse import csr_array
 
 from roughcontact.halfspace.sums.near_sum import add_near
 from roughcontact.halfspace.sums.transfer import NodeGrid, interpolation, offset_weights
+from roughcontact.validation import Array
 
 __all__ = ["GridLevel", "Kernel", "LevelSum", "coarsen"]
 
-Array = npt.NDArray[np.float64]
 Offsets = npt.NDArray[np.intp]
 Transfer = csr_array | None  # none along an axis that stays as it is
 

@@ -25,10 +25,10 @@ from roughcontact.halfspace.influence.tables import definite, wavenumbers
 from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
 from roughcontact.transforms import Convolution, fast_even_length
+from roughcontact.validation import Array
 
 __all__ = ["DIAGONAL_CORRECTION", "LocalInverse", "local_inverse"]
 
-Array = npt.NDArray[np.float64]
 Field = npt.NDArray[Any]  # of single or double precision
 Pair = tuple[int, int]
 

@@ -11,10 +11,10 @@ import numpy.typing as npt
 from scipy.interpolate import BSpline
 
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles, count
+from roughcontact.validation import Array
 
 __all__ = ["SPLINE_ORDER", "Mesh", "deconvolved", "mesh_shape"]
 
-Array = npt.NDArray[np.float64]
 Single = npt.NDArray[Any]  # of single precision
 Cells = npt.NDArray[np.intp]
 Pair = tuple[int, int]

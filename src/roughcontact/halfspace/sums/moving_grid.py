@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
+from roughcontact.validation import Array
 
 __all__ = ["MovingGrid"]
-
-Array = npt.NDArray[np.float64]
 
 
 class MovingGrid:

@@ -5,17 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.arrays import require_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.sums.levels import Kernel, LevelSum
 from roughcontact.halfspace.sums.transfer import NodeGrid
+from roughcontact.validation import Array
 
 __all__ = ["Multilevel"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.kernels import loader
 from roughcontact.kernels.constants import CHUNK, WIDTH
+from roughcontact.validation import Array
 
 __all__ = ["add_near", "add_near_by_products"]
 
-Array = npt.NDArray[np.float64]
 
 CELLS = 2**18  # nodes whose rows machine code takes at once
 BLOCK = 32  # nodes of a row that one product of matrices takes

@@ -30,10 +30,10 @@ from roughcontact.kernels import loader
 from roughcontact.kernels.loader import functions
 from roughcontact.threads import spread
 from roughcontact.transforms import Convolution, padded_length
+from roughcontact.validation import Mask
 
 __all__ = ["ListParticleMesh", "ParticleMesh", "TileOperator", "particle_mesh_on"]
 
-Mask = npt.NDArray[np.bool_]
 Single = npt.NDArray[Any]  # of single precision
 Pair = tuple[int, int]
 Split = FreeSplit | PeriodicSplit

@@ -10,14 +10,13 @@ import numpy.typing as npt
 
 from roughcontact.kernels.constants import SIDE
 from roughcontact.kernels.loader import functions
+from roughcontact.validation import Array, Mask
 
 __all__ = ["SIDE", "TileMap", "Tiles", "count", "list_loaded"]
 
-Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.intp]
 Field = npt.NDArray[Any]  # of single or double precision
 Indices = npt.NDArray[np.int64]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

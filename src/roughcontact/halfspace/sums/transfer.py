@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse import csr_array
+
+from roughcontact.validation import Array
 
 __all__ = ["NodeGrid", "coarse_count", "interpolation", "offset_weights"]
 
-Array = npt.NDArray[np.float64]
 
 # Axes are coarsened together while their spacings differ by less than this factor; else the finer one goes first.
 SAME_SPACING = math.sqrt(2)
