@@ -240,7 +240,7 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
         )
         yield (
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
-            "not belong to the surface, crop it away or remove the form of the map."
+            "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop)."
         )
     resolved = int(np.count_nonzero((forces >= low) & (forces <= high)))
     if low < high and resolved >= LEAST_RESOLVED and high >= DECADE * low:

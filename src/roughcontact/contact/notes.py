@@ -82,6 +82,6 @@ def _doubts(solution: Solution) -> tuple[str, ...]:
     if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
         doubts.append(
             f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
-            "if it is an outlier of the measurement, it carries the load."
+            "if it is an outlier of the measurement, it carries the load; despiked() and --despike find spikes."
         )
     return tuple(doubts)
