@@ -73,7 +73,7 @@ CALLS = {
     rc.load_cycle: {"amplitude": 1e-5, "cycles": 1, "steps": 8},
     rc.press: {"surface": CUT, "modulus": 1e9, "force": 1e-4, "tolerance": 1e-8, "hardness": 1e12},
     rc.contact_stiffness: {"mask": MASK, "grid": FREE, "modulus": 1e9, "tolerance": 1e-7},
-    rc.suggested_forces: {"surface": CUT, "modulus": 1e9, "count": 5},
+    rc.load_range: {"surface": CUT, "modulus": 1e9, "count": 5},
     PRESSED.pressure_histogram: {"bins": 5},
     rc.shapes.cone: {"grid": FREE, "slope": 0.1},
     rc.shapes.cylinder: {"grid": FREE, "radius": 1e-3},

@@ -221,7 +221,7 @@ def test_loads_nobody_named():
     surface = rough(128)
     curve = rc.loading_curve(surface, 2.0)
     assert len(curve) == 24
-    np.testing.assert_allclose(curve.force, rc.suggested_forces(surface, 2.0), rtol=1e-10)
+    np.testing.assert_allclose(curve.force, rc.load_range(surface, 2.0).forces, rtol=1e-10)
     flat = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1.0))
     with pytest.raises(ValueError, match="flat surface"):
         rc.loading_curve(flat, 1.0)

@@ -170,14 +170,13 @@ def test_lines_and_springs():
     found = rc.load_range(line, 1e9, operator=rc.line(line.grid, 1e9))
     np.testing.assert_allclose(found.forces[[0, -1]] / (1e9 * line.rms), [0.03, 3.0])
     springs = rc.foundation(line.grid, 1e9)
-    forces = rc.suggested_forces(line, 1e9, operator=springs)
-    curve = rc.loading_curve(line, 1e9, forces=forces, operator=springs)
+    curve = rc.loading_curve(line, 1e9, operator=springs)
     assert curve.resolved.any()
 
 
 @pytest.mark.parametrize("count", [1, 2, 7, 40])
 def test_as_many_loads_as_are_wanted(count):
-    forces = rc.suggested_forces(rough(64), 1e9, count=count)
+    forces = rc.load_range(rough(64), 1e9, count=count).forces
     assert len(forces) == count
     assert (np.diff(forces) > 0).all()
 

@@ -44,7 +44,7 @@ def modulus_of(text: str) -> float:
         raise UsageError(
             f"--materials: name both bodies, such as steel,aluminium or steel,steel or steel,rigid, not {text!r}"
         )
-    solids = []
+    solids: list[Solid] = []
     for name in names:
         if name.lower() == _RIGID:
             solids.append(Solid(math.inf, 0.0))
@@ -54,12 +54,13 @@ def modulus_of(text: str) -> float:
             raise UsageError(
                 f"--materials: {name!r} is no name; for a number of yours take --young or --modulus"
             )
-        solids.append(material.solid)
         solid = material.solid
-        note(
-            f"{material.name} is {material.grade}: E {solid.young_modulus / 1e9:.4g} GPa, "
-            f"nu {solid.poisson_ratio:g} ({material.sources['solid']})"
-        )
+        if solid not in solids:
+            note(
+                f"{material.name} is {material.grade}: E {solid.young_modulus / 1e9:.4g} GPa, "
+                f"nu {solid.poisson_ratio:g} ({material.sources['solid']})"
+            )
+        solids.append(solid)
     if all(math.isinf(solid.young_modulus) for solid in solids):
         raise UsageError("--materials: one of the two bodies must be elastic, such as steel,rigid")
     return reduced_modulus(*solids)

@@ -24,7 +24,7 @@ from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, whole
 
-__all__ = ["LoadRange", "load_range", "suggested_forces"]
+__all__ = ["LoadRange", "load_range"]
 
 FORCES = 24
 FORCES_BELOW = 4  # of these below the range, within a decade
@@ -68,53 +68,6 @@ class LoadRange:
 
 
 @numeric
-def suggested_forces(
-    surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
-    *,
-    count: int = FORCES,
-    operator: Operator | None = None,
-    hardness: float | None = None,
-) -> Array:
-    """Return forces over the range in which a rough surface is worth a curve.
-
-    Parameters
-    ----------
-    surface : Surface or RadialProfile
-        Heights [m], see `press`.
-    modulus : float, Solid or pair of Solids
-        Reduced modulus E* [Pa], or what it follows from.
-    count : int
-        Number of forces.
-    operator : Operator, optional
-        Another body than the half-space on the surface's grid; it says whether the contact is that of a line.
-    hardness : float, optional
-        Pressure that no cell exceeds [Pa].
-
-    Returns
-    -------
-    array, shape (n,)
-        Forces [N], on a line per unit length [N/m], increasing; see `load_range`.
-
-    Raises
-    ------
-    ValueError
-        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import roughcontact as rc
-    >>> grid = rc.Grid((64, 64), 1e-6)
-    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
-    >>> forces = rc.suggested_forces(surface, 1e9)
-    >>> len(forces), bool((np.diff(forces) > 0).all())
-    (24, True)
-    """
-    return load_range(surface, modulus, count=count, operator=operator, hardness=hardness).forces
-
-
-@numeric
 def load_range(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -147,7 +100,7 @@ def load_range(
     Returns
     -------
     LoadRange
-        Forces rounded to three digits, equal on all machines.
+        Forces rounded to three digits, so that machines whose last digits differ hardly ever suggest other ones.
 
     Raises
     ------

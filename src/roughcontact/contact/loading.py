@@ -8,7 +8,7 @@ import numpy as np
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.load_range import suggested_forces
+from roughcontact.contact.load_range import load_range
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
@@ -76,7 +76,7 @@ def loading_path(
     ['1e-03 N', '2e-03 N']
     """
     if forces is None and depths is None and pressures is None:
-        forces = suggested_forces(surface, modulus, operator=operator, hardness=hardness)
+        forces = load_range(surface, modulus, operator=operator, hardness=hardness).forces
     controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
     for control in controls[1:]:

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.surface.sampling import cell_ranges, range_words
-from roughcontact.validation import numeric
+from roughcontact.validation import Mask, numeric
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -78,13 +77,13 @@ def masked(
     return surface.with_heights(rest, line)
 
 
-def _box(shape: tuple[int, ...], ranges: list[tuple[int, int]]) -> npt.NDArray[np.bool_]:
+def _box(shape: tuple[int, ...], ranges: list[tuple[int, int]]) -> Mask:
     inside = np.zeros(shape, dtype=np.bool_)
     inside[tuple(slice(*ends) for ends in ranges)] = True
     return inside
 
 
-def _ellipse(shape: tuple[int, ...], ranges: list[tuple[int, int]]) -> npt.NDArray[np.bool_]:
+def _ellipse(shape: tuple[int, ...], ranges: list[tuple[int, int]]) -> Mask:
     places = np.meshgrid(*(np.arange(n) for n in shape), indexing="ij", sparse=True)
     square = sum(
         ((2 * place - (start + stop - 1)) / (stop - start)) ** 2
