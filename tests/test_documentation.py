@@ -19,7 +19,7 @@ import roughcontact as rc
 from roughcontact.cli.app import app
 
 HOME = Path(__file__).parent.parent
-PAGES = [HOME / "README.md", *sorted((HOME / "docs").glob("*.md"))]
+PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
 # Pages whose commands want a cluster, days, or a file of the reader's.
 NOT_HERE = {"cluster.md", "reproduction.md"}
 # Counts of a study that take minutes, and what is run in their place.
