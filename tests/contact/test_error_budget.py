@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.contact.error_sources import NUMBERS
 from roughcontact.contact.perimeter import corrected_area
 
@@ -153,6 +154,20 @@ def test_the_record_is_plain_and_the_table_has_two_digits_of_the_error():
     assert "contact area, corrected" in repr(budget)
     with pytest.raises(KeyError, match="'hardness' is none of"):
         budget["hardness"]
+
+
+def test_an_error_above_its_value_leaves_two_digits_of_it():
+    number = QuotedNumber("mean_gap", 4.56e-6, "m", (-8.1234e-4, 1e-7))
+    sources = (ErrorSource("grid", "bias", ""), ErrorSource("patches", "standard error", ""))
+    _, rows = ErrorBudget((number,), sources, ()).table(in_unit=lambda name, value: (1e6, "µm"))
+    assert rows == [["mean gap", "4.6", "+- 812.3", "µm", "> 1000 %", "-812.3", "0.1"]]
+    exact = QuotedNumber("mean_gap", 4.56e-6, "m", (0.0, 0.0))
+    _, rows = ErrorBudget((exact,), sources, ()).table(in_unit=lambda name, value: (1e6, "µm"))
+    assert rows == [["mean gap", "4.560", "+- 0.000", "µm", "0.0 %", "+0.000", "0.000"]]
+    none = QuotedNumber("stiffness", math.inf, "N m-1", (math.nan, 0.0))
+    _, ((_, value_shown, error, _, percent, *_),) = ErrorBudget((none,), sources, ()).table()
+    assert (value_shown, error, percent) == ("infinite", "+- unknown", "unknown")
+    assert ErrorBudget((none,), sources, ()).to_record()["stiffness"]["value"] is None
 
 
 def test_what_has_no_errors_is_refused():

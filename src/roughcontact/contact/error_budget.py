@@ -12,6 +12,7 @@ from roughcontact.labels.variables import VARIABLES
 
 __all__ = ["ErrorBudget", "ErrorSource", "QuotedNumber"]
 
+MANY_TIMES = 10  # a value: how large an error then is says no more
 ROUNDING = 1e-12  # of a value: an error below is none
 
 Kind: TypeAlias = Literal["bias", "standard error"]
@@ -167,9 +168,9 @@ class ErrorBudget:
 
 
 def _decimals(error: float, value: float) -> int:
-    """Return the decimals with which an error has two digits; without an error the value has four."""
+    """Return the decimals with which an error and its value have two digits; without an error the value has four."""
     known = math.isfinite(error) and error > abs(value) * ROUNDING
-    size = error if known else abs(value)
+    size = min(error, abs(value) or error) if known else abs(value)
     if not (math.isfinite(size) and size > 0):
         return 3
     return (1 if known else 3) - math.floor(math.log10(size))
@@ -190,4 +191,6 @@ def _percent(part: float) -> str:
     """Return a relative error of two digits."""
     if not math.isfinite(part):
         return "unknown"
+    if part > MANY_TIMES:
+        return f"> {100 * MANY_TIMES:.0f} %"
     return f"{100 * part:.{0 if part >= 0.0995 else 1}f} %"
