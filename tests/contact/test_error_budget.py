@@ -170,6 +170,20 @@ def test_an_error_above_its_value_leaves_two_digits_of_it():
     assert ErrorBudget((none,), sources, ()).to_record()["stiffness"]["value"] is None
 
 
+def test_near_full_contact_an_infinite_stiffness_has_no_error_and_a_depth_may_be_too_much():
+    surface = rough(32, periodic=True) * 0.1
+    full = rc.error_budget(pressed(surface, pressure=1e9))
+    assert (full["stiffness"].value, full["stiffness"].parts) == (math.inf, (0.0, 0.0))
+    assert (full["mean_gap"].value, full["mean_gap"].error) == (0.0, 0.0)
+    assert full.notes == ()
+    nearly = pressed(surface, depth=0.99 * pressed(surface, depth=0.0).problem.mean_separation)
+    half = rc.error_budget(nearly)
+    # The means over larger cells have a lower summit: the depth is beyond their full contact.
+    assert math.isnan(half["force"].parts[0])
+    assert math.isnan(half["force"].error)
+    assert "(grid) cannot take this load" in half.notes[0]
+
+
 def test_what_has_no_errors_is_refused():
     grid = rc.Grid(32, 1e-6)
     line = rc.Surface(-((grid.coordinates[0] - 16e-6) ** 2) / 1e-3, grid)

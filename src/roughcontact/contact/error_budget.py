@@ -13,7 +13,7 @@ from roughcontact.labels.variables import VARIABLES
 __all__ = ["ErrorBudget", "ErrorSource", "QuotedNumber"]
 
 MANY_TIMES = 10  # a value: how large an error then is says no more
-ROUNDING = 1e-12  # of a value: an error below is none
+ROUNDING = 1e-12  # of a value: an error below is none, as a gap is that is so small beside the depth
 
 Kind: TypeAlias = Literal["bias", "standard error"]
 InUnit: TypeAlias = Callable[[str, float], tuple[float, str]]

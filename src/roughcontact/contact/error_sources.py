@@ -10,7 +10,7 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.error_budget import ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.contact.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.contact.load_search import SurfaceKind
 from roughcontact.contact.perimeter import corrected_area
 from roughcontact.contact.press import solve
@@ -108,14 +108,19 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         otherwise.append(lambda surface: surface.levelled("quadratic"))
     elif SurfaceKind.FORM in kinds:
         notes.append("Levelling is left out: a form larger than the roughness is the body itself.")
-    values = _table(patches)
-    parts = [
-        (_table([_again(each, change) for each in patches]) - values).mean(axis=1) for change in otherwise
-    ]
-    if len(patches) > 1:
-        many = f"standard error of the mean of {len(patches)} patches"
-        sources.append(ErrorSource("patches", "standard error", many))
-        parts.append(values.std(axis=1, ddof=1) / math.sqrt(len(patches)))
+    values, parts = _table(patches), []
+    with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
+        for source, change in zip(sources, otherwise, strict=True):
+            again = _table([_again(each, change) for each in patches])
+            parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
+            if np.isnan(again).all(axis=0).any():
+                notes.append(
+                    f"The map made otherwise ({source.name}) cannot take this load: its part is unknown."
+                )
+        if len(patches) > 1:
+            many = f"standard error of the mean of {len(patches)} patches"
+            sources.append(ErrorSource("patches", "standard error", many))
+            parts.append(values.std(axis=1, ddof=1) / math.sqrt(len(patches)))
     prescribed = "force" if isinstance(first.control, Force) else "depth"
     numbers = tuple(
         QuotedNumber(name, float(value), VARIABLES[name].unit, tuple(map(float, part)))
@@ -181,8 +186,8 @@ def checked_cutoff(surface: Surface, given: float | None) -> float:
     return cutoff
 
 
-def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution:
-    """Return the same load on the surface made otherwise."""
+def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution | None:
+    """Return the same load on the surface made otherwise; None where that cannot take it, as near full contact."""
     problem = solution.problem
     surface, operator = change(problem.surface), problem.operator  # type: ignore[arg-type]
     if surface.grid != problem.grid:
@@ -193,22 +198,31 @@ def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution
                 "surface without operator="
             )
         operator = other
-    answer = solve(replace(problem, separation=separation_of(surface), operator=operator, surface=surface))
+    try:
+        other_map = replace(problem, separation=separation_of(surface), operator=operator, surface=surface)
+    except ValueError:  # all else about it was accepted before
+        return None
+    answer = solve(other_map)
     if not answer.status.converged:
         raise ConvergenceError(answer)
     return answer
 
 
-def _table(solutions: Sequence[Solution]) -> Array:
+def _table(solutions: Sequence[Solution | None]) -> Array:
     """Return the numbers of contacts, shape (numbers, contacts)."""
     return np.array([list(_numbers(each)) for each in solutions]).T
 
 
-def _numbers(solution: Solution) -> Iterator[float]:
-    """Yield the values of NUMBERS."""
+def _numbers(solution: Solution | None) -> Iterator[float]:
+    """Yield the values of NUMBERS; NaN of no contact that there is."""
+    if solution is None:
+        yield from (math.nan for _ in NUMBERS)
+        return
     nominal, corrected = solution.problem.grid.area, corrected_area(solution)
     yield from (solution.force, solution.depth, solution.stiffness, solution.interfacial_stiffness)
     yield solution.interfacial_stiffness / nominal
     yield from (solution.contact_area, corrected)
     yield from (solution.contact_fraction, corrected / nominal)
-    yield from (solution.mean_gap, solution.elastic_energy)
+    gap = solution.mean_gap  # a difference of lengths of the depth's size
+    yield 0.0 if abs(gap) <= ROUNDING * solution.depth else gap
+    yield solution.elastic_energy
