@@ -162,6 +162,12 @@ class TestMissedTolerance:
         assert answer.exit_code == 1
         assert "MISSED" in answer.stdout
 
+    def test_it_has_no_errors_and_a_note_says_why(self, invoke, rough):
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--json")
+        assert answer.exit_code == 1
+        assert json.loads(answer.stdout)["errors"] is None
+        assert "Note: no errors at 10 mN: residual" in answer.stderr
+
 
 class TestNothingHalfWritten:
     @pytest.fixture
