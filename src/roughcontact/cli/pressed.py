@@ -24,6 +24,8 @@ class Pressed:
     ----------
     kind : SurfaceKind
         Periodic, nominally flat, with form, or a profile.
+    words : str
+        The same in words.
     index : PlasticityIndex or None
         Of Greenwood and Williamson, where a hardness is known.
     softer : (float, str) or None
@@ -31,6 +33,7 @@ class Pressed:
     """
 
     kind: SurfaceKind
+    words: str
     index: PlasticityIndex | None
     softer: tuple[float, str] | None
 
@@ -40,9 +43,9 @@ class Pressed:
         from roughcontact.contact.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)
-        if softer is None or surface.grid.ndim == 1:  # a profile has no summits
-            return cls(kind, None, softer)
-        return cls(kind, _index(surface, modulus, softer[0]), softer)
+        if surface.grid.ndim == 1:  # which has no summits
+            return cls(kind, "a periodic profile" if all(surface.grid.periodic) else "a profile", None, None)
+        return cls(kind, kind.value, None if softer is None else _index(surface, modulus, softer[0]), softer)
 
     def facts(self) -> list[tuple[str, str]]:
         """Return what is worth telling, line by line."""
@@ -57,11 +60,6 @@ class Pressed:
                 )
             )
         return lines
-
-    @property
-    def words(self) -> str:
-        """The kind of the map, in words."""
-        return "a profile" if self.kind.value == "profile" else self.kind.value
 
     def record(self) -> dict[str, Any]:
         """Return the same as plain values."""
