@@ -64,7 +64,7 @@ def test_what_stands_for_a_missing_point_is_none(put, label):
     surface = rc.read(put("a.txt", header + ROWS))
     assert surface.missing == 1
     assert np.isnan(surface.heights[2, 2])
-    assert "1 points of -9 are not measured, as its header states" in surface.provenance
+    assert "not measured where it is -9, as its header states" in surface.provenance
 
 
 def test_a_bare_side_in_the_only_unit_is_taken_with_a_warning(put):
@@ -87,8 +87,9 @@ def test_a_factor_that_is_not_applied_is_told(put, line):
         rc.read(put("a.txt", header + ROWS))
 
 
-def test_a_factor_of_one_changes_nothing(put):
-    header = "width = 8 um\nheight = 3 um\nunit = nm\nscale factor = 1.0\n"
+@pytest.mark.parametrize("line", ["scale factor = 1.0", "quality factor = 200", "scale = linear"])
+def test_what_changes_no_height_is_not_talked_about(put, line):
+    header = f"width = 8 um\nheight = 3 um\nunit = nm\n{line}\n"
     assert len(rc.read(put("a.txt", header + ROWS)).provenance) == 1
 
 

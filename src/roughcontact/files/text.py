@@ -39,7 +39,7 @@ def read_text(data: bytes) -> HeightMap:
     notes: tuple[str, ...] = ()
     if header.missing is not None and (found := heights == header.missing).any():
         heights = np.where(found, np.nan, heights)
-        notes = (f"{int(found.sum())} points of {header.missing:g} are not measured, as its header states",)
+        notes = (f"not measured where it is {header.missing:g}, as its header states",)
     return HeightMap(
         as_heights(heights),
         "text" if header == TextHeader(doubts=header.doubts) else "text with a header",

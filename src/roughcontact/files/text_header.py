@@ -33,7 +33,10 @@ _LABELS = {
 _LABELS_OF = {name: re.compile(words) for name, words in _LABELS.items()}
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 # What changes heights and is no unit: a reader that does not know it must say so.
-_SCALES = re.compile(r"\b(z scale|scale (z|data)|height scale|factor|multiplier|bit2nm)\b")
+_SCALES = re.compile(
+    r"(z|height|data) scale|scale (z|data)|bit2nm|multiplier"
+    r"|((z|height|data|value|scale|scaling|conversion) )*factor( .*)?"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +101,7 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
         name = next((name for name, words in _LABELS_OF.items() if words.fullmatch(label)), None)
         if name is not None and value:
             stated.setdefault(name, value)
-        elif _SCALES.search(label) and not _is_one(value):
+        elif _SCALES.fullmatch(label) and not _is_one(value):
             doubts.append(f"its header states {line.strip()[:60]!r}, which is not applied: check the heights")
     for name, axis, points in (("height", "y", shape[0]), ("width", "x", shape[1])):
         if _value(stated.get(name)) == points:
