@@ -50,6 +50,9 @@ def test_a_curve_is_that_of_the_library_and_its_files_are_there(invoke, line, sc
     assert record["stiffness"] == curve.stiffness.tolist()
     assert sorted(path.name for path in out.iterdir()) == ["curve.csv", "curve.json", "curve.nc", "curve.png"]
     assert "the map is a profile; no loads are named: 24 forces" in answer.stderr
+    below = int(np.argmax(curve.resolved))
+    assert below > 0
+    assert f"{below} of them below what the grid resolves" in answer.stderr
 
 
 def test_units_on_the_screen_are_those_of_the_body(invoke, scan):

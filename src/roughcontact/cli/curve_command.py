@@ -127,6 +127,7 @@ def _suggested(
     surface: Surface, modulus: float, pressed: Pressed, *, operator: Operator | None, hardness: float | None
 ) -> npt.NDArray[np.float64]:
     """Return the forces [N] that suit a surface, and say which they are."""
+    from roughcontact.contact.load_outlook import load_outlook
     from roughcontact.contact.load_range import load_range
     from roughcontact.halfspace.operators.operator import geometry_of
 
@@ -135,10 +136,12 @@ def _suggested(
     loads, end = found.forces, found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in (loads[0], loads[-1]))
-    below = "" if kind is Geometry.LINE else f", {found.below} of them below what the grid resolves"
+    below = found.below
+    if kind is Geometry.LINE:  # whose forces are not searched for
+        below = load_outlook(surface, modulus, forces=loads, operator=operator).below
     note(
-        f"the map is {pressed.words}; no loads are named: {loads.size} forces from {low} to {high}, to {end}{below} "
-        "(--forces for others)"
+        f"the map is {pressed.words}; no loads are named: {loads.size} forces from {low} to {high}, to {end}, "
+        f"{below} of them below what the grid resolves (--forces for others)"
     )
     for line in found.notes:
         note(line)
