@@ -78,12 +78,13 @@ class Pressed:
 
 
 def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:
-    """Return the index from the moments of a map; None, and why, where there is none."""
+    """Return the index of the summits of a map; None, and why, where there is none."""
     import roughcontact as rc
 
     try:
         flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
-        return rc.theory.plasticity.asperity_index(rc.surface_moments(flat), modulus, hardness)
+        summits = rc.find_summits(flat)
+        return rc.theory.plasticity.summit_index(summits.height, summits.mean_curvature, modulus, hardness)
     except ValueError as error:
         if not is_ours(error):
             raise
