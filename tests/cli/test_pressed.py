@@ -29,7 +29,7 @@ def test_the_index_of_plasticity_is_that_of_the_library(invoke, rough, surface, 
 def test_named_materials_bring_the_hardness_of_the_softer(invoke, rough):
     words = ("press", rough, *FORCE)
     named = invoke(*words, "--materials", "steel,aluminium")
-    assert "hardness 1.049 GPa aluminium" in named.stdout
+    assert "hardness 1.049 GPa of aluminium" in named.stdout
     record = json.loads(invoke(*words, "--materials", "aluminium,rigid", "--json").stdout)
     assert record["plasticity_index"]["hardness"] == rc.handbook("aluminium").hardness
     assert (

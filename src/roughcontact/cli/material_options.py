@@ -67,9 +67,9 @@ def modulus_of(text: str) -> float:
 
 
 def softer_of(text: str) -> tuple[float, str]:
-    """Return the lower hardness [Pa] of two materials, of which one may be rigid, and its name."""
+    """Return the lower hardness [Pa] of two materials, of which one may be rigid, and of which it is."""
     named = [known_material(name) for name in text.split(",") if name.strip().lower() != _RIGID]
-    return min((material.hardness, material.name) for material in named if material is not None)
+    return min((material.hardness, f"of {material.name}") for material in named if material is not None)
 
 
 def parse_bodies(text: str, kind: Kind, name: str) -> tuple[float, float]:

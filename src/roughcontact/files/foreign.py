@@ -111,7 +111,8 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     except ContentError:
         raise
     except Exception as error:  # any reader of forty may fail in any way on a damaged file
-        raise ContentError(f"it cannot be read ({_brief(error)})", _REMEDY) from error
+        hint = "" if b"\0" in data else "name a text of numbers .txt; "
+        raise ContentError(f"it cannot be read ({_brief(error)})", hint + _REMEDY) from error
     finally:
         _READING.reset(reading)
 
