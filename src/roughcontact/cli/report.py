@@ -11,7 +11,8 @@ import typer
 from rich.console import Console
 
 from roughcontact.cli.messages import note
-from roughcontact.labels.variables import VARIABLES
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
 
@@ -59,9 +60,9 @@ def emit(record: Mapping[str, Any]) -> None:
     typer.echo(json.dumps(record, allow_nan=False, ensure_ascii=True))
 
 
-def quantity(name: str, value: float) -> str:
+def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
     """Return a quantity of the table of variables with a unit that suits it."""
-    return written(value, VARIABLES[name].unit, digits=4)
+    return written(value, unit_of(name, geometry), digits=4)
 
 
 def size_of(grid: AnyGrid) -> str:
@@ -88,23 +89,23 @@ def print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
 
 def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     """Return what one loaded state is worth telling, line by line."""
-    problem = solution.problem
+    problem, kind = solution.problem, solution.problem.geometry
     pressure = solution.force / problem.grid.area
     met = "met" if solution.status.converged else "MISSED"
     return [
         ("surface", size_of(problem.grid)),
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
-        ("force", quantity("force", solution.force)),
-        ("nominal pressure", quantity("pressure", pressure)),
-        ("largest pressure", quantity("pressure", float(solution.pressure.max()))),
-        ("depth", quantity("depth", solution.depth)),
-        ("stiffness", quantity("stiffness", solution.stiffness)),
-        ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness)),
-        ("contact area", quantity("contact_area", solution.contact_area)),
+        ("force", quantity("force", solution.force, kind)),
+        ("nominal pressure", quantity("pressure", pressure, kind)),
+        ("largest pressure", quantity("pressure", float(solution.pressure.max()), kind)),
+        ("depth", quantity("depth", solution.depth, kind)),
+        ("stiffness", quantity("stiffness", solution.stiffness, kind)),
+        ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
+        ("contact area", quantity("contact_area", solution.contact_area, kind)),
         ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
-        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)))),
-        ("elastic energy", quantity("elastic_energy", solution.elastic_energy)),
+        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)), kind)),
+        ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
 
@@ -112,14 +113,15 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
     """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
     header, columns = [], []
+    geometry = Geometry(dataset.attrs.get("geometry", "surface"))
     for name in names:
-        values, known = dataset[name].to_numpy(), VARIABLES[name]
+        values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
             values = _closed(values, dataset["depth"].to_numpy())
-        plain = known.unit in ("", "1")
-        chosen = _scale(values, dataset[name].attrs.get("units", ""), known.unit)
-        label = known.label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
-        header.append(label if plain else f"{label} [{chosen.unit or pretty(known.unit)}]")
+        plain = known in ("", "1")
+        chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
+        label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
+        header.append(label if plain else f"{label} [{chosen.unit or pretty(known)}]")
         digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
         columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
     if {"resolved", "status"} <= dataset.keys():

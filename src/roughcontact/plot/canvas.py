@@ -17,6 +17,7 @@ from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, stiff
 from roughcontact.plot.engineering_units import Scale, written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window
+from roughcontact.plot.pressed_profile import pressed_profile_figure
 from roughcontact.plot.raster import Window
 from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.statistics.power_law import PowerLaw
@@ -28,8 +29,13 @@ _FORMATS = ("png", "pdf", "svg")
 
 
 def solution_figure(solution: Solution) -> Figure:
-    """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps."""
+    """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps.
+
+    Of a profile the heights before and under the load, over the pressure.
+    """
     solution = solution.on_host()
+    if solution.problem.grid.ndim == 1:
+        return pressed_profile_figure(solution)
     window = contact_window(solution)
     height, width = solution.problem.grid.lengths
     if width <= 1.8 * height:
