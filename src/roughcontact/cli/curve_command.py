@@ -17,6 +17,7 @@ from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.report import note_files, quantity, screen
+from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_loads
 from roughcontact.cli.units_of_answer import Units
@@ -38,6 +39,7 @@ roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
+roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """
 
 _KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
@@ -74,13 +76,14 @@ def curve(
     theories: Theories,
     asked: options.Answer,
     units: Units,
+    tables: InterfaceTables,
 ) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
     Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
     """
     file, out = reading.source.file, asked.out
-    with reported(file, out):
+    with reported(file, out, as_json=asked.json):
         name, loads = given.values()
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
@@ -91,7 +94,9 @@ def curve(
                 "--hardness, or take rc.conductance of each solution of rc.loading_path"
             )
         theories.check()
+        tables.check(out)
         tolerance = asked.residual
+        more: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
             laws, taken, refused = theories.laws(surface, modulus, hardness)
@@ -105,8 +110,10 @@ def curve(
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
                 answer.write(folder, f"{name} {ends}, {loads.size} of them")
+                more = tables.write(folder, computed, surface, conductors)
         answer.tell(asked.json)
-        note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png"))
+        if folder is not None:
+            note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png", *more))
         if not answer.converged:
             raise typer.Exit(MISSED)
 

@@ -46,7 +46,7 @@ def info(source: options.Source, *, json: bool = options.JSON) -> None:
     What looks suspicious comes with the option of 'surface prepare' that mends it.
     """
     file = source.file
-    with reported(file):
+    with reported(file, as_json=json):
         from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
@@ -94,7 +94,7 @@ class Recipe:
 
 def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
-    with reported(out):
+    with reported(out, as_json=json):
         import numpy as np
 
         import roughcontact as rc
