@@ -59,6 +59,9 @@ def error_of(answer):
         (("study", "run", "none.toml"), "study", "none.toml: No such file", ""),
         (("study", "status", "nowhere"), "store", "nowhere: there is no study.toml", "name the folder that"),
         (("study", "export", "nowhere", "--out", "a.nc"), "store", "nowhere", "name the folder that"),
+        (("study", "average", "nowhere", "--out", "a.nc"), "store", "nowhere", "name the folder that"),
+        (("study", "plot", "nowhere", "--out", "a.png"), "store", "nowhere", "name the folder that"),
+        (("study", "table", "nowhere"), "store", "nowhere", "name the folder that"),
     ],
 )
 def test_each_command_answers_with_an_error(

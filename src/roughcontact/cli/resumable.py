@@ -32,7 +32,7 @@ def resumable(command: str, *, as_json: bool = False) -> Iterator[None]:
             raise
         ended(
             "terminated",
-            "Terminated; every finished case is stored.",
+            "Every finished case is stored.",
             TERMINATED,
             as_json=as_json,
             remedy=command,
