@@ -50,8 +50,8 @@ def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: st
         f"units: {words}",
         *_facts(table, "Pa" if stress == 1 else "MPa", stress),
         zero,
-        "between two lines Abaqus interpolates linearly, at most "
-        f"{table.chord_error:.2%} above the pressure; beyond the last line it goes on straight",
+        "between two lines Abaqus interpolates linearly: at most "
+        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it goes on straight",
         *remarks,
     ]
     lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]
@@ -133,4 +133,5 @@ def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
 def _plain(lines: Iterable[str]) -> Iterator[str]:
     """Yield remarks in short lines, in letters that every reader knows."""
     for line in lines:
-        yield from wrap(" | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii"), _WIDTH)
+        plain = " | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii")
+        yield from wrap(plain, _WIDTH, break_on_hyphens=False)
