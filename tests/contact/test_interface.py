@@ -102,6 +102,8 @@ class TestTable:
             "zero_gap": "m",
         }
         np.testing.assert_array_equal(dataset["zero_gap"] - dataset["mean_gap"], dataset["overclosure"])
+        low, high = curve.nominal_pressure[curve.resolved][[0, -1]]
+        assert dataset.attrs["validity"] == f"nominal pressure from {low:.6g} to {high:.6g} Pa"
 
     def test_what_has_no_law_is_refused(self, curve):
         line = rc.self_affine(rc.Grid(64, 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))

@@ -9,6 +9,9 @@ from __future__ import annotations
 import json
 import re
 import sys
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
 
 __all__ = ["emit_error", "kind_of", "remedy_in"]
 
@@ -46,7 +49,13 @@ _VERBS = (
 _REMEDY = re.compile(rf"(?:^|[:;] )((?:{'|'.join(_VERBS)})\b.*)", re.DOTALL)
 
 
-def emit_error(kind: str, message: str, status: int, remedy: str | None = None) -> None:
+def emit_error(
+    kind: str,
+    message: str,
+    status: int,
+    remedy: str | None = None,
+    beside: Mapping[str, Any] = MappingProxyType({}),
+) -> None:
     """Print an error as one JSON object on standard output.
 
     Parameters
@@ -59,6 +68,8 @@ def emit_error(kind: str, message: str, status: int, remedy: str | None = None) 
         With which the program ends.
     remedy : str, optional
         What to do about it; by default what the message says of it, if it does.
+    beside : mapping
+        What is known all the same.
     """
     record = {
         "kind": kind,
@@ -66,7 +77,7 @@ def emit_error(kind: str, message: str, status: int, remedy: str | None = None) 
         "remedy": remedy or remedy_in(message),
         "exit_status": status,
     }
-    sys.stdout.write(json.dumps({"error": record}, ensure_ascii=True) + "\n")
+    sys.stdout.write(json.dumps({"error": record, **beside}, ensure_ascii=True) + "\n")
 
 
 def kind_of(error: BaseException) -> str:

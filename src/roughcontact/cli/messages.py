@@ -44,17 +44,18 @@ def note(text: str) -> None:
 
 
 @contextmanager
-def reported(*paths: Path | None, as_json: bool = False) -> Iterator[None]:
+def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, Any]]:
     """Turn errors of ours into one line and an exit status, and our warnings into notes.
 
     The lines name the `paths` of the command line as they were typed. Where the answer was asked for `as_json`, so
-    comes the error.
+    comes the error; what stands beside it there may be written into the dictionary that is yielded.
     """
+    beside: dict[str, Any] = {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", SurfaceWarning)
             warnings.showwarning = _showwarning(warnings.showwarning)
-            yield
+            yield beside
     except KeyboardInterrupt:
         ended("interrupted", "Interrupted: no file was left half-written.", INTERRUPTED, as_json=as_json)
         raise typer.Exit(INTERRUPTED) from None
@@ -64,7 +65,7 @@ def reported(*paths: Path | None, as_json: bool = False) -> Iterator[None]:
         raise
     except MemoryError as error:
         message = "the memory does not suffice: use fewer points, or another machine"
-        _refused(error, message, as_json)
+        _refused(error, message, beside if as_json else None)
         raise typer.Exit(BAD_INPUT) from None
     except (ValueError, OSError) as error:
         if not is_ours(error):
@@ -72,7 +73,7 @@ def reported(*paths: Path | None, as_json: bool = False) -> Iterator[None]:
         message = _message(error)
         for path in paths:
             message = message if path is None else message.replace(os.path.realpath(path), str(path))
-        _refused(error, _line(message), as_json)
+        _refused(error, _line(message), beside if as_json else None)
         raise typer.Exit(BAD_INPUT) from None
 
 
@@ -83,11 +84,12 @@ def ended(kind: str, line: str, status: int, *, as_json: bool, remedy: str | Non
         emit_error(kind, line, status, remedy)
 
 
-def _refused(error: BaseException, message: str, as_json: bool) -> None:
+def _refused(error: BaseException, message: str, beside: dict[str, Any] | None) -> None:
+    """Say what was refused, with `beside` as one JSON object too."""
     typer.echo(f"Error: {message}", err=True)
-    if as_json:
+    if beside is not None:
         remedy = getattr(error, "remedy", None)  # of errors that keep it apart
-        emit_error(kind_of(error), message, BAD_INPUT, None if remedy is None else _line(remedy))
+        emit_error(kind_of(error), message, BAD_INPUT, None if remedy is None else _line(remedy), beside)
 
 
 @contextmanager

@@ -103,9 +103,12 @@ class InterfaceTable:
         }
         data = {name: variable(name, ("load",), values) for name, values in columns.items()}
         data["zero_gap"] = variable("zero_gap", (), self.zero_gap)
-        return xarray.Dataset(
-            data, attrs={"Conventions": "CF-1.11", "title": "law of an interface, per area"}
-        )
+        low, high = self.validity
+        words = {
+            "title": "law of a rough interface, per nominal area",
+            "validity": f"nominal pressure from {low:.6g} to {high:.6g} Pa",
+        }
+        return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})
 
 
 def interface_table(
