@@ -160,6 +160,10 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
         (("table", "STUDY", "--window", "2:1"), "--window goes from a force to a larger one"),
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
+        (
+            ("table", "STUDY", "--at", "2"),
+            "--at: the loads go from 0.005 to 0.07: choose a force between them",
+        ),
         (("table", "STUDY", "--at", "0"), "--at: a force over E* h L is above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),

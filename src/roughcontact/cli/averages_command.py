@@ -16,6 +16,7 @@ from roughcontact.cli.report import emit, print_facts, print_table
 from roughcontact.cli.study_command import FOLDER, own_cases, require_results
 from roughcontact.cli.unit_options import parse_number
 from roughcontact.plot.engineering_units import scale
+from roughcontact.statistics.power_law import ROUNDING
 
 if TYPE_CHECKING:
     import xarray
@@ -52,7 +53,7 @@ AT = option("For quantities along the loads: at which force over E* h L.", "0.01
 
 _STIFFNESS = "dimensionless_stiffness"
 _LAW = ("exponent", "prefactor")
-_ROUNDING = 1e-12  # of a mean: samples that differ by no more are equal
+_EQUAL = 1e-12  # of a mean: samples that differ by no more are equal
 _CERTIFICATES = ("residual", "stiffness_residual", "resolved")  # shown where they are asked for
 _MOST_DECIMALS = 5  # beyond these a power of ten is shorter
 _LEAST = 3  # forces that make a law, as in statistics.fit
@@ -180,8 +181,22 @@ def _averaged(folder: Path, window: Window | None, force: float | None = None) -
     if summary.failed or summary.left:
         note(f"{summary.failed} cases failed and {summary.left} are left: they have no part in the averages")
     if force is not None:
+        _require_between(dataset, force)
         dataset = on_common(dataset, [force]).isel(dimensionless_force=0)
     return averages(dataset, window, rng=np.random.default_rng(seed))
+
+
+def _require_between(dataset: xarray.Dataset, force: float) -> None:
+    """Refuse a force that no load of the study comes near."""
+    if "dimensionless_force" not in dataset:
+        raise UsageError("--at: the study has no forces over E* h L; see roughcontact study export")
+    low, high = (
+        float(each) for each in (dataset["dimensionless_force"].min(), dataset["dimensionless_force"].max())
+    )
+    if not low * (1 - ROUNDING) <= force <= high * (1 + ROUNDING):
+        raise UsageError(
+            f"--at: the loads go from {low:g} to {high:g}: choose a force between them, not {force:g}"
+        )
 
 
 def _first(averaged: xarray.Dataset) -> str:
@@ -281,7 +296,7 @@ def _with_error(value: float, error: float) -> str:
     """Return a mean and its error, both to two digits of the error."""
     if not math.isfinite(value):
         return "-"
-    if not error > _ROUNDING * abs(value) or not math.isfinite(error):
+    if not error > _EQUAL * abs(value) or not math.isfinite(error):
         return f"{value:.4g}"
     digits = max(1 - math.floor(math.log10(error)), 0)
     if digits > _MOST_DECIMALS:
