@@ -79,7 +79,7 @@ def conductance(
     """Tell what a contact conducts: electrical and thermal resistance against pressure or force."""
     from roughcontact.contact.conduction import with_conductance
 
-    with reported(file, out):
+    with reported(file, out, as_json=json):
         conductors = materials.conductors()
         if conductors is None:
             raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")

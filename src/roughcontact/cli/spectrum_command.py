@@ -99,7 +99,7 @@ def spectrum(
 
     Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(source.file, out):
+    with reported(source.file, out, as_json=json):
         band = asked.band()
         with output(out) as folder:
             surface = _surface(source, periodic, asked.fill)
