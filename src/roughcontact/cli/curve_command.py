@@ -91,7 +91,7 @@ def curve(
                 "--hardness, or take rc.conductance of each solution of rc.loading_path"
             )
         theories.check()
-        tolerance = asked.residual
+        tolerance, ending = asked.residual, asked.ending
         with output(out) as folder:
             surface = reading.surface()
             laws, taken, refused = theories.laws(surface, modulus, hardness)
@@ -104,9 +104,9 @@ def curve(
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
-                answer.write(folder, f"{name} {ends}, {loads.size} of them")
+                answer.write(folder, f"{name} {ends}, {loads.size} of them", ending)
         answer.tell(asked.json)
-        note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png"))
+        note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}"))
         if not answer.converged:
             raise typer.Exit(MISSED)
 

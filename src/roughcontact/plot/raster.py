@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +14,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.usual_range import usual_range
 from roughcontact.validation import Array
 
 __all__ = [
@@ -102,25 +103,29 @@ def pooled(values: Array) -> Array:
 
 def heights_image(
     axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colours
-) -> tuple[AxesImage, str]:
-    """Draw heights, hatched where they are missing; return the image and the unit."""
+) -> tuple[AxesImage, str, bool]:
+    """Draw heights, hatched where missing; return the image, the unit, and whether colours end before heights."""
     window = part(grid, window)
     inside = heights[window]
     measured = inside[~np.isnan(inside)]
-    low, high = (measured.min(), measured.max()) if measured.size else (0.0, 0.0)
+    whole = (float(measured.min()), float(measured.max())) if measured.size else (0.0, 0.0)
+    low, high = (usual_range(measured) if measured.size else None) or whole
     chosen = scale(float(max(abs(low), abs(high))), VARIABLES["heights"].unit)
     if measured.size < inside.size:
         axes.patch.set(facecolor="white", edgecolor="0.55", hatch="//////")
     limits = low * chosen.factor, high * chosen.factor
-    return show(axes, inside * chosen.factor, grid, window, colours, limits), chosen.unit
+    return (
+        show(axes, inside * chosen.factor, grid, window, colours, limits),
+        chosen.unit,
+        (low, high) != whole,
+    )
 
 
-def colour_bar(axes: Axes, image: AxesImage, label: str, end: str = "") -> None:
-    """Put a colour bar beside the map, as high as the map itself.
-
-    Where larger values than the last colour occur, the bar is pointed and says at which value it does `end`.
-    """
-    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if end else "neither")
-    bar.set_label(f"{label}\n(colours end at {end})" if end else label, fontsize=LABEL)
+def colour_bar(
+    axes: Axes, image: AxesImage, label: str, extend: Literal["neither", "max", "both"] = "neither"
+) -> None:
+    """Put a colour bar beside the map, as high as the map itself; pointed where values go on beyond its colours."""
+    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend=extend)
+    bar.set_label(label, fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)
     bar.outline.set_linewidth(0.5)
