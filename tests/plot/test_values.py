@@ -127,9 +127,14 @@ def test_lines_and_rings_draw_curves(kind, unit, along):
     expected = grid.edges if kind == "ring" else np.arange(201) * 1e-6
     np.testing.assert_allclose(edges, expected * 1e6, rtol=1e-12, atol=1e-20)
     assert (axes.get_xlabel(), axes.get_ylabel()) == (f"{along} [µm]", f"pressure [{unit}]")
-    heights, touched = solution.plot(field="contact").lines
-    np.testing.assert_array_equal(np.isfinite(touched.get_ydata()), solution.contact)
-    np.testing.assert_allclose(heights.get_xdata(), grid.coordinates[0] * 1e6, rtol=1e-12)
+    axes = solution.plot(field="contact")
+    before, under = axes.lines
+    for drawn, heights in ((before, solution.depth - solution.problem.separation), (under, -solution.gap)):
+        np.testing.assert_allclose(drawn.get_xdata(), grid.coordinates[0] * 1e6, rtol=1e-12)
+        np.testing.assert_allclose(drawn.get_ydata() * heights[0], drawn.get_ydata()[0] * heights, rtol=1e-12)
+    cells = np.flatnonzero(solution.contact)
+    ends = [segment[:, 0] for segment in axes.collections[0].get_segments()]
+    np.testing.assert_allclose(ends, np.stack([edges[cells], edges[cells + 1]], axis=1), rtol=1e-14)
     figure = rc.plot.solution_figure(solution)
     assert len(figure.axes) == 2
     assert figure.get_suptitle().startswith("force ")

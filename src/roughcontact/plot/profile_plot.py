@@ -77,7 +77,7 @@ def profile_curve(
 
 
 def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a line or of rings before they were pressed, and which of their cells are in contact.
+    """Draw the heights of a line or of rings over the flat, before and under the load, and the cells in contact.
 
     Parameters
     ----------
@@ -97,15 +97,18 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     """
     solution, axes = _of_line(solution), axes_for(ax, _FLAT)
     problem = solution.problem
-    heights = -problem.separation if problem.surface is None else problem.surface.heights
-    z = scale(float(np.nanmax(np.abs(heights))), VARIABLES["heights"].unit)
+    before = np.where(problem.measured, solution.depth - problem.separation, np.nan)
+    z = scale(float(np.nanmax(np.abs(before))), VARIABLES["heights"].unit)
     x, unit, name = _places(problem.grid)
     middle = (x[1:] + x[:-1]) / 2
-    axes.plot(middle, heights * z.factor, color="0.4", linewidth=1.0, label=VARIABLES["heights"].label)
-    touched = np.where(solution.contact, heights, np.nan) * z.factor
-    axes.plot(middle, touched, ".-", color=_CONTACT, linewidth=2.0, markersize=3, label="in contact")
+    for heights, colour, words in ((before, "0.6", "before"), (-solution.gap, _LINE, "under the load")):
+        axes.plot(middle, heights * z.factor, color=colour, linewidth=1.0, label=words)
+    touched = np.flatnonzero(solution.contact)
+    if touched.size:
+        style: Any = {"color": _CONTACT, "linewidth": 3.0, "label": "in contact", "zorder": 3}
+        axes.hlines(0.0 * touched, x[touched], x[touched + 1], **style)
     axes.set_xlim(x[0], x[-1])
-    label_axes(axes, f"{name} [{unit}]", f"{VARIABLES['heights'].label} [{z.unit}]", grid=True)
+    label_axes(axes, f"{name} [{unit}]", f"height over the flat [{z.unit}]", grid=True)
     axes.legend(fontsize=TICK, frameon=False)
     return axes
 
