@@ -202,6 +202,26 @@ def test_a_map_without_spikes_has_no_rings_and_all_its_colours():
     assert axes.images[0].colorbar.extend == "neither"
 
 
+def test_heights_far_from_zero_are_given_above_one_of_them():
+    """Micrometres on top of 76 mm."""
+    heights = 76.321e-3 + np.random.default_rng(2).uniform(0.0, 3e-5, (32, 32))
+    axes = height_map(rc.Surface(heights, rc.Grid((32, 32), 1e-6)), Figure().subplots())
+    image = axes.images[0]
+    np.testing.assert_allclose(np.asarray(image.get_array()), (heights - 76.3e-3) * 1e6, rtol=1e-9)
+    assert image.colorbar.ax.get_ylabel() == "height above 76.3 mm [µm]"
+
+
+def test_pits_are_no_errors():
+    """A tenth of the map, far below the rest, keeps its colours."""
+    heights = np.random.default_rng(2).normal(0.0, 1e-10, (64, 64))
+    heights[:6] -= 1e-8
+    heights[40, 40] = 1e-6
+    axes = height_map(rc.Surface(heights, rc.Grid((64, 64), 1e-6)), Figure().subplots())
+    low, high = (end * 1e-9 for end in axes.images[0].get_clim())
+    assert low < -1e-8 + 3e-10
+    assert high < 1e-8
+
+
 def test_large_maps_are_pooled_without_losing_a_cell():
     values = np.full((3001, 10), np.nan)
     values[2999, 7] = 5.0

@@ -27,6 +27,7 @@ Density = Callable[[Array], Array]
 _BARS: Any = {"fill": True, "color": "#0072b2", "alpha": 0.45}
 _LINES = ("#d55e00", "#009e73", "#cc79a7")
 _PART = 0.75  # of the axis of pressures, whose density falls off
+_EDGES = 0.1  # of the cells in contact, which may lie along the edges of spots
 _ABOVE = 1.25  # height of the axes over what is drawn: there the legend covers nothing
 
 
@@ -69,7 +70,7 @@ def pressure_distribution(
         raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
     axes = axes_for(ax)
     largest = float(pressures.max())
-    end = (usual_range(np.append(0.0, pressures), _PART) or (0.0, largest))[1]
+    end = (usual_range(np.append(0.0, pressures), _PART, _EDGES) or (0.0, largest))[1]
     x = scale(end, unit)
     areas = np.broadcast_to(solution.problem.operator.weights, grid.shape)[solution.contact]
     shares, edges = np.histogram(pressures, _fewer(bins, pressures), (0.0, end), weights=areas / grid.area)

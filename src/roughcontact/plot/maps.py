@@ -31,6 +31,7 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
     """Draw the heights of a surface, with a colour bar; points that were not measured are hatched.
 
     Where a few heights far out would take half of the colours for themselves, these end before, and the bar says so.
+    Heights that differ by little of their size are given above one of them.
 
     Parameters
     ----------
@@ -51,13 +52,12 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
         If the surface is a profile.
     """
     axes = axes_for(ax)
-    image, unit, cut = heights_image(axes, surface.heights, surface.grid, None, "viridis")
-    low, high = (written(float(end), "m") for end in (np.nanmin(surface.heights), np.nanmax(surface.heights)))
-    words = f"\n(heights go from {low} to {high})" if cut else ""
-    colour_bar(axes, image, f"{VARIABLES['heights'].label} [{unit}]{words}", "both" if cut else "neither")
+    image, words, cut = heights_image(axes, surface.heights, surface.grid, None, "viridis")
+    colour_bar(axes, image, words, "both" if cut else "neither")
     if spikes is not None and spikes.count:
         y, x = (_steps(surface.grid) * (spikes.places + 0.5)).T
-        axes.scatter(x, y, s=_RING, facecolors="none", edgecolors=_SPIKE, linewidths=1.1, label=str(spikes))
+        ring: Any = {"facecolors": "none", "edgecolors": _SPIKE, "linewidths": 1.1, "clip_on": False}
+        axes.scatter(x, y, s=_RING, label=str(spikes), **ring)
         axes.set_title(f"{spikes}, ringed", fontsize=LABEL)
     return axes
 

@@ -13,12 +13,17 @@ _TAILS = (0.005, 0.995)  # quantiles of what is left
 _ROOM = 0.05  # beyond these, of what they span
 
 
-def usual_range(values: Array, share: float = 0.5) -> tuple[float, float] | None:
-    """Return the lowest and the highest of finite values without those far out; None beyond a `share` of all."""
+def usual_range(values: Array, share: float = 0.5, few: float = 0.02) -> tuple[float, float] | None:
+    """Return the lowest and the highest of finite values without those far out; None where that is all or nearly so.
+
+    Nearly so is more than a `share` of the range. More than a `few` of the values, pits or peaks, are not far out.
+    """
     whole = float(values.min()), float(values.max())
     first, third = (float(end) for end in np.quantile(values, (0.25, 0.75)))
     reach = _FAR * (third - first)
     near = values[(values >= first - reach) & (values <= third + reach)]
+    if near.size < (1 - few) * values.size:
+        near = values
     low, high = (float(end) for end in np.quantile(near, _TAILS))
     room = _ROOM * (high - low)
     low, high = max(low - room, whole[0]), min(high + room, whole[1])
