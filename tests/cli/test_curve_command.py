@@ -376,3 +376,34 @@ def test_no_stiffness_of_flowing_spots_is_drawn_beside_that_of_a_plastic_curve(
     plastic, elastic = drawn
     assert set(plastic.quantities) == {"contact_area"}
     assert "stiffness" in elastic.quantities
+
+
+def test_errors_are_those_of_the_first_and_the_last_resolved_load(invoke, rough, surface, tmp_path):
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--errors")
+    answer = invoke(*words, "--json", "--out", tmp_path / "out")
+    assert answer.exit_code == 0
+    record = json.loads(answer.stdout)
+    forces = [force for force, resolved in zip(record["force"], record["resolved"], strict=True) if resolved]
+    assert len(forces) > 2
+    assert [each["force"] for each in record["errors"]] == [forces[0], forces[-1]]
+    for each in record["errors"]:
+        budget = rc.error_budget(rc.press(surface, 110e9, force=each["force"]))
+        number = budget["interfacial_stiffness"]
+        assert each["interfacial_stiffness"]["error"] == pytest.approx(number.error, rel=1e-5)
+        assert each["interfacial_stiffness"]["value"] == pytest.approx(number.value, rel=1e-6)
+    assert json.loads((tmp_path / "out" / "curve.json").read_text())["errors"] == record["errors"]
+    assert json.loads(invoke(*words[:-1], "--json").stdout)["errors"] == []
+
+
+def test_errors_of_a_joint_are_in_the_units_that_were_named(invoke, rough):
+    told = invoke("curve", rough, *FORCES, *MODULUS, "--errors", "--unit-stiffness", "GPa/m").stdout
+    table = told.split("errors at ")[1:]
+    assert len(table) == 2
+    assert all("GPa/m" in part and "K/A0" in part for part in table)
+
+
+def test_without_a_resolved_load_there_are_no_errors_and_a_note_says_so(invoke, rough):
+    answer = invoke("curve", rough, "--forces", "1uN,2uN", *MODULUS, "--errors", "--json")
+    assert answer.exit_code == 0
+    assert json.loads(answer.stdout)["errors"] == []
+    assert "Note: no errors: no load is resolved" in answer.stderr

@@ -162,6 +162,12 @@ class TestMissedTolerance:
         assert answer.exit_code == 1
         assert "MISSED" in answer.stdout
 
+    def test_it_has_no_errors_and_a_note_says_why(self, invoke, rough):
+        answer = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--json")
+        assert answer.exit_code == 1
+        assert json.loads(answer.stdout)["errors"] is None
+        assert "Note: no errors at 10 mN: residual" in answer.stderr
+
 
 class TestNothingHalfWritten:
     @pytest.fixture
@@ -306,3 +312,48 @@ def test_a_format_without_a_folder_is_refused_before_the_work(invoke, rough, mon
         answer = invoke(*words, "--format", "svg")
         assert answer.exit_code == 2
         assert "--format is that of pictures: say where by --out" in answer.stderr
+
+
+def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
+    words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--short-cutoff", "10um")
+    answer = invoke(*words, "--json", "--out", tmp_path / "out")
+    assert answer.exit_code == 0
+    budget = rc.error_budget(rc.press(surface, 110e9, force=0.01), short_cutoff=10e-6)
+    found = json.loads(answer.stdout)["errors"]
+    assert found == {"force": found["force"], **budget.to_record()}
+    assert found["force"] == pytest.approx(0.01, rel=1e-12)
+    assert json.loads((tmp_path / "out" / "press.json").read_text())["errors"] == found
+    assert json.loads(invoke("press", rough, *FORCE, *MODULUS, "--json").stdout)["errors"] is None
+
+
+def test_errors_are_told_in_units_that_suit(invoke, rough):
+    told = invoke("press", rough, *FORCE, *MODULUS, "--errors").stdout
+    table = told.partition("errors at 10 mN\n")[2].splitlines()
+    assert table[0].split() == ["value", "error", "grid", "short", "cut-off", "levelling"]
+    stiffness = next(line for line in table if line.lstrip().startswith("interfacial stiffness"))
+    record = json.loads(invoke("press", rough, *FORCE, *MODULUS, "--errors", "--json").stdout)["errors"]
+    known = record["interfacial_stiffness"]
+    value, _, error, unit = stiffness.split()[2:6]
+    assert unit == "kN/m"
+    assert float(error) == pytest.approx(known["error"] * 1e-3, rel=0.05)
+    assert float(value) == pytest.approx(known["value"] * 1e-3, abs=float(error) / 10)
+    assert "short cut-off   bias: Gaussian low-pass at" in told
+    # A periodic map has no levelling, and stands for a joint: numbers per area.
+    joint = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--periodic").stdout.partition("errors at")[
+        2
+    ]
+    assert "levelling" not in joint
+    assert "K/A0" in joint
+
+
+def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):
+    for words, message in (
+        (("--short-cutoff", "10um"), "--short-cutoff belongs to --errors"),
+        (("--errors", "--short-cutoff", "10"), "leaves nothing of a map"),
+        (("--errors", "--short-cutoff", "1um"), "too short for cells"),
+        (("--errors", "--short-cutoff", "-1um"), "a wavelength must be positive"),
+    ):
+        answer = invoke("press", rough, *FORCE, *MODULUS, *words)
+        assert answer.exit_code == 2
+        assert message in answer.stderr
+        assert answer.stdout == ""

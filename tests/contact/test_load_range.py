@@ -71,8 +71,12 @@ def test_each_end_is_where_it_is_said_to_be(surface, reason):
     few = 20 * cell_stiffness(first.problem.operator)
     full = full_contact_stiffness(first.problem)
 
+    # Under a decade of large spots the range begins without them, and says so.
+    large = not any("Spots have fewer than 16 cells" in note for note in found.notes)
+    assert large == ("spots of 16 cells" in found.reasons[0])
+
     def resolved(solution):
-        return solution.stiffness >= few and mean_spot(solution) >= 16
+        return solution.stiffness >= few and (mean_spot(solution) >= 16 or not large)
 
     def ended(solution):
         return {

@@ -36,7 +36,6 @@ def export(growth=0.0, steepness=0.0, samples=4):
             "row": np.arange(4),
             "points": ("row", points),
             "short_cutoff": ("row", 1 / waves),
-            "drawn_on": 128,
             "sample": np.arange(samples),
         },
     )

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from roughcontact.cli.error_options import LoadErrors
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve
@@ -60,6 +61,8 @@ class CurveAnswer:
         Units that were asked for, by column.
     refused : mapping of str to str
         Why theories that were asked for do not apply to the surface, by their names.
+    errors : tuple of LoadErrors
+        Of the first and the last resolved load, if they were asked for.
     """
 
     curve: Curve
@@ -74,6 +77,7 @@ class CurveAnswer:
     per_area: bool
     units: Mapping[str, Scale]
     refused: Mapping[str, str]
+    errors: tuple[LoadErrors, ...]
 
     @property
     def converged(self) -> bool:
@@ -157,6 +161,7 @@ class CurveAnswer:
             "theory_parameters": dict(self.taken),
             "theories_left_out": self.left_out,
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
+            "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
             "notes": list(self.notes),
@@ -200,6 +205,8 @@ class CurveAnswer:
             report.print_facts([*_fit_facts(self.fit, curve), *local, *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
+            for each in self.errors:
+                each.tell(self.units, patch=not self.per_area, joint=self.per_area)
         missed = sum(not status.converged for status in curve.status)
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")

@@ -12,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
+from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
@@ -37,6 +38,7 @@ roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
+roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 """
 
@@ -72,6 +74,7 @@ def curve(
     elasticity: options.Elasticity,
     materials: Materials,
     theories: Theories,
+    errors: Errors,
     asked: options.Answer,
     units: Units,
 ) -> None:
@@ -91,16 +94,20 @@ def curve(
                 "--hardness, or take rc.conductance of each solution of rc.loading_path"
             )
         theories.check()
+        errors.check()
         tolerance, ending = asked.residual, asked.ending
         with output(out) as folder:
             surface = reading.surface()
+            errors.check_for(surface)
             laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
                 loads = _suggested(surface, modulus, hardness)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness}
-            computed, notes = _load(surface, modulus, path, loads.size)
+            computed, notes, outer = _load(surface, modulus, path, loads.size)
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
-            joint = (materials.of.value, per_area, chosen, refused)
+            if errors.errors and not outer:
+                note("no errors: no load is resolved")
+            joint = (materials.of.value, per_area, chosen, refused, errors.of(outer))
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
@@ -130,17 +137,23 @@ def _suggested(surface: Surface, modulus: float, hardness: float | None) -> npt.
 
 def _load(
     surface: Surface, modulus: float, given: dict[str, Any], count: int
-) -> tuple[Curve, tuple[str, ...]]:
-    """Return the curve and the notes on its last load; a bar on standard error moves on at every load."""
+) -> tuple[Curve, tuple[str, ...], list[Solution]]:
+    """Return the curve, the notes on its last load, and the first and last load that are resolved.
+
+    A bar on standard error moves on at every load.
+    """
     import roughcontact as rc
     from roughcontact.contact.curve import collect
 
     path = rc.loading_path(surface, modulus, **given)
     notes: list[tuple[str, ...]] = []
+    ends: list[Solution] = []
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         for solution in path:
             notes[:] = [solution.notes]
+            if solution.resolved and solution.status.converged:
+                ends[1 if ends else 0 :] = [solution]
             yield solution
 
     columns = (
@@ -151,4 +164,4 @@ def _load(
     )
     with Progress(*columns, console=screen()) as progress:
         curve = collect(progress.track(watched(path), total=count))
-    return curve, notes[0]
+    return curve, notes[0], ends

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import typer
 
 from roughcontact.cli import options
+from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
@@ -27,6 +28,7 @@ EXAMPLES = """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
+roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """
 
@@ -59,24 +61,30 @@ def press(
     load: Load,
     elasticity: options.Elasticity,
     theory: Theory | None = _THEORY,
+    errors: Errors,
     answer: options.Answer,
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
     with reported(file, out):
         given, ending = load.value(), answer.ending
+        errors.check()
         if theory is not None and out is None:
             raise UsageError("--theory draws a picture: say where by --out")
         limits = {"tolerance": answer.residual, "hardness": elasticity.yield_pressure()}
         modulus = elasticity.reduced_modulus()
         with output(out) as folder:
-            solution = _solve(reading.surface(), modulus, **given, **limits)
-            record = _record(solution, file)
+            surface = reading.surface()
+            errors.check_for(surface)
+            solution = _solve(surface, modulus, **given, **limits)
+            found = errors.of([solution])
+            record = _record(solution, file) | {"errors": found[0].to_record() if found else None}
             if folder is not None:
                 [(name, value)] = given.items()
                 control = f"{name} = {value!r} {_KINDS[name].unit}"
                 _write(solution, record, folder, control, theory, ending)
-        _tell(solution, record, answer.json)
+        per_area = "pressure" in given or all(surface.grid.periodic)
+        _tell(solution, record, found, json=answer.json, per_area=per_area)
         pictures = ("pressure",) if theory is None else ("distribution", "pressure")
         note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
@@ -142,10 +150,14 @@ def _write(
         write_json(record, aside / "press.json", source)
 
 
-def _tell(solution: Solution, record: dict[str, Any], json: bool) -> None:
+def _tell(
+    solution: Solution, record: dict[str, Any], errors: tuple[LoadErrors, ...], *, json: bool, per_area: bool
+) -> None:
     if json:
         emit(record)
     else:
         print_facts(solution_facts(solution))
+        for each in errors:
+            each.tell({}, patch=True, joint=per_area)
     for line in solution.notes:
         note(line)

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughcontact.arrays import on_host
+from roughcontact.arrays import is_numpy, on_host
 from roughcontact.contact.curve import DECADE, length_scale
 from roughcontact.contact.load_search import SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
@@ -21,6 +21,7 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import Force
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.surface.spikes import find_spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, whole
 
@@ -30,6 +31,7 @@ FORCES = 24
 FORCES_BELOW = 4  # of these below the range, within a decade
 DIGITS = 3  # of the forces: fewer than those in which machines agree on the stiffness by far
 LEAST_RESOLVED = 10  # loads
+STEEP = 0.6  # rms slope: asperities then bear about 0.4 of it times E*, half of what ends elasticity here
 ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
 
 
@@ -78,11 +80,11 @@ def load_range(
 ) -> LoadRange:
     """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
 
-    From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force, has
-    sixteen cells. It ends with the first of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps
-    half of the area in contact; on maps with form contact at the border, beyond which the body goes on; a mean pressure
-    in contact of 0.9 of the hardness or, without one, of half the reduced modulus. On a line contact it is 0.03 to 3 of
-    E* h.
+    From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force,
+    has sixteen cells (if that leaves less than a decade: where it is as stiff, with a note). It ends with the first
+    of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps half of the area in contact; on maps
+    with form contact at the border, beyond which the body goes on; a mean pressure in contact of 0.9 of the
+    hardness or, without one, of half the reduced modulus. On a line contact it is 0.03 to 3 of E* h.
 
     Parameters
     ----------
@@ -137,7 +139,7 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
     """Return the forces: some below the range, and half of the others even in ln k, half in ln A."""
     low, high = search.lowest, search.highest
     reasons = (
-        f"{CELLS} cells and spots of {SPOT_CELLS} cells",
+        f"{CELLS} cells" + ("" if low < search.spots_from else f" and spots of {SPOT_CELLS} cells"),
         search.reason or "the largest force of the search",
     )
     if low < high:
@@ -195,24 +197,42 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
             "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop)."
         )
+    if low < high and low < search.spots_from:
+        where = (
+            f"below {search.spots_from:.3g} {force_unit}"
+            if search.spots_from <= high
+            else "over the whole range"
+        )
+        yield (
+            f"Spots have fewer than {SPOT_CELLS} cells {where}: contact area and pressure are those of the grid there, "
+            "the stiffness hardly; for them take a finer map."
+        )
     resolved = int(np.count_nonzero((forces >= low) & (forces <= high)))
     if low < high and resolved >= LEAST_RESOLVED and high >= DECADE * low:
         return
     few = CELLS * cell_stiffness(search.problem.operator)
     if few >= FULL_CONTACT_SHARE * full_contact_stiffness(search.problem):
         yield f"No load is resolved: the map has too few cells, {surface.grid.shape}; take a finer one."
-    elif not low < high and "reduced modulus" in search.reason and isinstance(surface, Surface):
-        yield (
-            f"No load is resolved: with an rms slope of {_slope(surface):.2g} the surface is so steep that elasticity "
-            "ends at first touch; give a hardness, or filter the short waves if they are noise."
-        )
     elif not low < high:
-        yield "No load is resolved: take a finer map, or crop to the part in contact and remove outliers."
+        yield f"No load is resolved before {search.reason or 'the search ends'}: {_remedy(search, surface)}."
     else:
         yield (
             f"The grid resolves forces over a factor of {high / low:.2g} only, less than a power law takes "
-            "(a decade): take a finer map, or crop to the part in contact and remove outliers."
+            f"(a decade): {_remedy(search, surface)}."
         )
+
+
+def _remedy(search: LoadSearch, surface: Body) -> str:
+    """Return what to do where the range is short."""
+    if isinstance(surface, Surface) and surface.grid.ndim == 2 and is_numpy(surface.heights):
+        if (spikes := find_spikes(surface)).count:
+            return f"{spikes} may carry the load; remove what is faulty (despiked, --despike)"
+        if (slope := _slope(surface)) > STEEP and "reduced modulus" in search.reason:
+            return (
+                f"with an rms slope of {slope:.2g} the surface is so steep that elasticity ends at first touch; give a "
+                "hardness, or filter the short waves if they are noise"
+            )
+    return "take a finer map, or crop to the part in contact"
 
 
 def _slope(surface: Surface) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.contact.continuation import follow
+from roughcontact.contact.curve import DECADE
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
@@ -89,8 +90,19 @@ class LoadSearch:
 
     @property
     def lowest(self) -> float:
-        """The least force that is resolved; without any the last."""
-        return next((load.force for load in self.loads if load.resolved), self.loads[-1].force)
+        """The force [N] at which the range begins; without any the last of the search.
+
+        With spots of sixteen cells, unless less than a decade is left: then where it is as stiff as twenty cells.
+        """
+        return self.spots_from if self.highest >= DECADE * self.spots_from else self._least("stiff")
+
+    @property
+    def spots_from(self) -> float:
+        """The least force with spots of sixteen cells in a contact as stiff as twenty [N]; without any the last."""
+        return self._least("resolved")
+
+    def _least(self, what: Literal["stiff", "resolved"]) -> float:
+        return next((load.force for load in self.loads if getattr(load, what)), self.loads[-1].force)
 
     @property
     def highest(self) -> float:
@@ -171,7 +183,7 @@ def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> Load
         stiff = (load.force for load in rough.loads if load.stiffness >= few)
         start = max(start, next(stiff, rough.highest) / 10)
     search = climb(problem, kind, start, most)
-    while search.loads[0].resolved and start > SEARCHED[0] * scale:  # the pilot began too late
+    while search.loads[0].stiff and start > SEARCHED[0] * scale:  # the pilot began too late
         search, start = climb(problem, kind, start / 10, start, search), start / 10
     return search
 

@@ -65,6 +65,12 @@ _VARIABLES = {
     "contact_fraction": Variable(
         "1", "relative real contact area, real over nominal", "relative real contact area A/A0"
     ),
+    "corrected_contact_area": Variable(
+        "m2", "real contact area, corrected for the perimeter of its cells", "contact area, corrected"
+    ),
+    "corrected_contact_fraction": Variable(
+        "1", "relative real contact area, corrected for the perimeter of its cells", "A/A0, corrected"
+    ),
     "mean_gap": Variable("m", "gap averaged over the measured cells"),
     "elastic_energy": Variable("J", "elastic energy of the bodies"),
     "spots": Variable("1", "number of connected contact spots", "contact spots"),

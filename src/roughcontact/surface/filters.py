@@ -13,7 +13,7 @@ from roughcontact.validation import Array, numeric, require
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
-__all__ = ["ALPHA", "filtered", "gaussian_mean"]
+__all__ = ["ALPHA", "filtered", "gaussian_mean", "require_cells"]
 
 
 # The constant of the standard: at the cut-off wavelength the filter transmits one half.
@@ -65,7 +65,7 @@ def filtered(
     grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
-            _check(cutoff, surface)
+            require_cells(cutoff, surface)
     if short_cutoff is not None:
         heights = gaussian_mean(surface.heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
         surface = surface.with_heights(heights, f"Gaussian filter: waves below {short_cutoff:.6g} m removed")
@@ -140,8 +140,14 @@ def _weighted_sum(values: Array, axis: int, reach: float, periodic: bool) -> Arr
     return np.ascontiguousarray(np.take(result, range(count), axis=axis))
 
 
-def _check(cutoff: float, surface: Surface) -> None:
-    """Refuse a cut-off that the grid cannot resolve."""
+def require_cells(cutoff: float, surface: Surface) -> None:
+    """Refuse a cut-off that the grid cannot resolve.
+
+    Raises
+    ------
+    ValueError
+        If a wave of this length has too few cells, or is none.
+    """
     require(math.isfinite(cutoff) and cutoff > 0, f"a cut-off must be positive and finite [m], not {cutoff}")
     grid = surface.grid
     exact = all(grid.periodic) and surface.missing == 0

@@ -48,8 +48,8 @@ def studies(scale: Scale) -> Studies:
     return averaging.outlook_studies(
         "cutoff",
         scale,
-        {"drawn_on": sizes[-1]} | forces,
-        case="refined",
+        forces,
+        case="curve",
         seed=SEED,
         samples=samples,
         table={"hurst": HURST},
@@ -68,7 +68,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``persson`` his A/L^2; ``cell_stiffness`` k/(E* L) of a cell. NaN where a wave has too few cells.
     """
     given = averaging.converged(exported)
-    heights = averaging.rms_heights(int(given["drawn_on"]), given["hurst"], given["short_cutoff"])
+    heights = averaging.rms_heights(int(given["points"].max()), given["hurst"], given["short_cutoff"])
     whole = heights / heights.isel(row=-1)
     # Higher waves on the same body: a surface of any amplitude has the same contact at a force in proportion.
     curves = given[["stiffness"]].assign(

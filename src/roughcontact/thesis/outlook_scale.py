@@ -55,7 +55,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     log_zeta = logarithm(zeta)
     mean_log = log_zeta.isel(load=inside).mean("load")
     # The rms height of the longest octave over that of all waves, which is 1 on the largest size.
-    points, octave_alone = int(exported["drawn_on"]), xarray.DataArray(OCTAVE)
+    points, octave_alone = int(exported["points"].max()), xarray.DataArray(OCTAVE)
     every, first = (averaging.rms_heights(points, hurst, each) for each in (1 / waves, octave_alone))
     share = first / every
     octave = mean_log + logarithm(share / share.isel(waves=-1)) / (hurst + 1)

@@ -1,0 +1,196 @@
+"""The numbers of a contact with their errors, by sources: a value, its table and its record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from roughcontact.labels.labelled import plain_values
+from roughcontact.labels.variables import VARIABLES
+
+__all__ = ["ErrorBudget", "ErrorSource", "QuotedNumber"]
+
+MANY_TIMES = 10  # a value: how large an error then is says no more
+ROUNDING = 1e-12  # of a value: an error below is none, as a gap is that is so small beside the depth
+
+Kind: TypeAlias = Literal["bias", "standard error"]
+InUnit: TypeAlias = Callable[[str, float], tuple[float, str]]
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorSource:
+    """One source of error.
+
+    Attributes
+    ----------
+    name : str
+        In words.
+    kind : {"bias", "standard error"}
+        A bias is by how much a number changes if one thing is done otherwise; its sign is kept. A standard error is
+        that of a mean over patches.
+    how : str
+        What was done.
+    """
+
+    name: str
+    kind: Kind
+    how: str
+
+
+@dataclass(frozen=True, slots=True)
+class QuotedNumber:
+    """A number, and what each source makes of it.
+
+    Attributes
+    ----------
+    name : str
+        As in a `Curve`.
+    value : float
+        In its SI unit; of several patches the mean.
+    unit : str
+        SI unit, ``"N m-1"``.
+    parts : tuple of float
+        For each source of the budget by how much the number changes, or its standard error, in its unit.
+    """
+
+    name: str
+    value: float
+    unit: str
+    parts: tuple[float, ...]
+
+    @property
+    def error(self) -> float:
+        """The square root of the sum of the squares of the parts, in its unit."""
+        return math.hypot(*self.parts)
+
+    @property
+    def relative_error(self) -> float:
+        """The error over the value."""
+        return self.error / abs(self.value) if self.value else math.nan
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ErrorBudget:
+    """The numbers of a contact with their errors, by sources; ``budget["interfacial_stiffness"]`` is one of them.
+
+    Attributes
+    ----------
+    numbers : tuple of QuotedNumber
+    sources : tuple of ErrorSource
+    notes : tuple of str
+        What is left out, and why, in sentences.
+    """
+
+    numbers: tuple[QuotedNumber, ...]
+    sources: tuple[ErrorSource, ...]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> QuotedNumber:
+        """Return a number by its name."""
+        for number in self.numbers:
+            if number.name == name:
+                return number
+        raise KeyError(f"{name!r} is none of {', '.join(number.name for number in self.numbers)}")
+
+    def table(
+        self, names: Sequence[str] | None = None, in_unit: InUnit | None = None
+    ) -> tuple[list[str], list[list[str]]]:
+        """Return header and rows of a table: each number with its error, and the part of each source.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            Numbers to be shown; without, all.
+        in_unit : function, optional
+            ``in_unit(name, value)`` returns the factor from the SI unit and the unit to be shown; without, SI.
+
+        Returns
+        -------
+        tuple of list
+            Texts: the header, and a row for each number.
+        """
+        header = ["", "value", "error", "", "", *(source.name for source in self.sources)]
+        rows = []
+        for number in self.numbers:
+            if names is not None and number.name not in names:
+                continue
+            factor, unit = (1.0, number.unit) if in_unit is None else in_unit(number.name, number.value)
+            digits = _decimals(number.error * factor, number.value * factor)
+            signs = ("+" if source.kind == "bias" else "" for source in self.sources)
+            parts = zip(number.parts, signs, strict=True)
+            rows.append(
+                [
+                    VARIABLES[number.name].label,
+                    _text(number.value * factor, digits),
+                    f"+- {_text(number.error * factor, digits)}",
+                    "" if unit == "1" else unit,
+                    _percent(number.relative_error),
+                    *(_text(part * factor, digits, sign) for part, sign in parts),
+                ]
+            )
+        return header, rows
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the budget as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            By the name of each number its value, error and parts, with the sources and the notes.
+        """
+        keys = [source.name.replace(" ", "_").replace("-", "") for source in self.sources]
+        numbers = {
+            each.name: {
+                "value": plain_values(each.value),
+                "error": plain_values(each.error),
+                **dict(zip(keys, plain_values(each.parts), strict=True)),
+                "unit": each.unit,
+            }
+            for each in self.numbers
+        }
+        sources = {
+            key: {"kind": source.kind, "how": source.how}
+            for key, source in zip(keys, self.sources, strict=True)
+        }
+        return {**numbers, "sources": sources, "notes": list(self.notes)}
+
+    def __repr__(self) -> str:
+        """Return the table in SI units."""
+        header, rows = self.table()
+        lines = [header, *rows]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join(
+            "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
+            for line in lines
+        )
+
+
+def _decimals(error: float, value: float) -> int:
+    """Return the decimals with which an error and its value have two digits; without an error the value has four."""
+    known = math.isfinite(error) and error > abs(value) * ROUNDING
+    size = min(error, abs(value) or error) if known else abs(value)
+    if not (math.isfinite(size) and size > 0):
+        return 3
+    return (1 if known else 3) - math.floor(math.log10(size))
+
+
+def _text(value: float, decimals: int, sign: str = "") -> str:
+    """Return a number with so many decimals, below or above the usual ones as a power of ten."""
+    if not math.isfinite(value):
+        return "infinite" if math.isinf(value) else "unknown"
+    value = round(value, decimals) + 0.0  # no negative zero
+    if -2 <= decimals <= 5:
+        return f"{value:{sign}.{max(0, decimals)}f}"
+    digits = decimals + math.floor(math.log10(abs(value))) if value else 0
+    return f"{value:{sign}.{max(0, digits)}e}"
+
+
+def _percent(part: float) -> str:
+    """Return a relative error of two digits."""
+    if not math.isfinite(part):
+        return "unknown"
+    if part > MANY_TIMES:
+        return f"> {100 * MANY_TIMES:.0f} %"
+    return f"{100 * part:.{0 if part >= 0.0995 else 1}f} %"

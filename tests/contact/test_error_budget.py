@@ -1,0 +1,261 @@
+"""An error on every number: what it is made of, and whether the truth lies within."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.error_budget import ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.contact.error_sources import NUMBERS
+from roughcontact.contact.perimeter import corrected_area
+
+MODULUS, PRESSURE = 1e9, 1e6
+
+
+def rough(n=48, *, periodic=False, seed=1, **named):
+    grid = rc.Grid((n, n), 64e-6 / n, periodic=periodic)
+    waves = {"hurst": 0.8, "rms": 1e-7, "rolloff": 16e-6, "rms_band": (64e-6, 5e-6)} | named
+    return rc.self_affine(grid, rng=np.random.default_rng(seed), **waves)
+
+
+def pressed(surface, **load):
+    return rc.press(surface, MODULUS, **(load or {"pressure": PRESSURE}))
+
+
+def value(solution, name):
+    area = solution.problem.grid.area
+    others = {
+        "interfacial_stiffness_per_area": lambda: solution.interfacial_stiffness / area,
+        "corrected_contact_area": lambda: corrected_area(solution),
+        "corrected_contact_fraction": lambda: corrected_area(solution) / area,
+    }
+    return others[name]() if name in others else getattr(solution, name)
+
+
+def test_parts_are_the_changes_of_the_same_load_on_other_maps():
+    surface = rough().levelled("plane")
+    solution = pressed(surface)
+    budget = rc.error_budget(solution, short_cutoff=8e-6)
+    assert [(source.name, source.kind) for source in budget.sources] == [
+        ("grid", "bias"),
+        ("short cut-off", "bias"),
+        ("levelling", "bias"),
+    ]
+    others = [surface.averaged(2), surface.filtered(short_cutoff=8e-6), surface.levelled("quadratic")]
+    again = [pressed(other) for other in others]
+    assert [number.name for number in budget.numbers] == [name for name in NUMBERS if name != "force"]
+    for number in budget.numbers:
+        assert number.value == value(solution, number.name)
+        # Both certified to 1e-8; heights of the coarse map differ by rounding.
+        changes = [value(other, number.name) - number.value for other in again]
+        assert number.parts == pytest.approx(changes, rel=1e-6, abs=1e-7 * number.value), number.name
+        assert number.error == pytest.approx(math.sqrt(sum(part**2 for part in number.parts)), rel=1e-14)
+        assert number.relative_error == number.error / number.value
+    assert budget.notes == ()
+
+
+def test_without_a_cutoff_it_is_four_cells():
+    solution = pressed(rough())
+    named = rc.error_budget(solution, short_cutoff=4 * 64e-6 / 48)
+    assert rc.error_budget(solution).numbers == named.numbers
+
+
+def test_waves_that_are_not_there_change_nothing():
+    solution = pressed(rough(periodic=True, short_cutoff=12e-6))
+    parts = [rc.error_budget(solution, short_cutoff=c)["stiffness"].parts[1] for c in (3e-6, 6e-6)]
+    # The filter takes (ln 2) (c/l)^2 of a wave l long: a quarter at half the cut-off, to first order.
+    assert 3 < parts[1] / parts[0] < 5.3
+
+
+def test_under_a_depth_the_force_has_an_error():
+    solution = pressed(rough(), depth=1e-7)
+    names = [number.name for number in rc.error_budget(solution).numbers]
+    assert names == [name for name in NUMBERS if name != "depth"]
+
+
+def test_levelling_is_a_choice_of_free_flat_maps_alone():
+    periodic = rc.error_budget(pressed(rough(periodic=True)))
+    assert [source.name for source in periodic.sources] == ["grid", "short cut-off"]
+    assert periodic.notes == ()
+    ball = rough() + rc.shapes.paraboloid(rc.Grid((48, 48), 64e-6 / 48), radius=2e-4)
+    form = rc.error_budget(pressed(ball))
+    assert [source.name for source in form.sources] == ["grid", "short cut-off"]
+    assert "the body itself" in form.notes[0]
+
+
+def test_patches_add_the_standard_error_of_their_mean():
+    patches = [pressed(rough(seed=seed).levelled("plane")) for seed in range(3)]
+    budget, single = rc.error_budget(patches), [rc.error_budget(each) for each in patches]
+    assert budget.sources[-1].kind == "standard error"
+    assert "3 patches" in budget.sources[-1].how
+    for name in ("interfacial_stiffness", "mean_gap"):
+        values = np.array([value(each, name) for each in patches])
+        assert budget[name].value == pytest.approx(values.mean(), rel=1e-14)
+        # Of three, the standard deviation with two freedoms over the root of three.
+        assert budget[name].parts[-1] == pytest.approx(
+            values.std() * math.sqrt(3 / 2) / math.sqrt(3), rel=1e-12
+        )
+        for source in range(3):
+            mean = np.mean([each[name].parts[source] for each in single])
+            assert budget[name].parts[source] == pytest.approx(mean, rel=1e-9, abs=1e-12 * values.mean())
+
+
+def test_plastic_cells_are_pressed_again_as_they_were():
+    surface = rough(32)
+    hard, half = (
+        rc.press(each, MODULUS, pressure=PRESSURE, hardness=2e7) for each in (surface, surface.averaged(2))
+    )
+    assert (hard.pressure == 2e7).any()
+    change = half.contact_area - hard.contact_area
+    assert change != pressed(surface.averaged(2)).contact_area - hard.contact_area
+    assert rc.error_budget(hard)["contact_area"].parts[0] == pytest.approx(change, rel=1e-6)
+
+
+def test_layers_are_pressed_again_as_they_were():
+    surface = rough(32, periodic=True)
+
+    def on_layer(each):
+        body = rc.layer(each.grid, MODULUS, 2e-6, base="rigid-frictionless")
+        return rc.press(each, MODULUS, pressure=PRESSURE, operator=body)
+
+    thin, half = on_layer(surface), on_layer(surface.averaged(2))
+    change = half.stiffness - thin.stiffness
+    assert rc.error_budget(thin)["stiffness"].parts[0] == pytest.approx(change, rel=1e-6)
+
+
+def test_the_record_is_plain_and_the_table_has_two_digits_of_the_error():
+    budget = rc.error_budget(pressed(rough(periodic=True)))
+    record = json.loads(json.dumps(budget.to_record(), allow_nan=False))
+    number = budget["interfacial_stiffness"]
+    assert record["interfacial_stiffness"] == {
+        "value": number.value,
+        "error": number.error,
+        "grid": number.parts[0],
+        "short_cutoff": number.parts[1],
+        "unit": "N m-1",
+    }
+    assert record["sources"]["short_cutoff"]["kind"] == "bias"
+    header, rows = budget.table(["interfacial_stiffness"], lambda name, value: (1e-3, "kN/m"))
+    assert header == ["", "value", "error", "", "", "grid", "short cut-off"]
+    ((label, shown, error, unit, percent, *parts),) = rows
+    assert (label, unit) == ("interfacial stiffness", "kN/m")
+    assert error.startswith("+- ")
+    digits = error.removeprefix("+- ").replace(".", "").lstrip("0")
+    assert len(digits) == 2
+    assert float(shown) == pytest.approx(number.value * 1e-3, abs=number.error * 1e-3 / 10)
+    assert float(percent.removesuffix(" %")) == pytest.approx(100 * number.relative_error, rel=0.05)
+    assert [float(part) for part in parts] == pytest.approx(
+        [part * 1e-3 for part in number.parts], abs=number.error * 1e-3 / 10
+    )
+    assert parts[0][0] in "+-"
+    assert "contact area, corrected" in repr(budget)
+    with pytest.raises(KeyError, match="'hardness' is none of"):
+        budget["hardness"]
+
+
+def test_an_error_above_its_value_leaves_two_digits_of_it():
+    number = QuotedNumber("mean_gap", 4.56e-6, "m", (-8.1234e-4, 1e-7))
+    sources = (ErrorSource("grid", "bias", ""), ErrorSource("patches", "standard error", ""))
+    _, rows = ErrorBudget((number,), sources, ()).table(in_unit=lambda name, value: (1e6, "µm"))
+    assert rows == [["mean gap", "4.6", "+- 812.3", "µm", "> 1000 %", "-812.3", "0.1"]]
+    exact = QuotedNumber("mean_gap", 4.56e-6, "m", (0.0, 0.0))
+    _, rows = ErrorBudget((exact,), sources, ()).table(in_unit=lambda name, value: (1e6, "µm"))
+    assert rows == [["mean gap", "4.560", "+- 0.000", "µm", "0.0 %", "+0.000", "0.000"]]
+    none = QuotedNumber("stiffness", math.inf, "N m-1", (math.nan, 0.0))
+    _, ((_, value_shown, error, _, percent, *_),) = ErrorBudget((none,), sources, ()).table()
+    assert (value_shown, error, percent) == ("infinite", "+- unknown", "unknown")
+    assert ErrorBudget((none,), sources, ()).to_record()["stiffness"]["value"] is None
+
+
+def test_near_full_contact_an_infinite_stiffness_has_no_error_and_a_depth_may_be_too_much():
+    surface = rough(32, periodic=True) * 0.1
+    full = rc.error_budget(pressed(surface, pressure=1e9))
+    assert (full["stiffness"].value, full["stiffness"].parts) == (math.inf, (0.0, 0.0))
+    assert (full["mean_gap"].value, full["mean_gap"].error) == (0.0, 0.0)
+    assert full.notes == ()
+    nearly = pressed(surface, depth=0.99 * pressed(surface, depth=0.0).problem.mean_separation)
+    half = rc.error_budget(nearly)
+    # The means over larger cells have a lower summit: the depth is beyond their full contact.
+    assert math.isnan(half["force"].parts[0])
+    assert math.isnan(half["force"].error)
+    assert "(grid) cannot take this load" in half.notes[0]
+
+
+def test_what_has_no_errors_is_refused():
+    grid = rc.Grid(32, 1e-6)
+    line = rc.Surface(-((grid.coordinates[0] - 16e-6) ** 2) / 1e-3, grid)
+    solution = rc.press(line, MODULUS, force=1.0, operator=rc.line(grid, MODULUS))
+    with pytest.raises(ValueError, match="not of a line"):
+        rc.error_budget(solution)
+    with pytest.raises(ValueError, match="give the Solution that press returned"):
+        rc.error_budget([])
+    flat = pressed(rough())
+    with pytest.raises(ValueError, match=r"leaves nothing of a map of 6\.4e-05 m"):
+        rc.error_budget(flat, short_cutoff=1.0)
+    with pytest.raises(ValueError, match="too short for cells"):
+        rc.error_budget(flat, short_cutoff=3e-6)
+    with pytest.raises(ValueError, match="one size and one load"):
+        rc.error_budget([flat, pressed(rough(), pressure=2 * PRESSURE)])
+    with pytest.raises(ValueError, match="one size and one load"):
+        rc.error_budget([flat, pressed(rough(40))])
+    dense = rc.half_space(flat.problem.grid, MODULUS, method="dense")
+    with pytest.raises(ValueError, match="not known on other cells"):
+        rc.error_budget(rc.press(rough(), MODULUS, pressure=PRESSURE, operator=dense))
+    missed = dataclasses.replace(flat, status=rc.Status.MAX_STEPS)
+    with pytest.raises(rc.ConvergenceError):
+        rc.error_budget(missed)
+
+
+def rms(values):
+    return np.sqrt(np.mean(np.square(values), axis=0))
+
+
+def test_the_truth_of_spheres_lies_within():
+    """Hertz: over sixteen sizes, so that the edge falls anywhere within a cell; each error at least the true one.
+
+    A cell is an eighth of the radius: an edge found to a cell would be 12 % of a stiffness, 25 % of an area.
+    """
+    names = ("stiffness", "contact_area", "corrected_contact_area", "depth")
+    grid = rc.Grid((32, 32), 1 / 32)
+    y, x = (c - 0.5 for c in grid.coordinates)
+    surface = rc.Surface(-(y[:, None] ** 2 + x**2) / 2, grid)
+    above = -surface.heights.max()  # the apex lies between cells
+    missed, claimed = [], []
+    for radius in 0.25 * (1 + 0.15 * np.arange(16) / 16):
+        budget = rc.error_budget(rc.press(surface, 1.0, force=4 / 3 * radius**3))
+        true = (2 * radius, math.pi * radius**2, math.pi * radius**2, radius**2 - above)
+        missed.append([budget[name].value / exact - 1 for name, exact in zip(names, true, strict=True)])
+        claimed.append([budget[name].relative_error for name in names])
+    assert (rms(missed) <= rms(claimed)).all()
+    assert (rms(claimed) < [0.12, 0.25, 0.25, 0.12]).all()
+
+
+@pytest.mark.parametrize("cutoff", [8e-6, None], ids=["smooth below 8 cells", "rough to its cells"])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_the_answer_on_four_times_as_many_cells_lies_within(cutoff, periodic):
+    """One surface on both grids; on the finer one it has the finer waves too, where no cut-off ends them.
+
+    Those take a third of the area and more, and raise the depth with the highest point of all; K changes by a few per
+    cent.
+    """
+    names = ["stiffness", "interfacial_stiffness", "contact_area", "corrected_contact_area"]
+    names += ["mean_gap", "elastic_energy"]
+    missed, claimed = [], []
+    for seed in range(4):
+        coarse, fine = (
+            pressed(rough(n, periodic=periodic, seed=seed, short_cutoff=cutoff), pressure=3e6)
+            for n in (64, 256)
+        )
+        budget = rc.error_budget(coarse)
+        missed.append([value(fine, name) / budget[name].value - 1 for name in names])
+        claimed.append([budget[name].relative_error for name in names])
+    assert (rms(missed) <= rms(claimed)).all()
+    # What is claimed says something: the stiffness is known better than the area of a surface that is rough below.
+    assert rms(claimed)[1] < 0.3
+    if cutoff is None:
+        assert rms(missed)[2] > 0.3 > 5 * rms(missed)[1]
+    else:  # the area is known as soon as the shortest wave is; corrected, better
+        assert rms(missed)[3] < rms(missed)[2] / 2

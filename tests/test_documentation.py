@@ -1,0 +1,84 @@
+"""What README and documentation show runs as printed.
+
+Every block of Python is a program of its own; what a page's comments or blocks of text print is compared. The command
+lines of a page run one after the other. Both start in a folder that holds the files that the pages name.
+"""
+
+import io
+import re
+import shlex
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import roughcontact as rc
+from roughcontact.cli.app import app
+
+HOME = Path(__file__).parent.parent
+PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
+# Pages whose commands want a cluster, days, or a file of the reader's.
+NOT_HERE = {"cluster.md", "reproduction.md"}
+# Counts of a study that take minutes, and what is run in their place.
+FEWER = {"samples = 50": "samples = 2", "count = 11": "count = 2", "--samples 100": "--samples 3"}
+BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
+COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
+
+
+def blocks():
+    for page in PAGES:
+        for number, (code, printed) in enumerate(BLOCK.findall(page.read_text(encoding="utf-8"))):
+            yield pytest.param(code, printed, id=f"{page.name}-{number}")
+
+
+def commands():
+    for page in PAGES:
+        lines = COMMAND.findall(page.read_text(encoding="utf-8"))
+        if lines and page.name not in NOT_HERE:
+            yield pytest.param(lines, id=page.name)
+
+
+def fewer(text):
+    for many, few in FEWER.items():
+        text = text.replace(many, few)
+    return text
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Go to a folder with the files that the pages name."""
+    rng = np.random.default_rng(1)
+    free = rc.Grid((64, 64), 2e-6)
+    part = rc.self_affine(free, hurst=0.8, rms=1e-7, rng=rng)
+    rc.write(part, tmp_path / "part.x3p")
+    periodic = rc.Grid((64, 64), 2e-6, periodic=True)
+    joint = rc.self_affine(periodic, hurst=0.8, rms=1e-7, rolloff=32e-6, rng=rng)
+    rc.write(joint, tmp_path / "joint.npz")
+    study = re.search(
+        r"```toml\n(.*?)```", (HOME / "docs" / "studies.md").read_text(encoding="utf-8"), re.DOTALL
+    )
+    (tmp_path / "hurst.toml").write_text(fewer(study[1]), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(("code", "printed"), list(blocks()))
+def test_python_runs_as_printed(code, printed, folder):
+    out = io.StringIO()
+    try:
+        with redirect_stdout(out):
+            exec(compile(code, "block", "exec"), {"__name__": "__main__"})
+    finally:
+        plt.close("all")
+    if printed:
+        assert out.getvalue() == printed
+
+
+@pytest.mark.parametrize("lines", list(commands()))
+def test_commands_run_as_printed(lines, folder):
+    for line in lines:
+        answer = CliRunner().invoke(app, shlex.split(fewer(line))[1:])
+        assert answer.exit_code == 0, f"{line}\n{answer.stderr}"
