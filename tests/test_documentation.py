@@ -51,7 +51,7 @@ def fewer(text):
 def folder(tmp_path, monkeypatch):
     """Go to a folder with the files that the pages name."""
     rng = np.random.default_rng(1)
-    free = rc.Grid((64, 64), 2e-6)
+    free = rc.Grid((64, 64), 1e-6)
     part = rc.self_affine(free, hurst=0.8, rms=1e-7, rng=rng)
     rc.write(part, tmp_path / "part.x3p")
     periodic = rc.Grid((64, 64), 2e-6, periodic=True)
