@@ -143,11 +143,15 @@ def test_lines_and_rings_draw_curves(kind, unit, along):
 
 
 def test_a_map_is_no_profile_and_a_profile_no_map(solution):
+    """What is refused leaves no empty figure behind."""
     with pytest.raises(ValueError, match="pressure_map or contact_map"):
         rc.plot.pressure_profile(solution)
     body, operator = on_a_line("line")
     with pytest.raises(ValueError, match="draw the profile"):
         rc.plot.pressure_map(rc.press(body, MODULUS, depth=1e-7, operator=operator))
+    with pytest.raises(ValueError, match="draw the profile"):
+        rc.plot.height_map(body)
+    assert pyplot.get_fignums() == []
 
 
 @pytest.mark.parametrize(

@@ -51,8 +51,9 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
     ValueError
         If the surface is a profile.
     """
+    window = part(surface.grid, None)
     axes = axes_for(ax)
-    image, words, cut = heights_image(axes, surface.heights, surface.grid, None, "viridis")
+    image, words, cut = heights_image(axes, surface.heights, surface.grid, window, "viridis")
     colour_bar(axes, image, words, "both" if cut else "neither")
     if spikes is not None and spikes.count:
         y, x = (_steps(surface.grid) * (spikes.places + 0.5)).T
@@ -85,9 +86,10 @@ def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window |
     ValueError
         If the solution is that of a line or of rings.
     """
-    axes, solution = axes_for(ax), solution.on_host()
-    _backdrop(axes, solution, window)
+    solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
+    axes = axes_for(ax)
+    _backdrop(axes, solution, window)
     chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
     pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
     highest, cut = _limit(pressure[~np.isnan(pressure)])
@@ -129,9 +131,10 @@ def contact_map(
     ValueError
         If the solution is that of a line or of rings.
     """
-    axes, solution = axes_for(ax), solution.on_host()
-    _backdrop(axes, solution, window)
+    solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
+    axes = axes_for(ax)
+    _backdrop(axes, solution, window)
     touched = np.where(solution.contact[cells], 1.0, np.nan)
     show(axes, touched, grid, cells, ListedColormap([_CONTACT]), (0.0, 1.0))
     x, y, _, loads = _marks(solution, cells)
