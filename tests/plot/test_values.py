@@ -82,6 +82,12 @@ def test_methods_draw_on_the_axes_that_they_are_given_and_make_their_own_without
         pyplot.close("all")
 
 
+def test_a_view_makes_axes_of_three_dimensions(surface):
+    axes = rc.plot.surface_view(surface)
+    assert axes.name == "3d"
+    assert [pyplot.figure(number) for number in pyplot.get_fignums()] == [axes.figure]
+
+
 def test_a_surface_draws_its_heights(surface):
     axes = surface.plot()
     np.testing.assert_allclose(np.asarray(axes.images[0].get_array()), surface.heights * 1e9, rtol=1e-14)
