@@ -11,6 +11,7 @@ from typing import Any
 __all__ = [
     "CONDUCTIVITY",
     "FORCE",
+    "FORCE_PER_LENGTH",
     "LENGTH",
     "PRESSURE",
     "RESISTIVITY",
@@ -19,6 +20,7 @@ __all__ = [
     "has_unit",
     "parse",
     "parse_number",
+    "unit_in",
 ]
 
 # A number in the way programs write it, then whatever is left as the unit.
@@ -41,6 +43,7 @@ class Kind:
 
 
 FORCE = Kind("a force", "N", "10N")
+FORCE_PER_LENGTH = Kind("a force per length", "N/m", "10N/mm")
 LENGTH = Kind("a length", "m", "5um")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
@@ -75,8 +78,13 @@ def parse(text: str, kind: Kind) -> float:
 
 def has_unit(text: str) -> bool:
     """Return whether anything stands behind the number in a text."""
+    return unit_in(text) != ""
+
+
+def unit_in(text: str) -> str:
+    """Return what stands behind the number in a text; all of a text without a number."""
     match = _NUMBER.fullmatch(text)
-    return match is None or bool(match[2])
+    return text if match is None else match[2]
 
 
 def parse_number(text: str, example: str) -> float:

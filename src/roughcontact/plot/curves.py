@@ -320,11 +320,17 @@ def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scal
 
 def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:
     """Put the quantities without dimension on the upper and the right axis."""
-    name = rf"$\bar{{k}}$ = {VARIABLES['dimensionless_stiffness'].label}"
+    name = rf"$\bar{{k}}$ = {_without_length('dimensionless_stiffness', curve)}"
     outer_axis(axes, "right", name, _parts_of(curve.stiffness_scale * scales[1].factor))
     if curve.force_scale > 0:  # a flat surface has no height to compare with
-        name = rf"$\bar{{F}}$ = {VARIABLES['dimensionless_force'].label}"
+        name = rf"$\bar{{F}}$ = {_without_length('dimensionless_force', curve)}"
         outer_axis(axes, "top", name, _parts_of(curve.force_scale * scales[0].factor))
+
+
+def _without_length(name: str, curve: Curve) -> str:
+    """Return how a quantity without dimension is made: on a line, where loads are per length, without L."""
+    label = VARIABLES[name].label
+    return label.replace("E* L", "E*").replace("(E*)", "E*") if curve.geometry is Geometry.LINE else label
 
 
 def _parts_of(unit: float) -> Any:

@@ -51,7 +51,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     met = "met" if solution.status.converged else "MISSED"
     return [
         ("surface", size_of(problem.grid)),
-        ("reduced modulus E*", quantity("modulus", problem.modulus, kind)),
+        ("reduced modulus E*", quantity("modulus", problem.modulus)),
         ("force", quantity("force", solution.force, kind)),
         ("nominal pressure", quantity("pressure", pressure, kind)),
         ("largest pressure", quantity("pressure", float(solution.pressure.max()), kind)),
@@ -70,14 +70,15 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
     """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
     header, columns = [], []
+    geometry = Geometry(dataset.attrs.get("geometry", "surface"))
     for name in names:
-        values, known = dataset[name].to_numpy(), VARIABLES[name]
+        values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
             values = _closed(values, dataset["depth"].to_numpy())
-        plain = known.unit in ("", "1")
-        chosen = _scale(values, dataset[name].attrs.get("units", ""), known.unit)
-        label = known.label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
-        header.append(label if plain else f"{label} [{chosen.unit or pretty(known.unit)}]")
+        plain = known in ("", "1")
+        chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
+        label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
+        header.append(label if plain else f"{label} [{chosen.unit or pretty(known)}]")
         digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
         columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
     if {"resolved", "status"} <= dataset.keys():
