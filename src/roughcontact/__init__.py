@@ -29,6 +29,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.error_sources import error_budget as error_budget
+    from roughcontact.contact.interface_table import (
+        InterfaceTable as InterfaceTable,
+        interface_table as interface_table,
+    )
     from roughcontact.contact.load_range import load_range as load_range
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
     from roughcontact.contact.press import press as press

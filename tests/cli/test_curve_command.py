@@ -130,6 +130,16 @@ def test_the_picture_has_its_format_and_names_theories_as_the_option_does(
     assert legend[-2:] == ["gw", "persson"]
 
 
+def test_one_folder_serves_press_and_curve(invoke, rough, tmp_path):
+    out = tmp_path / "result"
+    assert invoke("press", rough, "--force", "1mN", *MODULUS, "--out", out).exit_code == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert invoke("curve", rough, *FORCES, *MODULUS, "--out", out).exit_code == 0
+    after = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert before.items() <= after.items()
+    assert after.keys() - before.keys() == {"curve.csv", "curve.json", "curve.nc", "curve.png"}
+
+
 def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkeypatch):
     path = rc.loading_path
 

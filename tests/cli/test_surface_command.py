@@ -213,6 +213,7 @@ def test_info_shows_the_channels_of_a_file_that_leaves_its_size_open(invoke, tmp
     )
     failed = invoke("surface", "info", path, "--json")
     assert json.loads(failed.stdout)["channels"][0]["shape"] == [24, 32]
+    assert json.loads(failed.stdout)["error"]["remedy"].startswith("pass --unit")
 
     given = invoke("surface", "info", path, "--unit", "m", "--size", "48um x 32um", "--json")
     assert given.exit_code == 0

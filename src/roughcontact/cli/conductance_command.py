@@ -81,7 +81,7 @@ def conductance(
     """Tell what a contact conducts: electrical and thermal resistance against pressure or force."""
     from roughcontact.contact.conduction import with_conductance
 
-    with reported(file, out):
+    with reported(file, out, as_json=json):
         ending = picture_ending(format, out)
         conductors = materials.conductors()
         if conductors is None:

@@ -20,6 +20,7 @@ from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import note_files, quantity, screen
+from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.unit_options import parse_loads
 from roughcontact.cli.units_of_answer import Units
@@ -45,6 +46,7 @@ roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pr
 roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
+roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """
 
 _FEWEST = 3  # resolved loads that a power law takes
@@ -82,13 +84,14 @@ def curve(
     errors: Errors,
     asked: options.Answer,
     units: Units,
+    tables: InterfaceTables,
 ) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
     Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
     """
     file, out = reading.source.file, asked.out
-    with reported(file, out):
+    with reported(file, out, as_json=asked.json):
         name, loads = given.values(reading.profile)
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
@@ -103,7 +106,9 @@ def curve(
             )
         theories.check()
         errors.check()
+        tables.check(out)
         tolerance, ending = asked.residual, asked.ending
+        more: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
             errors.check_for(surface)
@@ -124,8 +129,10 @@ def curve(
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {kinds_of(reading.profile)[name.removesuffix('s')].unit}"
                 answer.write(folder, f"{name} {ends}, {loads.size} of them", ending)
+                more = tables.write(folder, computed, surface, conductors)
         answer.tell(asked.json)
-        note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}"))
+        if folder is not None:
+            note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
         if not answer.converged:
             raise typer.Exit(MISSED)
 

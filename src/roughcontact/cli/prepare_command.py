@@ -34,7 +34,7 @@ def prepare(
 
     In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
     """
-    with reported(source.file, out):
+    with reported(source.file, out, as_json=json):
         require_output(out, source.file)
         wanted = steps(wishes)
         surface = source.map_or_line(periodic)

@@ -68,7 +68,7 @@ def press(
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
-    with reported(file, out):
+    with reported(file, out, as_json=answer.json):
         given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:

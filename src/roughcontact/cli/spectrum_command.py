@@ -101,7 +101,7 @@ def spectrum(
 
     Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(source.file, out):
+    with reported(source.file, out, as_json=json):
         band, ending = asked.band(), picture_ending(format, out)
         with output(out) as folder:
             surface = _surface(source, periodic, asked.fill)

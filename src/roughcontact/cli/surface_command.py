@@ -11,7 +11,7 @@ from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import surface_facts, surface_record, tell
+from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import (
@@ -57,7 +57,7 @@ def info(
     their spikes ringed, and of their distribution.
     """
     file = source.file
-    with reported(file, out):
+    with reported(file, out, as_json=json) as beside:
         from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
@@ -65,13 +65,11 @@ def info(
         channels = _channels(file)
         try:
             surface = source.map_or_line()
-        except ReadError as error:
+        except ReadError:
             # What the file leaves open, such as its size, does not hide what it holds.
-            tell(
-                {"file": plain(str(file)), "channels": channels, "error": str(error)},
-                _channel_facts(channels),
-                as_json=json,
-            )
+            beside |= {"file": plain(str(file)), "channels": channels}
+            if not json:
+                print_facts([("file", beside["file"]), *_channel_facts(channels)])
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
         spikes, lines = advice(surface)
@@ -117,7 +115,7 @@ class Recipe:
 
 def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
-    with reported(out):
+    with reported(out, as_json=json):
         import numpy as np
 
         import roughcontact as rc

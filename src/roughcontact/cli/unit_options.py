@@ -12,6 +12,7 @@ import numpy.typing as npt
 from roughcontact.cli.messages import UsageError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import (
+    AREA,
     CONDUCTIVITY,
     FORCE,
     FORCE_PER_LENGTH,
@@ -23,6 +24,7 @@ from roughcontact.files.quantity import (
 )
 
 __all__ = [
+    "AREA",
     "CONDUCTIVITY",
     "FORCE",
     "FORCE_PER_LENGTH",

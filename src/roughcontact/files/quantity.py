@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 
 __all__ = [
+    "AREA",
     "CONDUCTIVITY",
     "FORCE",
     "FORCE_PER_LENGTH",
@@ -45,6 +46,7 @@ class Kind:
 FORCE = Kind("a force", "N", "10N")
 FORCE_PER_LENGTH = Kind("a force per length", "N/m", "10N/mm")
 LENGTH = Kind("a length", "m", "5um")
+AREA = Kind("an area", "m^2", "1mm^2")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")

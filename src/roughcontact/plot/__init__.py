@@ -47,6 +47,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
     from roughcontact.plot.stress_map import von_mises_section as von_mises_section
+    from roughcontact.plot.study_picture import study_figure as study_figure
     from roughcontact.plot.view import surface_view as surface_view
 
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]

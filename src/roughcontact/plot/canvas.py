@@ -29,7 +29,7 @@ from roughcontact.surface.surface import Surface
 
 __all__ = [
     *("areal_figure", "curve_figure", "pressure_distribution_figure", "resistance_figure"),
-    *("save", "solution_figure", "surface_figure"),
+    *("require_picture", "save", "solution_figure", "surface_figure"),
 ]
 
 _FORMATS = ("png", "pdf", "svg")
@@ -203,11 +203,23 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
     WriteError
         If the ending is another or the file cannot be written.
     """
+    ending = require_picture(path)
+    with written_aside(path) as aside:
+        figure.savefig(aside, format=ending, dpi=200)
+
+
+def require_picture(path: str | os.PathLike[str]) -> str:
+    """Return the format of a picture, by the ending of `path`; meant to be asked before a long computation.
+
+    Raises
+    ------
+    WriteError
+        If the ending is none of a picture.
+    """
     ending = Path(path).suffix.lower().removeprefix(".")
     if ending not in _FORMATS:
         raise WriteError(f"cannot write the picture {path}: end its name in {', '.join(_FORMATS)}")
-    with written_aside(path) as aside:
-        figure.savefig(aside, format=ending, dpi=200)
+    return ending
 
 
 def _peak(solution: Solution, window: Window | None) -> str:

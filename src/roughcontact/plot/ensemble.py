@@ -16,10 +16,11 @@ from roughcontact.plot.engineering_units import pretty
 from roughcontact.plot.ticks import TICK, label_axes
 from roughcontact.validation import Array
 
-__all__ = ["fitted_values", "mean_curves"]
+__all__ = ["fitted_values", "mean_curves", "shades"]
 
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_NAMED = 12  # more groups than these leave no room for a legend
 _BAND = 0.25  # opacity
 
 
@@ -69,11 +70,11 @@ def mean_curves(
     every = xarray.broadcast(force, mean, half, inside)
     rows = [np.atleast_2d(each.transpose(*groups, points).to_numpy()) for each in every]
     names = [_named(mean, groups[0], i) for i in range(len(rows[0]))] if groups else [""]
-    for x, y, band, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
+    for x, y, band, kept, name, colour in zip(*rows, names, shades(len(names)), strict=True):
         _curve(axes, (x, y, band), kept, name, colour)
     axes.set(xscale="log", yscale="log")
     label_axes(axes, _words(force), _words(mean), grid=True)
-    if groups and len(names) <= len(_COLOURS):
+    if groups and len(names) <= _NAMED:
         axes.legend(title=_words(mean[groups[0]]), fontsize=TICK, title_fontsize=TICK, frameon=False)
     return axes
 
@@ -146,7 +147,8 @@ def _curve(
         axes.fill_between(x[shown], lower[shown], (y + half)[shown], **band)
 
 
-def _shades(count: int) -> list[Any]:
+def shades(count: int) -> list[Any]:
+    """Return that many colours for lines on white."""
     if count <= len(_COLOURS):
         return list(_COLOURS[:count])
     # The last of viridis is too pale for a line on white.
