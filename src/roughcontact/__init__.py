@@ -11,7 +11,13 @@ __version__ = "0.1.0"
 # Type checkers and bundlers of programs read the block below; at run time each name is imported when first asked for.
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
-    from roughcontact import mdr as mdr, statistics as statistics, study as study, theory as theory
+    from roughcontact import (
+        mdr as mdr,
+        plot as plot,
+        statistics as statistics,
+        study as study,
+        theory as theory,
+    )
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
         below as below,

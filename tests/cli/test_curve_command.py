@@ -114,6 +114,22 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     assert (out / "curve.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_picture_has_its_format_and_names_theories_as_the_option_does(
+    invoke, rough, tmp_path, monkeypatch
+):
+    drawn, make = [], canvas.curve_figure
+    monkeypatch.setattr(canvas, "curve_figure", lambda *given: drawn.append(make(*given)) or drawn[-1])
+    out = tmp_path / "result"
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--theory", "gw,persson")
+    answer = invoke(*words, "--out", out, "--format", "pdf")
+    assert answer.exit_code == 0
+    assert "curve.pdf are in" in answer.stderr
+    assert (out / "curve.pdf").read_bytes().startswith(b"%PDF")
+    assert not (out / "curve.png").exists()
+    legend = [text.get_text() for text in drawn[0].axes[0].get_legend().get_texts()]
+    assert legend[-2:] == ["gw", "persson"]
+
+
 def test_one_folder_serves_press_and_curve(invoke, rough, tmp_path):
     out = tmp_path / "result"
     assert invoke("press", rough, "--force", "1mN", *MODULUS, "--out", out).exit_code == 0

@@ -126,7 +126,7 @@ def plot(
     with reported(folder, out, as_json=json), own_cases():
         from roughcontact.files.aside import require_target
         from roughcontact.plot.canvas import require_picture, save
-        from roughcontact.plot.study_figure import study_figure
+        from roughcontact.plot.study_picture import study_figure
 
         require_picture(out)
         require_target(out)

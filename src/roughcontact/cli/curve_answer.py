@@ -105,9 +105,13 @@ class CurveAnswer:
 
     @property
     def drawn(self) -> tuple[LoadingLaw, ...]:
-        """The theories that apply, with what the curve has of them."""
+        """The theories that apply, with what the curve has of them, by the names that they were asked for."""
         return tuple(
-            replace(law, quantities={name: law.quantities[name] for name in self.comparisons[key].predicted})
+            replace(
+                law,
+                name=key,
+                quantities={name: law.quantities[name] for name in self.comparisons[key].predicted},
+            )
             for key, law in self.laws.items()
             if key in self.comparisons
         )
@@ -171,8 +175,8 @@ class CurveAnswer:
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
 
-    def write(self, folder: Path, control: str) -> None:
-        """Write NetCDF, CSV, picture and summary into a folder: all of them or none."""
+    def write(self, folder: Path, control: str, ending: str) -> None:
+        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
@@ -187,7 +191,7 @@ class CurveAnswer:
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
-            save(self._figure(), aside / "curve.png")
+            save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:

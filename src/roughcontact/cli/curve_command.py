@@ -107,7 +107,7 @@ def curve(
         theories.check()
         errors.check()
         tables.check(out)
-        tolerance = asked.residual
+        tolerance, ending = asked.residual, asked.ending
         more: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
@@ -128,11 +128,11 @@ def curve(
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
                 ends = f"from {loads[0]:g} to {loads[-1]:g} {kinds_of(reading.profile)[name.removesuffix('s')].unit}"
-                answer.write(folder, f"{name} {ends}, {loads.size} of them")
+                answer.write(folder, f"{name} {ends}, {loads.size} of them", ending)
                 more = tables.write(folder, computed, surface, conductors)
         answer.tell(asked.json)
         if folder is not None:
-            note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png", *more))
+            note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
         if not answer.converged:
             raise typer.Exit(MISSED)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.profile_options import PROFILE, ProfileBody
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
 from roughcontact.materials import MATERIALS
@@ -82,7 +83,13 @@ class Answer:
         "Largest residual of the contact conditions: the certificate.", "1e-8", default="1e-8"
     )
     out: Path | None = OUT
+    format: PictureFormat | None = FORMAT
     json: bool = JSON
+
+    @property
+    def ending(self) -> str:
+        """How the names of pictures end."""
+        return picture_ending(self.format, self.out)
 
     @property
     def residual(self) -> float:

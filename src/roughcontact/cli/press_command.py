@@ -69,7 +69,7 @@ def press(
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
     with reported(file, out, as_json=answer.json):
-        given, body = load.value(reading.profile), reading.profile
+        given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:
             raise UsageError("--theory draws a picture: say where by --out")
@@ -90,11 +90,11 @@ def press(
             if folder is not None:
                 [(name, value)] = given.items()
                 control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
-                _write(solution, record, folder, control, theory)
+                _write(solution, record, folder, control, theory, ending)
         per_area = "pressure" in given or all(surface.grid.periodic)
         _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
-        pictures = ("pressure.png",) if theory is None else ("distribution.png", "pressure.png")
-        note_files(folder, ("press.json", "pressure.nc", *pictures))
+        pictures = ("pressure",) if theory is None else ("distribution", "pressure")
+        note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
 
@@ -129,14 +129,18 @@ def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
 
 
 def _write(
-    solution: Solution, record: dict[str, Any], folder: Path, control: str, theory: Theory | None
+    solution: Solution,
+    record: dict[str, Any],
+    folder: Path,
+    control: str,
+    theory: Theory | None,
+    ending: str,
 ) -> None:
     from roughcontact.contact.dataset import solution_dataset
     from roughcontact.contact.theories import persson_pressures
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json, write_netcdf
-    from roughcontact.plot.canvas import save, solution_figure
-    from roughcontact.plot.distributions import pressure_distribution_figure
+    from roughcontact.plot.canvas import pressure_distribution_figure, save, solution_figure
 
     problem = solution.problem
     source = provenance(
@@ -148,10 +152,10 @@ def _write(
     )
     with all_or_none(folder) as aside:
         write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
-        save(solution_figure(solution), aside / "pressure.png")
+        save(solution_figure(solution), aside / f"pressure.{ending}")
         if theory is not None:
-            theories = {"Persson": persson_pressures(solution)}
-            save(pressure_distribution_figure(solution, theories), aside / "distribution.png")
+            theories = {theory.value: persson_pressures(solution)}
+            save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
         write_json(record, aside / "press.json", source)
 
 

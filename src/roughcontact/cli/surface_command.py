@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
-from roughcontact.cli.messages import as_typed, plain, reported
+from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
+from roughcontact.cli.output import output
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
@@ -24,11 +26,13 @@ from roughcontact.cli.unit_options import (
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
+    from roughcontact.surface.spikes import Spikes
+    from roughcontact.surface.surface import Surface
 
 __all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
 
 INFO_EXAMPLES = """
-roughcontact surface info part.x3p
+roughcontact surface info part.x3p --out result --format svg
 roughcontact surface info heights.csv --unit nm --size 1mm --json
 roughcontact surface info scan.csv
 """
@@ -40,16 +44,24 @@ _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows
 _BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
 
-def info(source: options.Source, *, json: bool = options.JSON) -> None:
+def info(
+    source: options.Source,
+    *,
+    out: Path | None = options.OUT,
+    format: PictureFormat | None = FORMAT,
+    json: bool = options.JSON,
+) -> None:
     """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness.
 
-    What looks suspicious comes with the option of 'surface prepare' that mends it.
+    What looks suspicious comes with the option of 'surface prepare' that mends it. With --out a picture of the heights,
+    their spikes ringed, and of their distribution.
     """
     file = source.file
-    with reported(file, as_json=json) as beside:
+    with reported(file, out, as_json=json) as beside:
         from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
+        ending = picture_ending(format, out)
         channels = _channels(file)
         try:
             surface = source.map_or_line()
@@ -65,7 +77,18 @@ def info(source: options.Source, *, json: bool = options.JSON) -> None:
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
+        with output(out) as folder:
+            if folder is not None:
+                _draw(surface, spikes, folder / f"surface.{ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
+        if folder is not None:
+            note(f"surface.{ending} is in {folder}")
+
+
+def _draw(surface: Surface, spikes: Spikes, path: Path) -> None:
+    from roughcontact.plot.canvas import save, surface_figure
+
+    save(surface_figure(surface, spikes), path)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,7 @@ import pytest
 import xarray
 from matplotlib.colors import to_hex
 
-from roughcontact.plot.study_figure import study_figure
+from roughcontact.plot.study_picture import study_figure
 from roughcontact.statistics.averages import averages
 from roughcontact.statistics.fit_window import force_window
 

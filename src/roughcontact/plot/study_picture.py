@@ -33,6 +33,10 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     along : str, optional
         The parameter on the axis; by default the number of which there are most values.
 
+    Returns
+    -------
+    Figure
+
     Raises
     ------
     ValueError
@@ -83,11 +87,11 @@ def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figur
         raise ValueError("the study has no forces along its loads: choose a quantity without loads")
     resolved = averaged["resolved_mean"] >= 0.5 if "resolved_mean" in averaged else None
     mean_curves(
-        axes[0],
         _grouped(averaged, averaged[force]).rename(force.removesuffix("_mean")),
         _grouped(averaged, averaged[f"{quantity}_mean"]).rename(quantity),
-        _grouped(averaged, averaged[f"{quantity}_standard_error"]),
-        None if resolved is None else _grouped(averaged, resolved),
+        axes[0],
+        error=_grouped(averaged, averaged[f"{quantity}_standard_error"]),
+        resolved=None if resolved is None else _grouped(averaged, resolved),
     )
     words = f"means and their standard errors{'' if resolved is None else '; dotted: not resolved'}"
     if quantity == _LAW and there:
@@ -140,7 +144,7 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
         values = {quantity: y, f"{quantity}_low": low, f"{quantity}_high": high}
         fits = xarray.Dataset({n: (along, v, attributes) for n, v in values.items()}, {along: x})
         fits[along].attrs.update(averaged[along].attrs)
-        fitted_values(axes, fits, quantity, along=along, label=label, colour=colour, shift=step * k)
+        fitted_values(fits, quantity, axes, along=along, label=label, colour=colour, shift=step * k)
     axes.set_title(
         "95 % intervals" if f"{quantity}_low" in averaged else "means and their standard errors",
         fontsize=TICK,
