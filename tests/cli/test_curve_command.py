@@ -158,12 +158,10 @@ def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkey
     assert invoke("curve", rough, *FORCES, *MODULUS).stdout.count("MISSED") == 1
 
 
-def test_an_interrupt_leaves_nothing(invoke, rough, monkeypatch, tmp_path):
-    path = rc.loading_path
-
-    def interrupted(*arguments, **named):
-        yield next(path(*arguments, **named))
+def test_an_interrupt_before_the_first_load_leaves_nothing(invoke, rough, monkeypatch, tmp_path):
+    def interrupted(*_, **__):
         raise KeyboardInterrupt
+        yield
 
     monkeypatch.setattr(rc, "loading_path", interrupted)
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", tmp_path / "out")
@@ -417,3 +415,21 @@ def test_without_a_resolved_load_there_are_no_errors_and_a_note_says_so(invoke, 
     assert answer.exit_code == 0
     assert json.loads(answer.stdout)["errors"] == []
     assert "Note: no errors: no load is resolved" in answer.stderr
+
+
+def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
+    whole = rc.loading_path
+
+    def interrupted(*arguments, **named):
+        path = whole(*arguments, **named)
+        yield next(path)
+        yield next(path)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc, "loading_path", interrupted)
+    words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
+    answer = invoke(*words)
+    assert answer.exit_code == 130
+    assert "stopped: 2 of 4 loads are kept; for the others: --forces 4e-06,8e-06" in answer.stderr
+    kept = rc.read_curve(tmp_path / "out" / "curve.nc")
+    np.testing.assert_allclose(kept.force, [1e-6, 2e-6])

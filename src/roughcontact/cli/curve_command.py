@@ -13,13 +13,13 @@ from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
-from roughcontact.cli.exits import MISSED
+from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
-from roughcontact.cli.report import note_files, quantity, screen
+from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.unit_options import parse_loads
@@ -121,18 +121,28 @@ def curve(
                 _look_ahead(surface, modulus, name, loads, operator)
             path = {name: loads, "tolerance": tolerance, "hardness": hardness, "operator": operator}
             computed, notes, outer = _load(surface, modulus, path, loads.size)
+            left = loads[len(computed) :]
+            if left.size:
+                rest = ",".join(f"{load:.12g}" for load in left)
+                note(
+                    f"stopped: {len(computed)} of {loads.size} loads are kept; for the others: --{name} {rest}"
+                )
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
                 note("no errors: no load is resolved")
             joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
-                ends = f"from {loads[0]:g} to {loads[-1]:g} {kinds_of(reading.profile)[name.removesuffix('s')].unit}"
-                answer.write(folder, f"{name} {ends}, {loads.size} of them", ending)
-                more = tables.write(folder, computed, surface, conductors)
+                unit, done = kinds_of(reading.profile)[name.removesuffix("s")].unit, loads[: len(computed)]
+                ends = f"from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
+                with doing("Writing files"):
+                    answer.write(folder, f"{name} {ends}", ending)
+                    more = tables.write(folder, computed, surface, conductors)
         answer.tell(asked.json)
         if folder is not None:
             note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
+        if left.size:
+            raise typer.Exit(INTERRUPTED)
         if not answer.converged:
             raise typer.Exit(MISSED)
 
@@ -145,7 +155,7 @@ def _suggested(
     from roughcontact.contact.load_range import load_range
     from roughcontact.halfspace.operators.operator import geometry_of
 
-    with screen().status("Looking for the loads that suit this surface"):
+    with doing("Looking for the loads that suit this surface"):
         found = load_range(surface, modulus, operator=operator, hardness=hardness)
     loads, end = found.forces, found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
@@ -169,7 +179,7 @@ def _look_ahead(
     from roughcontact.contact.load_outlook import load_outlook
 
     given: dict[str, Any] = {name: loads}
-    with screen().status("Looking which of these loads the grid resolves"):
+    with doing("Looking which of these loads the grid resolves"):
         ahead = load_outlook(surface, modulus, operator=operator, **given)
     if ahead.resolved >= min(_FEWEST, ahead.count):
         return
@@ -186,7 +196,7 @@ def _load(
 ) -> tuple[Curve, tuple[str, ...], list[Solution]]:
     """Return the curve, the notes on its last load, and the first and last load that are resolved.
 
-    A bar on standard error moves on at every load.
+    A bar on standard error moves on at every load. Ctrl-C ends the curve with the loads that are done.
     """
     import roughcontact as rc
     from roughcontact.contact.curve import collect
@@ -196,11 +206,15 @@ def _load(
     ends: list[Solution] = []
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
-        for solution in path:
-            notes[:] = [solution.notes]
-            if solution.resolved and solution.status.converged:
-                ends[1 if ends else 0 :] = [solution]
-            yield solution
+        try:
+            for solution in path:
+                notes[:] = [solution.notes]
+                if solution.resolved and solution.status.converged:
+                    ends[1 if ends else 0 :] = [solution]
+                yield solution
+        except KeyboardInterrupt:
+            if not notes:  # nothing to keep
+                raise
 
     columns = (
         TextColumn("Pressing"),

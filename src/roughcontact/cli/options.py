@@ -12,6 +12,7 @@ from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.profile_options import PROFILE, ProfileBody
+from roughcontact.cli.report import doing
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
 from roughcontact.materials import MATERIALS
 
@@ -117,7 +118,7 @@ class Source:
         """Return the map of heights as the file holds it."""
         import roughcontact as rc
 
-        with as_typed(self.file):
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
             try:
                 return rc.read(self.file, **self._keywords(periodic))
             except rc.ReadError as error:
@@ -135,7 +136,7 @@ class Source:
         """
         import roughcontact as rc
 
-        with as_typed(self.file):
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
             try:
                 return rc.read_line(self.file, **self._keywords(periodic))
             except rc.ReadError as error:
@@ -149,7 +150,7 @@ class Source:
         """Return the map of heights as the file holds it, or its profile; say so of a profile."""
         from roughcontact.files.read import read_either
 
-        with as_typed(self.file):
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
             surface = read_either(self.file, **self._keywords(periodic))
         if surface.grid.ndim == 1:
             note(f"{plain(str(self.file))} holds a profile of {surface.grid.size} heights")

@@ -17,7 +17,7 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
-from roughcontact.cli.report import emit, note_files, print_facts, screen, solution_facts
+from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
@@ -86,11 +86,12 @@ def press(
             solution = _solve(surface, modulus, operator=reading.body(surface, modulus), **given, **limits)
             found = errors.of([solution])
             budget = {"errors": found[0].to_record() if found else None}
-            record = _record(solution, file, pressed) | budget
-            if folder is not None:
-                [(name, value)] = given.items()
-                control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
-                _write(solution, record, folder, control, theory, ending)
+            with doing("Stiffness, spots and files"):
+                record = _record(solution, file, pressed) | budget
+                if folder is not None:
+                    [(name, value)] = given.items()
+                    control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
+                    _write(solution, record, folder, control, theory, ending)
         per_area = "pressure" in given or all(surface.grid.periodic)
         _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
         pictures = ("pressure",) if theory is None else ("distribution", "pressure")
@@ -104,7 +105,7 @@ def _solve(surface: Surface, modulus: float, **given: Any) -> Solution:
     import roughcontact as rc
 
     cells = " x ".join(str(n) for n in surface.grid.shape)
-    with screen().status(f"Pressing {cells} cells ..."):
+    with doing(f"Pressing {cells} cells"):
         try:
             return rc.press(surface, modulus, **given)
         except rc.ConvergenceError as error:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
+from rich.status import Status
 
 from roughcontact.cli.messages import note
 from roughcontact.plot.facts import (
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AREAL_COLUMNS",
     "CURVE_COLUMNS",
+    "doing",
     "emit",
     "load_table",
     "note_files",
@@ -45,6 +47,11 @@ __all__ = [
 def screen() -> Console:
     """Return standard error as a console, for progress."""
     return Console(stderr=True)
+
+
+def doing(words: str) -> Status:
+    """Say on a terminal what is being done, as long as it takes."""
+    return screen().status(f"{words} ...")
 
 
 def emit(record: Mapping[str, Any]) -> None:

@@ -11,7 +11,7 @@ from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import (
@@ -72,7 +72,8 @@ def info(
                 print_facts([("file", beside["file"]), *_channel_facts(channels)])
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        spikes, lines = advice(surface)
+        with doing("Looking for spikes, steps and form"):
+            spikes, lines = advice(surface)
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]
@@ -130,15 +131,17 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
             for name in ("rolloff", "long_cutoff", "short_cutoff")
             if (text := getattr(recipe, name)) is not None
         }
-        surface = rc.self_affine(
-            grid,
-            exponent,
-            height,
-            np.random.default_rng(chosen),
-            rms_band=None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band"),
-            nodal=recipe.nodal,
-            **waves,  # type: ignore[arg-type]
-        )
+        band = None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band")
+        with doing("Adding up the waves"):
+            surface = rc.self_affine(
+                grid,
+                exponent,
+                height,
+                np.random.default_rng(chosen),
+                rms_band=band,
+                nodal=recipe.nodal,
+                **waves,  # type: ignore[arg-type]
+            )
         made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
         made = f"made by roughcontact {rc.__version__}: {made}"
         surface = replace(surface, provenance=(*surface.provenance, made))
