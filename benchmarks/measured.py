@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-# What users add when a file that states no unit or no size is refused.
-ADDED = ("--unit", "nm", "--size", "10um")
+# What users add when a file is refused for what it leaves open.
+ADDED = {"--unit": "nm", "--size": "10um", "--profile": "line"}
 KIND = re.compile(r"the (?:map|profile) is ([^;:]+)[;:]")
 DULL = ("the tilt is removed", "are in ", "no loads are named", "for pictures")
 
@@ -43,11 +43,14 @@ def run(file: Path, folder: Path, words: list[str]) -> tuple[subprocess.Complete
 def row(file: Path, out: Path, words: list[str]) -> str:
     """Return a line of the table."""
     folder = out / file.name
-    answer, seconds = run(file, folder, words)
-    added = ""
-    if answer.returncode == 2 and re.search(r"--(unit|size)", answer.stderr):
-        added = " (with " + " ".join(ADDED) + ")"
-        answer, seconds = run(file, folder, [*words, *ADDED])
+    more: list[str] = []
+    while True:
+        answer, seconds = run(file, folder, [*words, *more])
+        asked = [name for name in ADDED if name in answer.stderr and name not in more]
+        if answer.returncode != 2 or not asked:
+            break
+        more += [word for name in asked for word in (name, ADDED[name])]
+    added = f" (with {' '.join(more)})" if more else ""
     said = [line.removeprefix("Note: ") for line in answer.stderr.splitlines() if line.startswith("Note: ")]
     kind = next((found[1] for line in said if (found := KIND.search(line))), "-")
     if answer.returncode not in (0, 1):
