@@ -23,7 +23,7 @@ PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
 # Pages whose commands want a cluster, days, or a file of the reader's.
 NOT_HERE = {"cluster.md", "reproduction.md"}
 # Counts of a study that take minutes, and what is run in their place.
-FEWER = {"samples = 50": "samples = 2", "count = 11": "count = 2", "--samples 100": "--samples 3"}
+FEWER = {"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"}
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 
@@ -55,6 +55,10 @@ def folder(tmp_path, monkeypatch):
     part = rc.self_affine(free, hurst=0.8, rms=1e-7, rng=rng)
     rc.write(part, tmp_path / "part.x3p")
     periodic = rc.Grid((64, 64), 2e-6, periodic=True)
+    line = rc.self_affine(rc.Grid(256, 1e-6), hurst=0.8, rms=1e-7, rng=rng)
+    places = line.grid.coordinates[0] * 1e6
+    scan = np.column_stack([places, line.heights * 1e6])
+    np.savetxt(tmp_path / "scan.csv", scan, "%.9g", ";", header="x [um];z [um]", comments="")
     joint = rc.self_affine(periodic, hurst=0.8, rms=1e-7, rolloff=32e-6, rng=rng)
     rc.write(joint, tmp_path / "joint.npz")
     study = re.search(

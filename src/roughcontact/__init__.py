@@ -11,7 +11,13 @@ __version__ = "0.1.0"
 # Type checkers and bundlers of programs read the block below; at run time each name is imported when first asked for.
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
-    from roughcontact import mdr as mdr, statistics as statistics, study as study, theory as theory
+    from roughcontact import (
+        mdr as mdr,
+        plot as plot,
+        statistics as statistics,
+        study as study,
+        theory as theory,
+    )
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
         below as below,
@@ -23,6 +29,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.error_sources import error_budget as error_budget
+    from roughcontact.contact.interface_table import (
+        InterfaceTable as InterfaceTable,
+        interface_table as interface_table,
+    )
     from roughcontact.contact.load_range import load_range as load_range
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
     from roughcontact.contact.press import press as press

@@ -114,6 +114,32 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     assert (out / "curve.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_picture_has_its_format_and_names_theories_as_the_option_does(
+    invoke, rough, tmp_path, monkeypatch
+):
+    drawn, make = [], canvas.curve_figure
+    monkeypatch.setattr(canvas, "curve_figure", lambda *given: drawn.append(make(*given)) or drawn[-1])
+    out = tmp_path / "result"
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--theory", "gw,persson")
+    answer = invoke(*words, "--out", out, "--format", "pdf")
+    assert answer.exit_code == 0
+    assert "curve.pdf are in" in answer.stderr
+    assert (out / "curve.pdf").read_bytes().startswith(b"%PDF")
+    assert not (out / "curve.png").exists()
+    legend = [text.get_text() for text in drawn[0].axes[0].get_legend().get_texts()]
+    assert legend[-2:] == ["gw", "persson"]
+
+
+def test_one_folder_serves_press_and_curve(invoke, rough, tmp_path):
+    out = tmp_path / "result"
+    assert invoke("press", rough, "--force", "1mN", *MODULUS, "--out", out).exit_code == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert invoke("curve", rough, *FORCES, *MODULUS, "--out", out).exit_code == 0
+    after = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert before.items() <= after.items()
+    assert after.keys() - before.keys() == {"curve.csv", "curve.json", "curve.nc", "curve.png"}
+
+
 def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkeypatch):
     path = rc.loading_path
 
@@ -132,12 +158,10 @@ def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkey
     assert invoke("curve", rough, *FORCES, *MODULUS).stdout.count("MISSED") == 1
 
 
-def test_an_interrupt_leaves_nothing(invoke, rough, monkeypatch, tmp_path):
-    path = rc.loading_path
-
-    def interrupted(*arguments, **named):
-        yield next(path(*arguments, **named))
+def test_an_interrupt_before_the_first_load_leaves_nothing(invoke, rough, monkeypatch, tmp_path):
+    def interrupted(*_, **__):
         raise KeyboardInterrupt
+        yield
 
     monkeypatch.setattr(rc, "loading_path", interrupted)
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", tmp_path / "out")
@@ -391,3 +415,21 @@ def test_without_a_resolved_load_there_are_no_errors_and_a_note_says_so(invoke, 
     assert answer.exit_code == 0
     assert json.loads(answer.stdout)["errors"] == []
     assert "Note: no errors: no load is resolved" in answer.stderr
+
+
+def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
+    whole = rc.loading_path
+
+    def interrupted(*arguments, **named):
+        path = whole(*arguments, **named)
+        yield next(path)
+        yield next(path)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc, "loading_path", interrupted)
+    words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
+    answer = invoke(*words)
+    assert answer.exit_code == 130
+    assert "stopped: 2 of 4 loads are kept; for the others: --forces 4e-06,8e-06" in answer.stderr
+    kept = rc.read_curve(tmp_path / "out" / "curve.nc")
+    np.testing.assert_allclose(kept.force, [1e-6, 2e-6])

@@ -285,6 +285,35 @@ def test_a_soft_body_is_pressed_if_its_unit_is_given(invoke, rough):
         assert invoke("press", rough, "--depth", "10nm", "--modulus", modulus).exit_code == 0
 
 
+@pytest.mark.parametrize(("form", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_pictures_come_in_the_format_that_is_asked_for(invoke, rough, tmp_path, form, magic):
+    out = tmp_path / "result"
+    answer = invoke(
+        *("press", rough, "--force", "1N", *MODULUS, "--theory", "persson"),
+        *("--out", out, "--format", form),
+    )
+    assert answer.exit_code == 0
+    names = [f"distribution.{form}", "press.json", "pressure.nc", f"pressure.{form}"]
+    assert sorted(path.name for path in out.iterdir()) == names
+    for name in names[::3]:
+        assert (out / name).read_bytes().startswith(magic)
+        assert name in answer.stderr
+
+
+def test_a_format_without_a_folder_is_refused_before_the_work(invoke, rough, monkeypatch):
+    monkeypatch.setattr(rc, "read", lambda *_, **__: pytest.fail("it went to work"))
+    for words in (
+        ("press", rough, *FORCE, *MODULUS),
+        ("curve", rough, *MODULUS),
+        ("surface", "info", rough),
+        ("surface", "spectrum", rough),
+        ("conductance", rough, "--resistivity", "17nohm*m"),
+    ):
+        answer = invoke(*words, "--format", "svg")
+        assert answer.exit_code == 2
+        assert "--format is that of pictures: say where by --out" in answer.stderr
+
+
 def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
     words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--short-cutoff", "10um")
     answer = invoke(*words, "--json", "--out", tmp_path / "out")

@@ -254,6 +254,20 @@ def test_stopped_it_says_how_to_go_on(started, invoke, monkeypatch, number, stat
     assert "done     40" in run(invoke, "tried").stdout
 
 
+@pytest.mark.parametrize(
+    ("number", "status", "kind"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")]
+)
+def test_stopped_it_says_so_in_one_json_object_too(started, number, status, kind):
+    process = started("--executor", "serial", "--json")
+    process.send_signal(number)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert process.returncode == status
+    error = json.loads(out)["error"]
+    assert (error["kind"], error["exit_status"]) == (kind, status)
+    assert error["remedy"] == "roughcontact study run tried --executor serial"
+    assert f"To go on: {error['remedy']}" in err
+
+
 def test_killed_with_its_workers_at_work_it_can_go_on(started, invoke, monkeypatch):
     process = started("--workers", "2")
     refused = run(invoke, "tried")

@@ -177,7 +177,7 @@ def test_a_profile_is_not_pressed_like_a_map(invoke, tmp_path):
     answer = invoke("press", tmp_path / "line.txt", "--force", "1N", "--modulus", "1GPa")
     assert answer.exit_code == 2
     assert "it is a profile of 9 heights" in answer.stderr
-    assert "taken by 'surface info', 'surface spectrum' and 'surface prepare'" in answer.stderr
+    assert "say how it is pressed: --profile line" in answer.stderr
 
 
 def test_info_says_what_a_file_holds(invoke, tmp_path, surface):
@@ -213,6 +213,7 @@ def test_info_shows_the_channels_of_a_file_that_leaves_its_size_open(invoke, tmp
     )
     failed = invoke("surface", "info", path, "--json")
     assert json.loads(failed.stdout)["channels"][0]["shape"] == [24, 32]
+    assert json.loads(failed.stdout)["error"]["remedy"].startswith("pass --unit")
 
     given = invoke("surface", "info", path, "--unit", "m", "--size", "48um x 32um", "--json")
     assert given.exit_code == 0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.plot import canvas
 
 
 @pytest.fixture
@@ -306,6 +307,19 @@ def spiky(tmp_path):
     made = rc.Surface(heights, grid)
     rc.write(made, tmp_path / "spiky.npz")
     return tmp_path / "spiky.npz", made
+
+
+def test_info_draws_the_spikes_that_it_counts(invoke, spiky, tmp_path, monkeypatch):
+    path, _ = spiky
+    drawn, make = [], canvas.surface_figure
+    monkeypatch.setattr(canvas, "surface_figure", lambda *given: drawn.append(make(*given)) or drawn[-1])
+    answer = invoke("surface", "info", path, "--out", tmp_path / "out", "--format", "svg", "--json")
+    assert answer.exit_code == 0, answer.stderr
+    assert (tmp_path / "out" / "surface.svg").read_bytes().startswith(b"<?xml")
+    assert "surface.svg is in" in answer.stderr
+    heights = drawn[0].axes[0]
+    (rings,) = heights.collections
+    assert len(rings.get_offsets()) == json.loads(answer.stdout)["spikes"] == 2
 
 
 def test_prepare_despikes_and_masks_in_its_order(invoke, spiky, tmp_path):

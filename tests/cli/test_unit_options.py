@@ -125,6 +125,17 @@ def test_sizes_are_one_length_or_two():
     assert parse_size("1m x 0.5m", "--size") == (1.0, 0.5)
 
 
+@pytest.mark.parametrize("text", ["1x2mm", "1 x 2 mm", "1×2mm", "1mm x 2mm", "1e-3x2e-3"])  # noqa: RUF001
+def test_a_unit_behind_two_lengths_is_that_of_both(text):
+    assert parse_size(text, "--size") == (1e-3, 2e-3)
+
+
+def test_a_unit_of_the_first_length_alone_is_asked_about(invoke, rough):
+    answer = invoke("surface", "info", rough, "--size", "1mm x 2")
+    assert answer.exit_code == 2
+    assert "--size: the second length of '1mm x 2' has no unit; write '1 x 2mm'" in answer.stderr
+
+
 @pytest.mark.parametrize("text", ["0mm", "-1mm", "1mm x 0mm", "1mm x 2mm x 3mm", "1mm x", "wide", "1N"])
 def test_bad_sizes_are_refused(text):
     with pytest.raises(UsageError, match=r"^--size: "):

@@ -155,7 +155,7 @@ def test_a_curve_under_a_hardness_does_not_know():
 def test_an_insulator_has_a_picture():
     """Its resistance is infinite, and has no place on the axis."""
     from roughcontact.contact.conduction import Conductors, with_conductance
-    from roughcontact.plot.curves import resistance_figure
+    from roughcontact.plot.canvas import resistance_figure
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])

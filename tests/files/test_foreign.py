@@ -15,7 +15,7 @@ from scipy.io import savemat
 
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.read import channels
+from roughcontact.files.read import channels, read_either
 
 pytest.importorskip("SurfaceTopography")
 
@@ -151,6 +151,30 @@ def test_a_format_known_by_its_extension_is_reached(put, tmp_path, monkeypatch, 
     assert (channel.name, channel.shape) == ("surface.known", (4, 3))
     with pytest.raises(rc.ReadError, match="not recognised"):
         rc.read(put("a.kn\u00f6wn", HEIGHTS.tobytes()), **{"unit": "um", "size": 1e-5})
+
+
+@pytest.mark.parametrize(
+    ("content", "advised"),
+    [
+        (b"width = 4 um\nheight = 3 um\nunit = nm\n1 2 3 4\n5 6 7 8\n9 1 2 3\n", ".txt"),
+        (b"X;Y;valid\n[mm];[um];[1/0]\n0;1;1\n1;2;1\n2;1;0\n3;1;1\n", ".txt"),
+        (b"X;Y;valid\n[mm];[um];[1/0]\n0,0;1,5;1\n1,0;2,5;1\n2,0;1,5;0\n", ".txt"),
+        (b"# x [um] y [um] z [um]\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n", ".xyz"),
+    ],
+)
+def test_a_text_under_another_extension_is_read_under_the_one_that_is_advised(put, content, advised):
+    with pytest.raises(rc.ReadError, match=r"name") as refused:
+        rc.read(put("a.dat", content))
+    assert advised in refused.value.remedy
+    read_either(put(f"a{advised}", content))
+
+
+@pytest.mark.parametrize("kind", [".npy", ".npz", ".x3p"])
+def test_a_file_of_ours_under_another_extension_is_read_under_the_one_that_is_advised(tmp_path, put, kind):
+    rc.write(rc.shapes.paraboloid(rc.Grid((8, 8), 1e-6), 1e-4), tmp_path / f"a{kind}")
+    with pytest.raises(rc.ReadError, match="it can only be taken for") as refused:
+        rc.read(put("a.dat", (tmp_path / f"a{kind}").read_bytes()))
+    assert refused.value.remedy.startswith(f"rename it to {kind} ")
 
 
 def test_an_extension_without_a_mark_goes_before_what_the_bytes_look_like(put):

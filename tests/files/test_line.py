@@ -32,6 +32,37 @@ def test_texts(put, name, content, keywords):
     assert line.grid.periodic == (False,)
 
 
+VALID = "X;Y;valid\n[mm];[um];[1/0]\n"
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("hole", ["0.0", "99.5", ""])
+@pytest.mark.parametrize("name", ["a.csv", "a.txt"])
+def test_a_third_column_says_which_heights_are_valid(put, name, hole, decimal):
+    lines = [f"{k * 0.5:.3f};{z!r};1\n" for k, z in enumerate(HEIGHTS.tolist())]
+    lines[7] = f"3.500;{hole};0\n"
+    content = VALID + "".join(lines).replace(".", decimal)
+    line = read_line(put(name, content))
+    np.testing.assert_allclose(line.grid.spacing, (0.5e-3,), rtol=1e-12)
+    assert np.flatnonzero(np.isnan(line.heights)).tolist() == [7]
+    measured = np.arange(40) != 7
+    np.testing.assert_allclose(line.heights[measured], HEIGHTS[measured] * 1e-6, rtol=1e-15)
+    assert read_either(put(name, content)).grid == line.grid
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (VALID + "0;1;1\n1;2;2\n", "interrupts|holds 3 numbers"),
+        (VALID + "0;1;1\n1;;1\n", "interrupts"),
+        ("X;Y;Z\n0;1;1\n1;2;1\n", "holds 3 numbers"),
+    ],
+)
+def test_a_third_column_that_is_no_validity_is_refused(put, content, message):
+    with pytest.raises(rc.ReadError, match=message):
+        read_line(put("a.csv", content))
+
+
 def test_places_without_a_unit_are_in_that_of_the_heights(put):
     line = read_line(put("a.csv", rows()), unit="um", periodic=True)
     np.testing.assert_allclose(line.grid.spacing, (0.5e-6,), rtol=1e-12)

@@ -86,7 +86,7 @@ def test_the_users_word_goes_before_the_files(put):
     np.testing.assert_allclose(given.grid.spacing, (1e-6, 2e-6), rtol=1e-15)
     digest = hashlib.sha256(path.read_bytes()).hexdigest()[:16]
     assert given.provenance == (
-        f"read from a.txt (Gwyddion text, sha256 {digest})",
+        f"read from a.txt (text with a header, sha256 {digest})",
         "unit of the heights um as given, instead of the file's nm",
         "size 2e-06 x 8e-06 m (y, x) as given, instead of the file's 0.002 x 0.004",
     )

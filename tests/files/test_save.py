@@ -15,6 +15,7 @@ from hypothesis import given, settings, strategies as st
 from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
+from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line
@@ -252,3 +253,18 @@ def test_a_curve_is_written_and_can_be_opened(tmp_path):
     assert (tmp_path / "curve.csv").read_text(encoding="utf-8").startswith("force,depth,stiffness")
     with pytest.raises(rc.WriteError, match=r"a Curve is written as one of \.nc, \.csv"):
         rc.write(curve, tmp_path / "curve.vti")
+
+
+def test_the_table_of_an_interface_is_written_for_other_programs(tmp_path):
+    grid = rc.Grid((48, 48), 1e-6, periodic=True)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0), short_cutoff=8e-6)
+    table = rc.interface_table(rc.loading_curve(rough, 1e11, pressures=[1e8, 3e8, 1e9]))
+    for name in ("a.csv", "a.inp", "a.table"):
+        rc.write(table, tmp_path / name)
+    columns = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(columns["nominal_pressure"], table.pressure)
+    np.testing.assert_array_equal(columns["overclosure"], table.overclosure)
+    assert (tmp_path / "a.inp").read_text(encoding="utf-8") == abaqus_text(table)
+    assert (tmp_path / "a.table").read_text(encoding="utf-8") == lammps_text(table)
+    with pytest.raises(WriteError, match=r"a InterfaceTable is written as one of \.csv, \.inp, \.table"):
+        rc.write(table, tmp_path / "a.nc")

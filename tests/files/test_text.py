@@ -70,7 +70,7 @@ def test_the_header_of_gwyddion(put, width, height, unit):
     surface = rc.read(put("a.txt", header + text("\t")))
     np.testing.assert_allclose(surface.grid.spacing, (1e-6, 2e-6), rtol=1e-15)
     np.testing.assert_allclose(surface.heights, np.array(VALUES) * 1e-9, rtol=1e-15)
-    assert "(Gwyddion text, channel 'Z: one'," in surface.provenance[0]
+    assert "(text with a header, channel 'Z: one'," in surface.provenance[0]
 
 
 def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):

@@ -42,7 +42,7 @@ def level(axes: Axes) -> list[float]:
 
 def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
     assert 0 < curve.resolved.sum() < len(curve), "both kinds are needed here"
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     for label, mask in (("resolved", curve.resolved), ("not resolved", ~curve.resolved)):
         drawn = line(axes, label)
         # Units of the axes are powers of ten: ratios tell whether the points are the curve's.
@@ -57,7 +57,7 @@ def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
 
 
 def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     factor = line(axes, "resolved").get_ydata()[0] / curve.stiffness[curve.resolved][0]
     expected = [20 * curve.cell_stiffness * factor, curve.full_contact_stiffness * factor]
     assert level(axes) == pytest.approx(expected, rel=1e-12)
@@ -67,7 +67,7 @@ def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
 
 def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
     law = curve.fit((float(curve.force[2]), float(curve.force[-1])))
-    stiffness_curve(axes, curve, law)
+    stiffness_curve(curve, axes, law=law)
     (drawn,) = [each for each in axes.lines if each.get_linewidth() == 2]
     points = line(axes, "resolved")
     x, y = (
@@ -83,7 +83,7 @@ def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
 def test_the_outer_axes_have_no_dimension(curve):
     figure = Figure()
     axes = figure.subplots()
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     figure.draw_without_rendering()
     right, upper = axes.child_axes
     x, y = line(axes, "resolved").get_data()
@@ -101,7 +101,7 @@ def test_an_infinite_full_contact_stiffness_has_no_line(axes):
     surface = rc.self_affine(grid, hurst=0.8, rms=1e-9, rng=np.random.default_rng(3))
     curve = rc.loading_curve(surface, MODULUS, pressures=[1e7, 1e8, 1e10])
     assert np.isinf(curve.stiffness[-1])  # full contact
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     assert len(level(axes)) == 1
     drawn = sum(len(each.get_xdata()) for each in axes.lines if each.get_marker() == "o")
     assert drawn == 2
@@ -111,7 +111,7 @@ def test_an_infinite_full_contact_stiffness_has_no_line(axes):
 def test_a_flat_surface_has_a_curve(axes):
     surface = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1e-3))
     curve = rc.loading_curve(surface, MODULUS, forces=[1.0, 10.0])
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     axes.figure.draw_without_rendering()
     assert not any("force /" in each.get_xlabel() for each in axes.child_axes)
 
@@ -120,7 +120,7 @@ def test_area_and_depth(curve):
     for draw, values in ((area_curve, curve.contact_area), (depth_curve, curve.depth)):
         figure = Figure()
         axes = figure.subplots()
-        draw(axes, curve)
+        draw(curve, axes)
         data = line(axes, "resolved").get_ydata()
         np.testing.assert_allclose(
             data / data[0], values[curve.resolved] / values[curve.resolved][0], rtol=1e-13
@@ -151,7 +151,7 @@ def test_numbers_on_a_logarithmic_axis_are_few_and_at_least_two(ratio, first):
 
 
 def test_the_lower_limit_is_named_for_what_it_is(axes, curve):
-    stiffness_curve(axes, curve)
+    stiffness_curve(curve, axes)
     assert [text.get_text() for text in axes.texts] == ["20 x one cell", "full contact"]
 
 
@@ -161,7 +161,7 @@ def test_full_contact_alone_has_a_picture(axes, kind):
     grid = rc.Grid((8, 8) if kind == "surface" else 8, 1e-6, True)
     wavy = rc.self_affine(grid, hurst=0.8, rms=1e-12, rng=np.random.default_rng(0))
     operator = rc.line(grid, 1e9) if kind == "line" else None
-    stiffness_curve(axes, rc.loading_curve(wavy, 1e9, pressures=[1e6, 2e6], operator=operator))
+    stiffness_curve(rc.loading_curve(wavy, 1e9, pressures=[1e6, 2e6], operator=operator), axes)
     axes.figure.canvas.draw()
     assert not axes.get_lines() or kind == "surface"
 
@@ -169,7 +169,7 @@ def test_full_contact_alone_has_a_picture(axes, kind):
 def test_on_a_line_no_stiffness_tells_what_is_resolved(axes):
     grid = rc.Grid(128, 1e-6)
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
-    stiffness_curve(axes, rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)))
+    stiffness_curve(rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)), axes)
     assert [text.get_text() for text in axes.texts] == ["full contact"]
 
 
@@ -196,13 +196,47 @@ def test_no_point_lies_under_words(lowest, highest):
         assert not inside.all(axis=1).any()
 
 
+@pytest.mark.parametrize("periodic", [False, True])
+def test_no_line_lies_under_words_where_there_is_room(periodic):
+    """Laws that cross the levels at either end; on a large picture there is always a place between."""
+    from roughcontact.theory.law import LoadingLaw
+
+    grid = rc.Grid((48, 48), (1e-7, 1e-7), periodic)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
+    scale = MODULUS * 1e-7 * 48e-7
+    curve = rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(1e-3, 0.3, 12))
+    level_of = 20 * curve.cell_stiffness
+    laws = [
+        # Through the level of twenty cells near the right end of the axis, and near the left one.
+        LoadingLaw(f"at {at}", "", {"stiffness": lambda f, at=at: level_of * (f / (scale * at)) ** 0.5})
+        for at in (2e-3, 0.2)
+    ]
+    figure = Figure(figsize=(8, 6), dpi=100)
+    axes = stiffness_curve(curve, figure.subplots(), theories=laws)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    texts = [text for text in axes.texts if text.get_text()]
+    assert len(texts) == 1 + (not periodic)
+    for text in texts:
+        box = text.get_window_extent(canvas.get_renderer())
+        for drawn in axes.lines:
+            if drawn.get_transform() == axes.transData and len(drawn.get_xdata()) > 1:
+                x, y = axes.transData.transform(drawn.get_xydata()).T
+                fine = np.linspace(x.min(), x.max(), 4000)
+                across = np.interp(fine, x, y)
+                if drawn.get_linestyle() == "None":
+                    fine, across = x, y
+                inside = (fine > box.x0) & (fine < box.x1) & (across > box.y0) & (across < box.y1)
+                assert not inside.any(), (text.get_text(), drawn.get_label())
+
+
 AREAL = ("interfacial_stiffness_per_area", "contact_fraction", "mean_gap")
 
 
 @pytest.mark.parametrize("name", AREAL)
 def test_per_area_is_drawn_in_the_unit_that_is_named(axes, curve, name):
     units = {"nominal_pressure": Scale(1e-5, "bar"), name: Scale(3.0, "thirds")}
-    areal_curve(axes, curve, name, units=units)
+    areal_curve(curve, axes, quantity=name, units=units)
     drawn = line(axes, "resolved")
     np.testing.assert_allclose(drawn.get_xdata(), curve.nominal_pressure[curve.resolved] / 1e5, rtol=1e-14)
     np.testing.assert_allclose(drawn.get_ydata(), 3 * getattr(curve, name)[curve.resolved], rtol=1e-14)
@@ -217,7 +251,7 @@ def test_what_belongs_to_k_is_drawn_with_the_interface_only_where_the_two_are_on
     scale = MODULUS * 1e-7 * 48e-7
     computed = rc.loading_curve(surface, MODULUS, forces=scale * np.geomspace(1e-2, 0.3, 8))
     law = computed.fit((float(computed.force[2]), float(computed.force[-1])))
-    areal_curve(axes, computed, AREAL[0], law)
+    areal_curve(computed, axes, law=law)
     strong = [each for each in axes.lines if each.get_linewidth() == 2]
     assert bool(strong) is periodic
     if periodic:
@@ -237,7 +271,7 @@ def test_theories_pass_through_what_they_say_per_area(axes, curve, name):
 
     given = {"interfacial_stiffness": 1e3, "contact_area": 1e-13, "mean_gap": 1e-8}
     law = LoadingLaw("straight", "", {each: lambda f, c=c: c * f for each, c in given.items()})
-    areal_curve(axes, curve, name, theories=[law])
+    areal_curve(curve, axes, quantity=name, theories=[law])
     (drawn,) = [each for each in axes.lines if each.get_label() == "straight"]
     points = line(axes, "resolved")
     area = curve.nominal_area

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.distributions import height_distribution, pressure_distribution
+from roughcontact.plot.engineering_units import written
 
 MODULUS = 2.0
 
@@ -31,7 +32,7 @@ def test_bars_fill_the_share_in_contact(axes, kind, unit):
     """All but the cells of the largest pressure, a thousandth of them: here none, or one."""
     surface, operator = body(kind)
     solution = rc.press(surface, MODULUS, depth=0.1, operator=operator)
-    pressure_distribution(axes, solution)
+    pressure_distribution(solution, axes)
     [bars] = axes.patches
     values, edges, _ = bars.get_data()
     assert (values * np.diff(edges)).sum() == pytest.approx(solution.contact_fraction, rel=1e-12)
@@ -42,7 +43,7 @@ def test_bars_fill_the_share_in_contact(axes, kind, unit):
 def test_without_contact_there_is_none(axes):
     surface, operator = body("line")
     with pytest.raises(ValueError, match="nothing is in contact"):
-        pressure_distribution(axes, rc.press(surface, MODULUS, depth=0.0, operator=operator))
+        pressure_distribution(rc.press(surface, MODULUS, depth=0.0, operator=operator), axes)
 
 
 def bars(axes):
@@ -59,9 +60,57 @@ def test_few_values_make_few_bars_and_many_as_many_as_asked_for():
         cells = np.count_nonzero(solution.contact)
         assert 5 < cells < 2000
         axes = Figure().subplots()
-        pressure_distribution(axes, solution)
+        pressure_distribution(solution, axes)
         assert bars(axes) == len(np.histogram_bin_edges(np.arange(cells), "rice")) - 1 < 60
     for part, expected in ((surface, 60), (rc.Surface(surface.heights[:5, :5], rc.Grid((5, 5), 1e-6)), 6)):
         axes = Figure().subplots()
-        height_distribution(axes, part)
+        height_distribution(part, axes)
         assert bars(axes) == expected
+
+
+def test_a_few_values_far_out_leave_no_half_of_the_axis_empty():
+    """One height 300 rms away: the axis spans the others, and the legend says what lies beyond."""
+    grid = rc.Grid((64, 64), 1e-6)
+    heights = np.random.default_rng(5).normal(0.0, 1e-8, grid.shape)
+    height_distribution(rc.Surface(heights, grid), whole := Figure().subplots())
+    heights[3, 3] = 3e-6
+    axes = height_distribution(rc.Surface(heights, grid), Figure().subplots())
+    [drawn] = axes.patches
+    values, edges, _ = drawn.get_data()
+    assert axes.get_xlim() == (edges[0], edges[-1])
+    # The mean moves by 3e-6/4096, less than a tenth of the rms; without the one, the whole is shown.
+    assert abs(edges[0]) < 60 < 10 * edges[-1]
+    assert (values * np.diff(edges)).sum() == pytest.approx(1, rel=1e-12)
+    label = axes.get_legend().get_texts()[0].get_text()
+    about = (heights - heights.mean()) * 1e9
+    beyond, lowest = (about > edges[-1]) | (about < edges[0]), f"{about.min():.3g} nm"
+    assert label == f"heights,\n{100 * beyond.mean():.2g} % of them beyond, {lowest} to 3 µm"
+    assert whole.get_legend().get_texts()[0].get_text() == "heights"
+
+
+def test_pressures_of_a_few_cells_do_not_take_a_quarter_of_the_axis():
+    """An edge of a flat punch carries many times what its middle does."""
+    solution = rc.press(rc.Surface(np.zeros((64, 64)), rc.Grid((64, 64), 1e-6)), 1e9, force=1.0)
+    axes = pressure_distribution(solution, Figure().subplots())
+    [drawn] = axes.patches
+    values, edges, _ = drawn.get_data()
+    pressure = solution.pressure * 1e-6  # MPa
+    assert axes.get_xlabel() == "pressure [MPa]"
+    assert edges[-1] < 0.75 * pressure.max()
+    beyond = (pressure > edges[-1]).mean()
+    assert 0 < beyond < (4 * 63 + 4 * 61) / 64**2, "the cells along the edges, and hardly more than these"
+    assert (values * np.diff(edges)).sum() == pytest.approx(1 - beyond, rel=1e-12)
+    largest = written(float(solution.pressure.max()), "Pa")
+    label = f"computed, 100 % in contact,\n{100 * beyond:.2g} % of it beyond, up to {largest}"
+    assert axes.get_legend().get_texts()[0].get_text() == label
+
+
+def test_the_legend_covers_no_bar():
+    surface, operator = body("line")
+    axes = pressure_distribution(
+        rc.press(surface, MODULUS, depth=0.1, operator=operator), Figure(dpi=80).subplots()
+    )
+    axes.figure.canvas.draw()
+    [drawn] = axes.patches
+    top = axes.transData.transform((0.0, drawn.get_data().values.max()))[1]
+    assert axes.get_legend().get_window_extent().y0 > top

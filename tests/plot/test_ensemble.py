@@ -30,7 +30,7 @@ def bands(axes):
 class TestMeanCurves:
     def test_each_group_has_its_line_and_its_band(self, axes):
         mean = stiffness()
-        mean_curves(axes, FORCE, mean, 0.1 * mean)
+        mean_curves(FORCE, mean, axes, error=0.1 * mean)
         assert [line.get_label() for line in axes.lines] == ["0.2", "0.8"]
         for i, (line, band) in enumerate(zip(axes.lines, bands(axes), strict=True)):
             np.testing.assert_array_equal(line.get_xdata(), FORCE)
@@ -46,18 +46,18 @@ class TestMeanCurves:
         assert axes.get_legend().get_title().get_text() == "hurst"
 
     def test_the_order_of_dimensions_does_not_matter(self, axes):
-        mean_curves(axes, FORCE, stiffness().transpose("load", "hurst"))
+        mean_curves(FORCE, stiffness().transpose("load", "hurst"), axes)
         np.testing.assert_array_equal(axes.lines[1].get_ydata(), stiffness()[1])
         assert bands(axes) == []
 
     def test_one_curve_needs_no_legend(self, axes):
-        mean_curves(axes, FORCE, stiffness()[0])
+        mean_curves(FORCE, stiffness()[0], axes)
         assert len(axes.lines) == 1
         assert axes.get_legend() is None
 
     def test_what_is_not_resolved_is_dotted(self, axes):
         mean = stiffness()
-        mean_curves(axes, FORCE, mean, resolved=FORCE > 1e-3)
+        mean_curves(FORCE, mean, axes, resolved=FORCE > 1e-3)
         dotted = [line for line in axes.lines if line.get_linestyle() == ":"]
         whole = [line for line in axes.lines if line.get_linestyle() == "-"]
         assert (len(dotted), len(whole)) == (2, 2)
@@ -67,25 +67,25 @@ class TestMeanCurves:
     def test_zeros_and_what_is_missing_have_no_place(self, axes):
         mean = stiffness()
         mean[0, 1], mean[0, 3] = 0, np.nan
-        mean_curves(axes, FORCE, mean, mean * 2)  # a band that would reach below zero
+        mean_curves(FORCE, mean, axes, error=mean * 2)  # a band that would reach below zero
         np.testing.assert_array_equal(axes.lines[0].get_xdata(), FORCE[[0, 2, 4, 5]])
         axes.figure.canvas.draw()
 
     def test_forces_may_differ_from_group_to_group(self, axes):
         factors = xarray.DataArray([1.0, 2.0], dims="hurst", coords={"hurst": HURST})
-        mean_curves(axes, (factors * FORCE).rename("force"), stiffness())
+        mean_curves((factors * FORCE).rename("force"), stiffness(), axes)
         np.testing.assert_array_equal(axes.lines[1].get_xdata(), 2 * FORCE)
 
     def test_many_groups_take_shades(self, axes):
-        mean_curves(axes, FORCE, stiffness(np.linspace(0, 2, 24)))
+        mean_curves(FORCE, stiffness(np.linspace(0, 2, 24)), axes)
         assert len({tuple(line.get_color()) for line in axes.lines}) == 24
         assert axes.get_legend() is None
 
     def test_more_dimensions_are_refused(self, axes):
         with pytest.raises(ValueError, match="one dimension of groups, not along points, hurst, load"):
-            mean_curves(axes, FORCE, stiffness().expand_dims(points=2))
+            mean_curves(FORCE, stiffness().expand_dims(points=2), axes)
         with pytest.raises(ValueError, match="curves lie along 'load'"):
-            mean_curves(axes, FORCE, stiffness().rename(load="step")[0])
+            mean_curves(FORCE, stiffness().rename(load="step")[0], axes)
 
 
 class TestFittedValues:
@@ -99,7 +99,7 @@ class TestFittedValues:
     )
 
     def test_stand_with_their_intervals_where_there_are_any(self, axes):
-        fitted_values(axes, self.FITS, along="hurst", label="513 x 513", shift=0.01)
+        fitted_values(self.FITS, ax=axes, along="hurst", label="513 x 513", shift=0.01)
         (drawn,) = axes.containers
         points, _, (arms,) = drawn.lines
         np.testing.assert_allclose(points.get_xdata(), [0.21, 0.81], rtol=1e-14)
@@ -111,4 +111,4 @@ class TestFittedValues:
 
     def test_more_dimensions_are_refused(self, axes):
         with pytest.raises(ValueError, match="not along 'hurst' alone: select first"):
-            fitted_values(axes, self.FITS.expand_dims(points=2), along="hurst")
+            fitted_values(self.FITS.expand_dims(points=2), ax=axes, along="hurst")

@@ -43,7 +43,7 @@ def single(size: float = 4.0) -> tuple[Figure, object]:
 def test_row_zero_is_on_top_and_cells_lie_where_they_are():
     solution = pressed((20, 30), [(4, 25)])
     _, axes = single()
-    pressure_map(axes, solution)
+    pressure_map(solution, axes)
     image = axes.images[-1]
     left, right, bottom, top = image.get_extent()
     # 30 cells of 0.1 um and 20 cells of 0.2 um, y pointing down.
@@ -60,11 +60,11 @@ def test_one_cell_in_a_quarter_of_a_million_is_seen_where_it_is(draw):
     solution = pressed((512, 512), [(100, 400)])
     assert solution.contact.sum() == 1
     figure, axes = single()
-    draw(axes, solution)
+    draw(solution, axes)
     before = painted(figure)
     # The picture differs from that of the bare heights only by the mark.
     bare, plain = single()
-    draw(plain, rc.press(solution.problem.surface, MODULUS, depth=0.0))
+    draw(rc.press(solution.problem.surface, MODULUS, depth=0.0), plain)
     plain.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())
     changed = np.argwhere(np.abs(before - painted(bare)).sum(axis=-1) > 100)
     frame = axes.get_window_extent()
@@ -81,7 +81,7 @@ def test_marks_and_cells_are_drawn_where_they_are(draw, window):
     cells = [(100, 400), (300, 280)]
     solution = pressed((512, 512), cells)
     _, axes = single()
-    draw(axes, solution, window)
+    draw(solution, axes, window=window)
     (marks,) = axes.collections
     y, x = (np.array(cells).T + 0.5) * [[0.2], [0.1]]  # um
     expected = np.stack([x, y], axis=1)[np.argsort(y)]
@@ -98,7 +98,7 @@ def test_marks_and_cells_are_drawn_where_they_are(draw, window):
 def test_a_frame_lies_on_the_edges_of_its_cells():
     solution = pressed((512, 512), [(100, 400)])
     _, axes = single()
-    contact_map(axes, solution, frame=(slice(80, 336), slice(256, 512)))
+    contact_map(solution, axes, frame=(slice(80, 336), slice(256, 512)))
     x, y = axes.lines[0].get_data()
     np.testing.assert_allclose([x.min(), x.max(), y.min(), y.max()], [25.6, 51.2, 16.0, 67.2], rtol=1e-14)
 
@@ -115,7 +115,7 @@ def test_bodies_that_do_not_touch_have_a_map_too():
     assert contact_window(solution) is None
     for draw in (pressure_map, contact_map):
         figure, axes = single()
-        draw(axes, solution)
+        draw(solution, axes)
         painted(figure)
 
 
@@ -163,10 +163,63 @@ def test_a_window_at_a_corner_lies_on_the_map(cell):
 def test_missing_points_are_hatched_and_others_not():
     for missing, hatched in ((5, True), (0, False)):
         figure, axes = single()
-        height_map(axes, peaks((8, 8), [(4, 4)], missing))
+        height_map(peaks((8, 8), [(4, 4)], missing), axes)
         assert bool(axes.patch.get_hatch()) is hatched
         assert int(np.ma.masked_invalid(axes.images[0].get_array()).mask.sum()) == missing
         painted(figure)
+
+
+def test_spikes_are_ringed_where_they_are_and_counted():
+    """Rings about the cells that stand out most, beside heights that the others keep their colours for."""
+    grid = rc.Grid((64, 80), (2e-6, 1e-6))
+    heights = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1)).heights.copy()
+    heights[20, 30:32] += 1e-4
+    heights[50, 7] -= 2e-4
+    surface = rc.Surface(heights, grid)
+    spikes = rc.find_spikes(surface)
+    assert spikes.count == 2
+    axes = height_map(surface, Figure().subplots(), spikes=spikes)
+    (rings,) = axes.collections
+    expected = (spikes.places[:, ::-1] + 0.5) * [1.0, 2.0]  # um
+    np.testing.assert_allclose(rings.get_offsets(), expected, rtol=1e-14)
+    assert [7.5, 101.0] in expected.tolist()
+    assert axes.get_title() == f"{spikes}, ringed"
+    low, high = axes.images[0].get_clim()
+    rest = np.where(spikes.mask, np.nan, heights)
+    assert np.nanmin(rest) * 1e9 <= low < high <= np.nanmax(rest) * 1e9
+    bar = axes.images[0].colorbar
+    assert bar.extend == "both"
+    ends = (written(float(end), "m") for end in (heights.min(), heights.max()))
+    assert bar.ax.get_ylabel() == "height [nm]\n(heights go from {} to {})".format(*ends)
+
+
+def test_a_map_without_spikes_has_no_rings_and_all_its_colours():
+    surface = rc.Surface(np.random.default_rng(2).normal(0.0, 1e-9, (64, 64)), rc.Grid((64, 64), 1e-6))
+    axes = height_map(surface, Figure().subplots(), spikes=rc.find_spikes(surface))
+    assert len(axes.collections) == 0
+    assert axes.get_title() == ""
+    assert axes.images[0].get_clim() == (surface.heights.min() * 1e9, surface.heights.max() * 1e9)
+    assert axes.images[0].colorbar.extend == "neither"
+
+
+def test_heights_far_from_zero_are_given_above_one_of_them():
+    """Micrometres on top of 76 mm."""
+    heights = 76.321e-3 + np.random.default_rng(2).uniform(0.0, 3e-5, (32, 32))
+    axes = height_map(rc.Surface(heights, rc.Grid((32, 32), 1e-6)), Figure().subplots())
+    image = axes.images[0]
+    np.testing.assert_allclose(np.asarray(image.get_array()), (heights - 76.3e-3) * 1e6, rtol=1e-9)
+    assert image.colorbar.ax.get_ylabel() == "height above 76.3 mm [µm]"
+
+
+def test_pits_are_no_errors():
+    """A tenth of the map, far below the rest, keeps its colours."""
+    heights = np.random.default_rng(2).normal(0.0, 1e-10, (64, 64))
+    heights[:6] -= 1e-8
+    heights[40, 40] = 1e-6
+    axes = height_map(rc.Surface(heights, rc.Grid((64, 64), 1e-6)), Figure().subplots())
+    low, high = (end * 1e-9 for end in axes.images[0].get_clim())
+    assert low < -1e-8 + 3e-10
+    assert high < 1e-8
 
 
 def test_large_maps_are_pooled_without_losing_a_cell():
@@ -182,7 +235,7 @@ def test_pooled_cells_lie_where_they_are():
     _, axes = single()
     slope = np.repeat(np.arange(2500.0)[:, None], 2500, axis=1)
     surface = rc.Surface(slope, rc.Grid((2500, 2500), 1e-6))
-    height_map(axes, surface)
+    height_map(surface, axes)
     _, right, bottom, _ = axes.images[0].get_extent()
     # 2500 cells in blocks of three are 834 blocks, 2502 cells; the axes end with the map.
     assert (right, bottom) == pytest.approx((2.502, 2.502), rel=1e-14)
@@ -192,7 +245,7 @@ def test_pooled_cells_lie_where_they_are():
 def test_a_few_great_pressures_do_not_darken_the_rest():
     edge = rc.press(rc.Surface(np.zeros((32, 32)), rc.Grid((32, 32), 1e-3)), MODULUS, force=10.0)
     _, axes = single()
-    pressure_map(axes, edge)
+    pressure_map(edge, axes)
     image = axes.images[-1]
     assert image.get_clim()[1] == pytest.approx(np.quantile(edge.pressure, 0.95) * 1e-3, rel=1e-12)  # kPa
     assert image.colorbar.extend == "max"

@@ -48,7 +48,7 @@ def test_a_spectrum_is_drawn_in_the_units_of_its_labels(kind, power):
     # A power law stays one when bins are averaged only if each bin is drawn alone: 20 a decade are.
     spectrum = spectrum_of(lambda q: 1e-2 * q ** (-power + 0.0), kind)
     figure, axes = single()
-    spectrum_curve(axes, spectrum)
+    spectrum_curve(spectrum, axes)
     drawn(figure)
     assert "[rad/µm]" in axes.get_xlabel()
     assert axes.get_xscale() == axes.get_yscale() == "log"
@@ -62,7 +62,7 @@ def test_a_spectrum_is_drawn_in_the_units_of_its_labels(kind, power):
 
 def test_the_upper_axis_of_a_spectrum_is_the_wavelength():
     figure, axes = single()
-    spectrum_curve(axes, spectrum_of(lambda q: q**-4.0))
+    spectrum_curve(spectrum_of(lambda q: q**-4.0), axes)
     drawn(figure)
     top = axes.child_axes[0]
     assert top.get_xlabel() == "wavelength [µm]"
@@ -75,7 +75,7 @@ def test_a_narrow_spectrum_has_plain_numbers_on_its_axes():
     q = np.geomspace(2e4, 2e5, 12)
     spectrum = rc.PowerSpectrum(q, q**-4.0, "C2D", np.full(12, 10.0), np.full(12, 5.0), 2e4, 2e5)
     figure, axes = single()
-    spectrum_curve(axes, spectrum, label="from a profile")
+    spectrum_curve(spectrum, axes, label="from a profile")
     drawn(figure)
     low, high = axes.get_xlim()
     ticks = dict(zip(axes.get_xticks(), axes.get_xticklabels(), strict=True))
@@ -86,7 +86,7 @@ def test_a_narrow_spectrum_has_plain_numbers_on_its_axes():
 
 def test_bins_outside_the_reliable_band_are_drawn_apart():
     figure, axes = single()
-    spectrum_curve(axes, spectrum_of(lambda q: q**-4.0))
+    spectrum_curve(spectrum_of(lambda q: q**-4.0), axes)
     drawn(figure)
     assert len(axes.lines[0].get_xdata()) == 61
     assert 0 < len(line(axes, "measured").get_xdata()) < 61
@@ -96,7 +96,7 @@ def test_a_law_lies_over_its_band_and_bends_where_it_says():
     law = law_of(rolloff=5e-5)
     spectrum = spectrum_of(law)
     figure, axes = single()
-    spectrum_curve(axes, spectrum, law)
+    spectrum_curve(spectrum, axes, law=law)
     drawn(figure)
     assert law.hurst == 0.5
     q, density = line(axes, "H = 0.500 ± 0.010").get_data()
@@ -113,7 +113,9 @@ def test_a_law_lies_over_its_band_and_bends_where_it_says():
 
 def test_empty_bins_of_a_cut_off_spectrum_have_no_place_on_a_logarithmic_axis():
     figure, axes = single()
-    spectrum_curve(axes, spectrum_of(lambda q: np.where(q < 0.99e5, 0.0, q**-4.0)), law_of(long_cutoff=6e-5))
+    spectrum_curve(
+        spectrum_of(lambda q: np.where(q < 0.99e5, 0.0, q**-4.0)), axes, law=law_of(long_cutoff=6e-5)
+    )
     drawn(figure)
     assert len(axes.lines[0].get_xdata()) == 41
     assert (line(axes, "measured").get_ydata() > 0).all()
@@ -122,13 +124,13 @@ def test_empty_bins_of_a_cut_off_spectrum_have_no_place_on_a_logarithmic_axis():
 
 def test_a_real_spectrum_can_be_drawn(rough):
     figure, axes = single()
-    spectrum_curve(axes, rc.power_spectrum(rough, per_decade=200), rc.hurst_exponent(rough))
+    spectrum_curve(rc.power_spectrum(rough, per_decade=200), axes, law=rc.hurst_exponent(rough))
     drawn(figure)
 
 
 def test_a_profile_is_a_row_of_the_picture(rough):
     figure, axes = single()
-    profile_curve(axes, rough, -1)
+    profile_curve(rough, axes, row=-1)
     drawn(figure)
     x, z = axes.lines[0].get_data()
     np.testing.assert_allclose(x, np.arange(128) + 0.5, rtol=1e-12)
@@ -142,21 +144,21 @@ def test_a_profile_is_broken_where_points_are_missing_and_says_which_rows_there_
     heights[48] = np.nan
     surface = rc.Surface(heights, rough.grid)
     figure, axes = single()
-    profile_curve(axes, surface)  # the middle row, of which nothing was measured
+    profile_curve(surface, axes)  # the middle row, of which nothing was measured
     drawn(figure)
     assert np.isnan(axes.lines[0].get_ydata()).all()
     with pytest.raises(ValueError, match="between -96 and 95, not at 96"):
-        profile_curve(axes, surface, 96)
+        profile_curve(surface, axes, row=96)
     scan = rc.Surface(heights[0], rc.Grid((128,), (1e-6,)))
-    profile_curve(axes, scan)
+    profile_curve(scan, axes)
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), heights[0] * 1e6, rtol=1e-12)
     with pytest.raises(ValueError, match="leave row out"):
-        profile_curve(axes, scan, 0)
+        profile_curve(scan, axes, row=0)
 
 
 def test_a_histogram_has_the_area_1_and_the_normal_distribution_its_rms(rough):
     figure, axes = single()
-    height_distribution(axes, rough, bins=30)
+    height_distribution(rough, axes, bins=30)
     drawn(figure)
     values, edges, _ = axes.patches[0].get_data()
     assert len(values) == 30
@@ -170,18 +172,18 @@ def test_a_histogram_has_the_area_1_and_the_normal_distribution_its_rms(rough):
 def test_a_flat_surface_has_a_histogram_and_a_view():
     flat = rc.Surface(np.zeros((4, 6)), rc.Grid((4, 6), 1e-6))
     figure, axes = single()
-    height_distribution(axes, flat)
+    height_distribution(flat, axes)
     assert len(axes.lines) == 0
     drawn(figure)
     figure, axes = single(projection="3d")
-    surface_view(axes, flat)
+    surface_view(flat, axes)
     drawn(figure)
 
 
 def test_a_view_shows_the_heights_with_the_first_row_at_the_back():
     heights = np.arange(12.0).reshape(3, 4) * 1e-6
     figure, axes = single(projection="3d")
-    surface_view(axes, rc.Surface(heights, rc.Grid((3, 4), (2e-6, 1e-6))))
+    surface_view(rc.Surface(heights, rc.Grid((3, 4), (2e-6, 1e-6))), axes)
     drawn(figure)
     assert axes.get_zlim() == pytest.approx((0, 11), rel=1e-12)
     assert axes.get_ylim() == pytest.approx((6, 0), rel=1e-12)
@@ -193,7 +195,7 @@ def test_a_view_averages_a_large_surface_over_blocks_even_one_whose_period_they_
     grid = rc.Grid((403, 402), 1e-6, periodic=True)
     surface = rc.self_affine(grid, 1.0, 1e-6, np.random.default_rng(3))
     figure, axes = single(projection="3d")
-    surface_view(axes, surface, frame=False)
+    surface_view(surface, axes, frame=False)
     drawn(figure)
     # 403 // 3 = 134 and 402 // 3 = 134 points.
     assert len(axes.collections[0].get_facecolor()) == 133 * 133
@@ -205,10 +207,10 @@ def test_a_view_is_open_where_nothing_was_measured():
     heights = np.random.default_rng(4).random((8, 8))
     heights[3, 3] = np.nan
     figure, axes = single(projection="3d")
-    surface_view(axes, rc.Surface(heights * 1e-6, rc.Grid((8, 8), 1e-6)))
+    surface_view(rc.Surface(heights * 1e-6, rc.Grid((8, 8), 1e-6)), axes)
     drawn(figure)
     corners = [path.vertices for path in axes.collections[0].get_paths()]
     # Its four neighbours are triangles in older Matplotlib, not drawn in newer; a closed quadrilateral has five points.
     assert sum(len(each) == 5 and np.isfinite(each).all() for each in corners) == 49 - 4
     with pytest.raises(ValueError, match="profile_curve"):
-        surface_view(axes, rc.Surface(heights[0], rc.Grid((8,), (1e-6,))))
+        surface_view(rc.Surface(heights[0], rc.Grid((8,), (1e-6,))), axes)

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import roughcontact as rc
@@ -69,3 +70,38 @@ def test_they_say_what_they_predict():
 def test_moduli_and_hardness_must_be_positive(bad):
     with pytest.raises(ValueError, match="positive"):
         plasticity.slope_index(moments(4.0, 0.1), *bad)
+
+
+def test_the_index_of_measured_summits():
+    index = plasticity.summit_index([1e-6, 3e-6], [1e4, 3e4], MODULUS, HARDNESS)
+    assert index.value == pytest.approx(MODULUS / HARDNESS * math.sqrt(1e-6 * 2e4), rel=1e-14)
+    assert (index.elastic_below, index.plastic_above) == (0.6, 1.0)
+
+
+@pytest.mark.parametrize(("cutoff", "rolloff"), [(16e-6, 64e-6), (8e-6, 32e-6)])
+def test_on_a_gaussian_surface_both_ways_to_the_summits_agree(cutoff, rolloff):
+    grid = rc.Grid((512, 512), 1e-6, True)
+    rng = np.random.default_rng(7)
+    surface = rc.self_affine(grid, 0.8, 1e-6, rng, rolloff=rolloff, short_cutoff=cutoff)
+    found = rc.find_summits(surface)
+    measured = plasticity.summit_index(found.height, found.mean_curvature, MODULUS, HARDNESS).value
+    stated = plasticity.asperity_index(rc.surface_moments(surface), MODULUS, HARDNESS).value
+    # Central differences miss (qD)^2/12 of a curvature, at most that of the shortest wave; a standard deviation of n
+    # heights is known to 1/sqrt(2n). The root halves both; three standard errors.
+    allowed = 0.5 * ((2 * math.pi * 1e-6 / cutoff) ** 2 / 12 + 3 / math.sqrt(2 * found.count))
+    assert allowed < 0.1
+    assert measured == pytest.approx(stated, rel=allowed)
+
+
+@pytest.mark.parametrize(
+    ("height", "curvature", "message"),
+    [
+        ([1e-6], [1e4], "two summits or more"),
+        ([1e-6, 2e-6], [1e4], "two summits or more"),
+        ([1e-6, math.nan], [1e4, 1e4], "every height"),
+        ([1e-6, 2e-6], [-1e4, -1e4], "mean curvature of the summits"),
+    ],
+)
+def test_what_are_no_summits_is_refused(height, curvature, message):
+    with pytest.raises(ValueError, match=message):
+        plasticity.summit_index(height, curvature, MODULUS, HARDNESS)

@@ -8,6 +8,7 @@ import typer
 
 from roughcontact import __version__
 from roughcontact.cli import (
+    averages_command as averages,
     conductance_command as conductance,
     curve_command as curve,
     prepare_command as prepare,
@@ -42,7 +43,8 @@ app = typer.Typer(
 )
 _surface = typer.Typer(help="Look at a surface file, make one, prepare or analyse it.", no_args_is_help=True)
 _study = typer.Typer(
-    help="Run ensembles that can be stopped, continued and enlarged; export them.", no_args_is_help=True
+    help="Run ensembles that can be stopped, continued and enlarged; average, draw and export them.",
+    no_args_is_help=True,
 )
 
 app.command(epilog=_examples(press.EXAMPLES))(grouped(press.press))
@@ -58,6 +60,9 @@ _study.command(epilog=_examples(study.RUN_EXAMPLES))(grouped(study.run))
 _study.command(epilog=_examples(study.STATUS_EXAMPLES))(grouped(study.status))
 _study.command(epilog=_examples(study.EXPORT_EXAMPLES))(grouped(study.export))
 _study.command(epilog=_examples(study.ADD_EXAMPLES))(grouped(study.add))
+_study.command(epilog=_examples(averages.AVERAGE_EXAMPLES))(grouped(averages.average))
+_study.command(epilog=_examples(averages.PLOT_EXAMPLES))(grouped(averages.plot))
+_study.command(epilog=_examples(averages.TABLE_EXAMPLES))(grouped(averages.table))
 app.command(epilog=_examples(thesis.EXAMPLES))(grouped(thesis.thesis))
 
 

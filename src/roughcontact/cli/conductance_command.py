@@ -12,6 +12,7 @@ from roughcontact.cli.material_options import parse_bodies
 from roughcontact.cli.messages import UsageError, plain, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
@@ -74,12 +75,14 @@ def conductance(
     *,
     materials: Materials,
     out: Path | None = options.OUT,
+    format: PictureFormat | None = FORMAT,
     json: bool = options.JSON,
 ) -> None:
     """Tell what a contact conducts: electrical and thermal resistance against pressure or force."""
     from roughcontact.contact.conduction import with_conductance
 
-    with reported(file, out):
+    with reported(file, out, as_json=json):
+        ending = picture_ending(format, out)
         conductors = materials.conductors()
         if conductors is None:
             raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")
@@ -90,13 +93,13 @@ def conductance(
             names = shown_columns(answer)
             names = ["nominal_pressure" if names[0] in CONDUCTION_PER_AREA else "force", *names]
             if folder is not None:
-                _write(answer, names, folder)
+                _write(answer, names, folder, ending)
         if json:
             emit(_record(answer, names, path) | {"of": materials.of.value})
         else:
             print_table(*load_table(answer, names))
             print_facts(conduction_facts(answer, materials.of.value))
-        note_files(folder, ("conductance.csv", "conductance.nc", "conductance.png"))
+        note_files(folder, ("conductance.csv", "conductance.nc", f"conductance.{ending}"))
 
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:
@@ -135,13 +138,12 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
     return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}
 
 
-def _write(answer: xarray.Dataset, names: list[str], folder: Path) -> None:
+def _write(answer: xarray.Dataset, names: list[str], folder: Path, ending: str) -> None:
     from roughcontact.files.write import write_csv, write_netcdf
-    from roughcontact.plot.canvas import save
-    from roughcontact.plot.curves import resistance_figure
+    from roughcontact.plot.canvas import resistance_figure, save
 
     source: dict[str, str | float] = {"conductance_command": command_line()}
     with all_or_none(folder) as aside:
         write_netcdf(answer, aside / "conductance.nc", source)
         write_csv(answer, aside / "conductance.csv", source)
-        save(resistance_figure(answer), aside / "conductance.png")
+        save(resistance_figure(answer), aside / f"conductance.{ending}")

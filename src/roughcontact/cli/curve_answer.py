@@ -14,6 +14,7 @@ from roughcontact.cli.conductance_command import conduction_facts, shown_columns
 from roughcontact.cli.messages import is_ours, note, plain
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.theory_options import deviations, exponents, parameters
+from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from roughcontact.cli.error_options import LoadErrors
+    from roughcontact.cli.pressed import Pressed
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve
@@ -63,6 +65,8 @@ class CurveAnswer:
         Why theories that were asked for do not apply to the surface, by their names.
     errors : tuple of LoadErrors
         Of the first and the last resolved load, if they were asked for.
+    pressed : Pressed
+        What the surface is to a contact.
     """
 
     curve: Curve
@@ -78,6 +82,7 @@ class CurveAnswer:
     units: Mapping[str, Scale]
     refused: Mapping[str, str]
     errors: tuple[LoadErrors, ...]
+    pressed: Pressed
 
     @property
     def converged(self) -> bool:
@@ -100,9 +105,13 @@ class CurveAnswer:
 
     @property
     def drawn(self) -> tuple[LoadingLaw, ...]:
-        """The theories that apply, with what the curve has of them."""
+        """The theories that apply, with what the curve has of them, by the names that they were asked for."""
         return tuple(
-            replace(law, quantities={name: law.quantities[name] for name in self.comparisons[key].predicted})
+            replace(
+                law,
+                name=key,
+                quantities={name: law.quantities[name] for name in self.comparisons[key].predicted},
+            )
             for key, law in self.laws.items()
             if key in self.comparisons
         )
@@ -150,6 +159,7 @@ class CurveAnswer:
             "command": "curve",
             "file": plain(str(self.file)),
             "surface": list(self.surface.provenance),
+            **self.pressed.record(),
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
@@ -165,8 +175,8 @@ class CurveAnswer:
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
 
-    def write(self, folder: Path, control: str) -> None:
-        """Write NetCDF, CSV, picture and summary into a folder: all of them or none."""
+    def write(self, folder: Path, control: str, ending: str) -> None:
+        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
@@ -181,7 +191,7 @@ class CurveAnswer:
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
-            save(self._figure(), aside / "curve.png")
+            save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
@@ -191,9 +201,8 @@ class CurveAnswer:
             report.emit(self.record)
         else:
             modulus = report.quantity("modulus", curve.modulus)
-            report.print_facts(
-                [("surface", report.size_of(self.surface.grid)), ("reduced modulus E*", modulus)]
-            )
+            size = report.size_of(self.surface.grid)
+            report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
             columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
@@ -216,7 +225,7 @@ class CurveAnswer:
             note(f"theory {name} is left out: {why}")
         for line in self.notes:
             note(line)
-        if self.per_area and not all(curve.periodic):
+        if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
             note(
                 "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
                 "in N/m only, never per area (docs/joints.md)"
@@ -251,14 +260,16 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
 
 
 def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
-    full = report.quantity("full_contact_stiffness", curve.full_contact_stiffness)
+    kind = curve.geometry
+    full = report.quantity("full_contact_stiffness", curve.full_contact_stiffness, kind)
     facts = [
         ("full-contact stiffness", f"{full}, every measured cell in contact"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
     ]
     if law is not None:
-        low, high = (report.quantity("force", end) for end in law.window)
-        text = f"k/(E* L) = {law.prefactor:.4g} (F/(E* L h))^{law.exponent:.4f}"
+        low, high = (report.quantity("force", end, kind) for end in law.window)
+        stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
+        text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
         fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
         facts = [("power law", text), ("fitted to", fitted), *facts]
     return facts

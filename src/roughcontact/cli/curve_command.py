@@ -13,14 +13,18 @@ from roughcontact.cli import options
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
-from roughcontact.cli.exits import MISSED
+from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
-from roughcontact.cli.report import note_files, quantity, screen
+from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.profile_options import ProfileBody, kinds_of
+from roughcontact.cli.report import doing, note_files, quantity, screen
+from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
-from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_loads
+from roughcontact.cli.unit_options import parse_loads
 from roughcontact.cli.units_of_answer import Units
+from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,6 +32,7 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
+    from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "curve"]
@@ -39,10 +44,12 @@ roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
 roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
+roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
+roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """
 
-_KINDS = {"forces": FORCE, "pressures": PRESSURE, "depths": LENGTH}
+_FEWEST = 3  # resolved loads that a power law takes
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +65,13 @@ class Loads:
     pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
     depths: str | None = option("Indentation depths since first touch, likewise.", "1nm:1um:100")
 
-    def values(self) -> tuple[str, npt.NDArray[np.float64] | None]:
+    def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64] | None]:
         """Return what the loads are, and their values in SI units; None where they were left out."""
         given = asdict(self)
         if not any(text is not None for text in given.values()):
             return "forces", None
         name = options.only_one(given, "the loads")
-        return name, parse_loads(given[name], _KINDS[name], f"--{name}")
+        return name, parse_loads(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
 
 
 def curve(
@@ -77,17 +84,21 @@ def curve(
     errors: Errors,
     asked: options.Answer,
     units: Units,
+    tables: InterfaceTables,
 ) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
     Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
     """
     file, out = reading.source.file, asked.out
-    with reported(file, out):
-        name, loads = given.values()
+    with reported(file, out, as_json=asked.json):
+        name, loads = given.values(reading.profile)
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
         conductors = materials.conductors()
+        if reading.profile is not None:
+            part = None if conductors is None else materials.of.value
+            reading.profile.require(conducting=part, areal_units=bool(chosen), hardness=hardness is not None)
         if conductors is not None and hardness is not None:
             raise UsageError(
                 "under a --hardness plastic cells conduct, but have no part in the stiffness of a curve: leave out "
@@ -95,44 +106,89 @@ def curve(
             )
         theories.check()
         errors.check()
-        tolerance = asked.residual
+        tables.check(out)
+        tolerance, ending = asked.residual, asked.ending
+        more: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
             errors.check_for(surface)
+            operator = reading.body(surface, modulus)
+            pressed = Pressed.of(surface, modulus, elasticity.softer())
             laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
-                loads = _suggested(surface, modulus, hardness)
-            path = {name: loads, "tolerance": tolerance, "hardness": hardness}
+                loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
+            elif name != "depths":
+                _look_ahead(surface, modulus, name, loads, operator)
+            path = {name: loads, "tolerance": tolerance, "hardness": hardness, "operator": operator}
             computed, notes, outer = _load(surface, modulus, path, loads.size)
+            left = loads[len(computed) :]
+            if left.size:
+                rest = ",".join(f"{load:.12g}" for load in left)
+                note(
+                    f"stopped: {len(computed)} of {loads.size} loads are kept; for the others: --{name} {rest}"
+                )
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
                 note("no errors: no load is resolved")
-            joint = (materials.of.value, per_area, chosen, refused, errors.of(outer))
+            joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
-                ends = f"from {loads[0]:g} to {loads[-1]:g} {_KINDS[name].unit}"
-                answer.write(folder, f"{name} {ends}, {loads.size} of them")
+                unit, done = kinds_of(reading.profile)[name.removesuffix("s")].unit, loads[: len(computed)]
+                ends = f"from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
+                with doing("Writing files"):
+                    answer.write(folder, f"{name} {ends}", ending)
+                    more = tables.write(folder, computed, surface, conductors)
         answer.tell(asked.json)
-        note_files(folder, ("curve.csv", "curve.json", "curve.nc", "curve.png"))
+        if folder is not None:
+            note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
+        if left.size:
+            raise typer.Exit(INTERRUPTED)
         if not answer.converged:
             raise typer.Exit(MISSED)
 
 
-def _suggested(surface: Surface, modulus: float, hardness: float | None) -> npt.NDArray[np.float64]:
+def _suggested(
+    surface: Surface, modulus: float, pressed: Pressed, *, operator: Operator | None, hardness: float | None
+) -> npt.NDArray[np.float64]:
     """Return the forces [N] that suit a surface, and say which they are."""
+    from roughcontact.contact.load_outlook import load_outlook
     from roughcontact.contact.load_range import load_range
+    from roughcontact.halfspace.operators.operator import geometry_of
 
-    with screen().status("Looking for the loads that suit this surface"):
-        found = load_range(surface, modulus, hardness=hardness)
+    with doing("Looking for the loads that suit this surface"):
+        found = load_range(surface, modulus, operator=operator, hardness=hardness)
     loads, end = found.forces, found.reasons[1]
-    low, high = (quantity("force", float(load)) for load in (loads[0], loads[-1]))
+    kind = Geometry.SURFACE if operator is None else geometry_of(operator)
+    low, high = (quantity("force", float(load), kind) for load in (loads[0], loads[-1]))
+    below = found.below
+    if kind is Geometry.LINE:  # whose forces are not searched for
+        below = load_outlook(surface, modulus, forces=loads, operator=operator).below
     note(
-        f"the map is {found.kind.value}; no loads are named: {loads.size} forces from {low} to {high}, to {end}, "
-        f"{found.below} of them below what the grid resolves (--forces for others)"
+        f"the map is {pressed.words}; no loads are named: {loads.size} forces from {low} to {high}, to {end}, "
+        f"{below} of them below what the grid resolves (--forces for others)"
     )
     for line in found.notes:
         note(line)
     return loads
+
+
+def _look_ahead(
+    surface: Surface, modulus: float, name: str, loads: npt.NDArray[np.float64], operator: Operator | None
+) -> None:
+    """Say before the work if the grid resolves none of the named loads, or too few for a power law."""
+    from roughcontact.contact.load_outlook import load_outlook
+
+    given: dict[str, Any] = {name: loads}
+    with doing("Looking which of these loads the grid resolves"):
+        ahead = load_outlook(surface, modulus, operator=operator, **given)
+    if ahead.resolved >= min(_FEWEST, ahead.count):
+        return
+    ends = ((ahead.below, "too small: the cells set the stiffness"), (ahead.above, "near full contact"))
+    why = ", ".join(f"{count} {words}" for count, words in ends if count)
+    note(
+        f"{ahead.resolved or 'none'} of the {ahead.count} {name} can be resolved by this grid ({why}): leave out "
+        f"--{name}, and forces that suit the map are found"
+    )
 
 
 def _load(
@@ -140,7 +196,7 @@ def _load(
 ) -> tuple[Curve, tuple[str, ...], list[Solution]]:
     """Return the curve, the notes on its last load, and the first and last load that are resolved.
 
-    A bar on standard error moves on at every load.
+    A bar on standard error moves on at every load. Ctrl-C ends the curve with the loads that are done.
     """
     import roughcontact as rc
     from roughcontact.contact.curve import collect
@@ -150,11 +206,15 @@ def _load(
     ends: list[Solution] = []
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
-        for solution in path:
-            notes[:] = [solution.notes]
-            if solution.resolved and solution.status.converged:
-                ends[1 if ends else 0 :] = [solution]
-            yield solution
+        try:
+            for solution in path:
+                notes[:] = [solution.notes]
+                if solution.resolved and solution.status.converged:
+                    ends[1 if ends else 0 :] = [solution]
+                yield solution
+        except KeyboardInterrupt:
+            if not notes:  # nothing to keep
+                raise
 
     columns = (
         TextColumn("Pressing"),

@@ -10,7 +10,7 @@ import typer
 
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import option
-from roughcontact.cli.report import print_facts, print_table, quantity, screen
+from roughcontact.cli.report import doing, print_facts, print_table, quantity
 from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.engineering_units import Scale, scale
 
@@ -92,7 +92,7 @@ class Errors:
         found = []
         for solution in solutions if self.errors else ():
             at = quantity("force", solution.force)
-            with screen().status(f"Errors at {at}: half the cells, no short waves, other levelling ..."):
+            with doing(f"Errors at {at}: half the cells, no short waves, other levelling"):
                 try:
                     budget = error_budget(solution, short_cutoff=self._cutoff())
                 except ConvergenceError as error:

@@ -10,6 +10,7 @@ import sys
 import traceback
 from typing import NoReturn
 
+from roughcontact.cli.error_object import emit_error
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, MISTAKE, TERMINATED
 
 __all__ = ["run"]
@@ -28,19 +29,38 @@ def run() -> None:
         # Late, since it takes a second, in which Ctrl-C must not end in a traceback.
         from roughcontact.cli.app import app
 
+        if _as_json():
+            # Errors of the options come here as exceptions; otherwise they are printed where they are found.
+            sys.exit(app(prog_name="roughcontact", standalone_mode=False))
         app(prog_name="roughcontact")
     except KeyboardInterrupt:
+        if _as_json():
+            emit_error("interrupted", "Interrupted.", INTERRUPTED)
         sys.exit(INTERRUPTED)
     except Exception as error:
         # Files of ours speak for themselves before they come here: this is standard output.
         if isinstance(error, OSError) and error.filename is None and error.errno in _NO_ROOM:
             sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
             sys.exit(BAD_INPUT)
+        # A misspelt option and its like; typers differ in the class.
+        if (told := getattr(error, "format_message", None)) is not None:
+            message = told()
+            sys.stderr.write(f"Error: {message}\n")
+            emit_error("usage", message, BAD_INPUT)
+            sys.exit(BAD_INPUT)
         traceback.print_exc()
         sys.stderr.write("This is a mistake in roughcontact, not in your input: please report these lines.\n")
+        if _as_json():
+            emit_error(
+                "mistake", f"{type(error).__name__}: {error}", MISTAKE, "report the lines on standard error"
+            )
         sys.exit(MISTAKE)
     finally:
         _let_go_of_output()
+
+
+def _as_json() -> bool:
+    return "--json" in sys.argv[1:]
 
 
 def _terminate(*_: object) -> NoReturn:

@@ -9,7 +9,7 @@ from roughcontact.cli.unit_options import Kind, parse
 from roughcontact.material import Solid, reduced_modulus
 from roughcontact.materials import Material, handbook
 
-__all__ = ["known_material", "modulus_of", "parse_bodies"]
+__all__ = ["known_material", "modulus_of", "parse_bodies", "softer_of"]
 
 _RIGID = "rigid"
 
@@ -64,6 +64,12 @@ def modulus_of(text: str) -> float:
     if all(math.isinf(solid.young_modulus) for solid in solids):
         raise UsageError("--materials: one of the two bodies must be elastic, such as steel,rigid")
     return reduced_modulus(*solids)
+
+
+def softer_of(text: str) -> tuple[float, str]:
+    """Return the lower hardness [Pa] of two materials, of which one may be rigid, and of which it is."""
+    named = [known_material(name) for name in text.split(",") if name.strip().lower() != _RIGID]
+    return min((material.hardness, f"of {material.name}") for material in named if material is not None)
 
 
 def parse_bodies(text: str, kind: Kind, name: str) -> tuple[float, float]:

@@ -15,10 +15,11 @@ from typing import Any
 
 import typer
 
+from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 
-__all__ = ["UsageError", "as_typed", "is_ours", "note", "plain", "reported"]
+__all__ = ["UsageError", "as_typed", "ended", "is_ours", "note", "plain", "reported"]
 
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
@@ -28,6 +29,7 @@ _OPTIONS = (
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
     (re.compile(r"\b(despike)d\(\)"), r"'surface prepare --\1'"),
     (re.compile(r"\b(mask)ed\(\)"), r"'surface prepare --\1'"),
+    (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
 _RAISE = opmap["RAISE_VARARGS"]
 _PACKAGE = "roughcontact"
@@ -43,25 +45,28 @@ def note(text: str) -> None:
 
 
 @contextmanager
-def reported(*paths: Path | None) -> Iterator[None]:
+def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, Any]]:
     """Turn errors of ours into one line and an exit status, and our warnings into notes.
 
-    The lines name the `paths` of the command line as they were typed.
+    The lines name the `paths` of the command line as they were typed. Where the answer was asked for `as_json`, so
+    comes the error; what stands beside it there may be written into the dictionary that is yielded.
     """
+    beside: dict[str, Any] = {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", SurfaceWarning)
             warnings.showwarning = _showwarning(warnings.showwarning)
-            yield
+            yield beside
     except KeyboardInterrupt:
-        typer.echo("Interrupted: no file was left half-written.", err=True)
+        ended("interrupted", "Interrupted: no file was left half-written.", INTERRUPTED, as_json=as_json)
         raise typer.Exit(INTERRUPTED) from None
     except SystemExit as end:
         if end.code == TERMINATED:
-            typer.echo("Terminated: no file was left half-written.", err=True)
+            ended("terminated", "Terminated: no file was left half-written.", TERMINATED, as_json=as_json)
         raise
-    except MemoryError:
-        typer.echo("Error: the memory does not suffice: use fewer points, or another machine", err=True)
+    except MemoryError as error:
+        message = "the memory does not suffice: use fewer points, or another machine"
+        _refused(error, message, beside if as_json else None)
         raise typer.Exit(BAD_INPUT) from None
     except (ValueError, OSError) as error:
         if not is_ours(error):
@@ -69,8 +74,23 @@ def reported(*paths: Path | None) -> Iterator[None]:
         message = _message(error)
         for path in paths:
             message = message if path is None else message.replace(os.path.realpath(path), str(path))
-        typer.echo(f"Error: {_line(message)}", err=True)
+        _refused(error, _line(message), beside if as_json else None)
         raise typer.Exit(BAD_INPUT) from None
+
+
+def ended(kind: str, line: str, status: int, *, as_json: bool, remedy: str | None = None) -> None:
+    """Say that a run was stopped from outside."""
+    typer.echo(line if remedy is None else f"{line} To go on: {remedy}", err=True)
+    if as_json:
+        emit_error(kind, line, status, remedy)
+
+
+def _refused(error: BaseException, message: str, beside: dict[str, Any] | None) -> None:
+    """Say what was refused, with `beside` as one JSON object too."""
+    typer.echo(f"Error: {message}", err=True)
+    if beside is not None:
+        remedy = getattr(error, "remedy", None)  # of errors that keep it apart
+        emit_error(kind_of(error), message, BAD_INPUT, None if remedy is None else _line(remedy), beside)
 
 
 @contextmanager

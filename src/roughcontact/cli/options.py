@@ -7,13 +7,17 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.material_options import known_material, modulus_of
+from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
+from roughcontact.cli.profile_options import PROFILE, ProfileBody
+from roughcontact.cli.report import doing
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
 from roughcontact.materials import MATERIALS
 
 if TYPE_CHECKING:
+    from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.material import Solid
     from roughcontact.surface.surface import Surface
 
@@ -34,8 +38,9 @@ __all__ = [
 ]
 
 _READING, _ANSWER = "Reading the file", "Answer"
-_MAPS_ONLY = (
-    "give a map of heights; a profile is taken by 'surface info', 'surface spectrum' and 'surface prepare'"
+_NAME_THE_BODY = (
+    "say how it is pressed: --profile line, as a line contact, or --profile winkler, on the springs of the method of "
+    "dimensionality reduction"
 )
 
 Levelling = StrEnum("Levelling", ["PLANE", "MEAN", "NONE"])
@@ -79,7 +84,13 @@ class Answer:
         "Largest residual of the contact conditions: the certificate.", "1e-8", default="1e-8"
     )
     out: Path | None = OUT
+    format: PictureFormat | None = FORMAT
     json: bool = JSON
+
+    @property
+    def ending(self) -> str:
+        """How the names of pictures end."""
+        return picture_ending(self.format, self.out)
 
     @property
     def residual(self) -> float:
@@ -100,30 +111,57 @@ class Source:
     size: str | None = option(
         "Side lengths: height x width of the picture, or its width alone (of a profile its length); "
         "they override what the file states.",
-        "1mm x 2mm",
+        "1 x 2mm",
     )
 
     def map(self, periodic: bool | None) -> Surface:
         """Return the map of heights as the file holds it."""
         import roughcontact as rc
 
-        with as_typed(self.file):
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
             try:
                 return rc.read(self.file, **self._keywords(periodic))
             except rc.ReadError as error:
                 if "read_line" not in error.remedy:
                     raise
-                raise rc.ReadError(error.file, error.problem, _MAPS_ONLY) from error
+                raise rc.ReadError(error.file, error.problem, _NAME_THE_BODY) from error
+
+    def line(self, periodic: bool | None) -> Surface:
+        """Return the profile as the file holds it.
+
+        Raises
+        ------
+        UsageError
+            If it holds a map.
+        """
+        import roughcontact as rc
+
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
+            try:
+                return rc.read_line(self.file, **self._keywords(periodic))
+            except rc.ReadError as error:
+                if (points := self._points_of_map()) is None:
+                    raise
+                raise UsageError(
+                    f"{plain(str(self.file))} holds a map of {points} heights: leave out --profile"
+                ) from error
 
     def map_or_line(self, periodic: bool | None = None) -> Surface:
         """Return the map of heights as the file holds it, or its profile; say so of a profile."""
         from roughcontact.files.read import read_either
 
-        with as_typed(self.file):
+        with as_typed(self.file), doing(f"Reading {self.file.name}"):
             surface = read_either(self.file, **self._keywords(periodic))
         if surface.grid.ndim == 1:
             note(f"{plain(str(self.file))} holds a profile of {surface.grid.size} heights")
         return surface
+
+    def _points_of_map(self) -> str | None:
+        """Return the rows and columns of the map in the file; None where it holds none."""
+        from roughcontact.files.read import channels
+
+        shapes = [channel.shape for channel in channels(self.file) if len(channel.shape) == 2]
+        return " x ".join(map(str, shapes[0])) if shapes else None
 
     def _keywords(self, periodic: bool | None) -> dict[str, Any]:
         size = None if self.size is None else parse_size(self.size, "--size")
@@ -146,6 +184,11 @@ class Reading:
     periodic: bool | None = PERIODIC
     level: Levelling | None = LEVEL
     despike: Despike | None = DESPIKE
+    profile: ProfileBody | None = PROFILE
+
+    def body(self, surface: Surface, modulus: float) -> Operator | None:
+        """Return what a profile is pressed against; None for a map, which lies on the half-space."""
+        return None if self.profile is None else self.profile.operator(surface, modulus)
 
     def surface(self) -> Surface:
         """Return the surface to press, read and levelled; say on standard error what was decided unasked.
@@ -159,7 +202,8 @@ class Reading:
         """
         from roughcontact.contact.problem import require_memory_for
 
-        surface = self.source.map(self.periodic)
+        read = self.source.map if self.profile is None else self.source.line
+        surface = read(self.periodic)
         require_memory_for(surface)
         if self.despike is not None:
             surface = self.despike.remove(surface)
@@ -171,9 +215,10 @@ class Reading:
             )
         elif level is None:
             level = Levelling.PLANE
-            note("the tilt is removed by a least-squares plane (--level mean or none for another choice)")
-        trend: Any = level.value
-        return surface if level is Levelling.NONE else surface.levelled(trend)
+            trend = "plane" if surface.grid.ndim == 2 else "line"
+            note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+        kind: Any = level.value
+        return surface if level is Levelling.NONE else surface.levelled(kind)
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,6 +264,13 @@ class Elasticity:
         if self.young2 is None and self.poisson2 is None:
             return rc.reduced_modulus(first)
         return rc.reduced_modulus(first, _solid(self.young2, self.poisson2, "--young2", "--poisson2"))
+
+    def softer(self) -> tuple[float, str] | None:
+        """Return the hardness [Pa] of the softer body, and of what it is, if it is given or named by the materials."""
+        if self.hardness is not None:
+            given = self.yield_pressure()
+            return None if given is None else (given, "as given")
+        return None if self.materials is None else softer_of(self.materials)
 
     def yield_pressure(self) -> float | None:
         """Return the hardness [Pa] that was given, if one was."""

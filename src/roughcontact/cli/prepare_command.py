@@ -6,7 +6,7 @@ from pathlib import Path
 
 from roughcontact.cli import options
 from roughcontact.cli.messages import note, plain, reported
-from roughcontact.cli.report import screen, surface_facts, surface_record, tell
+from roughcontact.cli.report import doing, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.steps import Wishes, steps
@@ -34,7 +34,7 @@ def prepare(
 
     In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
     """
-    with reported(source.file, out):
+    with reported(source.file, out, as_json=json):
         require_output(out, source.file)
         wanted = steps(wishes)
         surface = source.map_or_line(periodic)
@@ -42,7 +42,7 @@ def prepare(
         if not wanted:
             note("no step is asked for: the surface is written as it was read")
         for step in wanted:
-            with screen().status(f"{step.doing} ..."):
+            with doing(step.doing):
                 surface = step.apply(surface)
         save_surface(surface, out)
         record = {"command": "surface prepare", "file": plain(str(out))} | surface_record(surface)

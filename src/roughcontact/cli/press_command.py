@@ -15,8 +15,10 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import emit, note_files, print_facts, screen, solution_facts
-from roughcontact.cli.unit_options import FORCE, LENGTH, PRESSURE, parse_load
+from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.profile_options import ProfileBody, kinds_of
+from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
+from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -29,10 +31,10 @@ roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
+roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """
 
-_KINDS = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
 Theory = StrEnum("Theory", ["PERSSON"])
 _THEORY = option(
     "With --out: draw the distribution of the pressure beside that of a theory.", rich_help_panel="Answer"
@@ -48,11 +50,11 @@ class Load:
     pressure: str | None = option("Nominal pressure: force over area.", "1MPa")
     depth: str | None = option("Indentation depth: approach since first touch.", "1um")
 
-    def value(self) -> dict[str, float]:
+    def value(self, body: ProfileBody | None) -> dict[str, float]:
         """Return the load in SI units, by its name."""
         given = asdict(self)
         name = options.only_one(given, "one load")
-        return {name: parse_load(given[name], _KINDS[name], f"--{name}")}
+        return {name: parse_load(given[name], kinds_of(body)[name], f"--{name}")}
 
 
 def press(
@@ -66,43 +68,51 @@ def press(
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
-    with reported(file, out):
-        given = load.value()
+    with reported(file, out, as_json=answer.json):
+        given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:
             raise UsageError("--theory draws a picture: say where by --out")
+        if theory is not None and body is not None:
+            raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
         limits = {"tolerance": answer.residual, "hardness": elasticity.yield_pressure()}
+        if body is not None:
+            body.require(conducting=None, areal_units=False, hardness=limits["hardness"] is not None)
         modulus = elasticity.reduced_modulus()
         with output(out) as folder:
             surface = reading.surface()
             errors.check_for(surface)
-            solution = _solve(surface, modulus, **given, **limits)
+            pressed = Pressed.of(surface, modulus, elasticity.softer())
+            solution = _solve(surface, modulus, operator=reading.body(surface, modulus), **given, **limits)
             found = errors.of([solution])
-            record = _record(solution, file) | {"errors": found[0].to_record() if found else None}
-            if folder is not None:
-                [(name, value)] = given.items()
-                _write(solution, record, folder, f"{name} = {value!r} {_KINDS[name].unit}", theory)
+            budget = {"errors": found[0].to_record() if found else None}
+            with doing("Stiffness, spots and files"):
+                record = _record(solution, file, pressed) | budget
+                if folder is not None:
+                    [(name, value)] = given.items()
+                    control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
+                    _write(solution, record, folder, control, theory, ending)
         per_area = "pressure" in given or all(surface.grid.periodic)
-        _tell(solution, record, found, json=answer.json, per_area=per_area)
-        pictures = ("pressure.png",) if theory is None else ("distribution.png", "pressure.png")
-        note_files(folder, ("press.json", "pressure.nc", *pictures))
+        _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
+        pictures = ("pressure",) if theory is None else ("distribution", "pressure")
+        note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
 
 
-def _solve(surface: Surface, modulus: float, **given: float | None) -> Solution:
+def _solve(surface: Surface, modulus: float, **given: Any) -> Solution:
     """Return the loaded state, the best that was reached where the tolerance was missed."""
     import roughcontact as rc
 
     cells = " x ".join(str(n) for n in surface.grid.shape)
-    with screen().status(f"Pressing {cells} cells ..."):
+    with doing(f"Pressing {cells} cells"):
         try:
-            return rc.press(surface, modulus, **given)  # type: ignore[arg-type]
+            return rc.press(surface, modulus, **given)
         except rc.ConvergenceError as error:
             return error.solution
 
 
-def _record(solution: Solution, file: Path) -> dict[str, Any]:
+def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
     from roughcontact.contact.dataset import solution_record
 
     surface = solution.problem.surface
@@ -111,6 +121,7 @@ def _record(solution: Solution, file: Path) -> dict[str, Any]:
         "command": "press",
         "file": plain(str(file)),
         "surface": history,
+        **pressed.record(),
         **solution_record(solution),
         "largest_pressure": float(solution.pressure.max()),
         "tolerance": solution.problem.tolerance,
@@ -119,14 +130,18 @@ def _record(solution: Solution, file: Path) -> dict[str, Any]:
 
 
 def _write(
-    solution: Solution, record: dict[str, Any], folder: Path, control: str, theory: Theory | None
+    solution: Solution,
+    record: dict[str, Any],
+    folder: Path,
+    control: str,
+    theory: Theory | None,
+    ending: str,
 ) -> None:
     from roughcontact.contact.dataset import solution_dataset
     from roughcontact.contact.theories import persson_pressures
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json, write_netcdf
-    from roughcontact.plot.canvas import save, solution_figure
-    from roughcontact.plot.distributions import pressure_distribution_figure
+    from roughcontact.plot.canvas import pressure_distribution_figure, save, solution_figure
 
     problem = solution.problem
     source = provenance(
@@ -138,20 +153,27 @@ def _write(
     )
     with all_or_none(folder) as aside:
         write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
-        save(solution_figure(solution), aside / "pressure.png")
+        save(solution_figure(solution), aside / f"pressure.{ending}")
         if theory is not None:
-            theories = {"Persson": persson_pressures(solution)}
-            save(pressure_distribution_figure(solution, theories), aside / "distribution.png")
+            theories = {theory.value: persson_pressures(solution)}
+            save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
         write_json(record, aside / "press.json", source)
 
 
 def _tell(
-    solution: Solution, record: dict[str, Any], errors: tuple[LoadErrors, ...], *, json: bool, per_area: bool
+    solution: Solution,
+    record: dict[str, Any],
+    pressed: Pressed,
+    errors: tuple[LoadErrors, ...],
+    *,
+    json: bool,
+    per_area: bool,
 ) -> None:
     if json:
         emit(record)
     else:
-        print_facts(solution_facts(solution))
+        size, *others = solution_facts(solution)
+        print_facts([size, *pressed.facts(), *others])
         for each in errors:
             each.tell({}, patch=True, joint=per_area)
     for line in solution.notes:

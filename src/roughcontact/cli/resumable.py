@@ -8,19 +8,33 @@ from contextlib import contextmanager
 import typer
 
 from roughcontact.cli.exits import INTERRUPTED, TERMINATED
+from roughcontact.cli.messages import ended
 
 __all__ = ["resumable"]
 
 
 @contextmanager
-def resumable(command: str) -> Iterator[None]:
+def resumable(command: str, *, as_json: bool = False) -> Iterator[None]:
     """Say how to go on where the run is stopped."""
     try:
         yield
     except KeyboardInterrupt:
-        typer.echo(f"Stopped; every finished case is stored. To go on: {command}", err=True)
+        ended(
+            "interrupted",
+            "Stopped; every finished case is stored.",
+            INTERRUPTED,
+            as_json=as_json,
+            remedy=command,
+        )
         raise typer.Exit(INTERRUPTED) from None
     except SystemExit as end:
-        if end.code == TERMINATED:
-            typer.echo(f"Every finished case is stored. To go on: {command}", err=True)
-        raise
+        if end.code != TERMINATED:
+            raise
+        ended(
+            "terminated",
+            "Every finished case is stored.",
+            TERMINATED,
+            as_json=as_json,
+            remedy=command,
+        )
+        raise typer.Exit(TERMINATED) from None

@@ -14,7 +14,8 @@ from roughcontact.cli import options
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
+from roughcontact.cli.report import doing, emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.engineering_units import written
@@ -93,28 +94,30 @@ def spectrum(
     periodic: bool | None = options.PERIODIC,
     level: options.Levelling | None = options.LEVEL,
     out: Path | None = options.OUT,
+    format: PictureFormat | None = FORMAT,
     json: bool = options.JSON,
 ) -> None:
     """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
     Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(source.file, out):
-        band = asked.band()
+    with reported(source.file, out, as_json=json):
+        band, ending = asked.band(), picture_ending(format, out)
         with output(out) as folder:
             surface = _surface(source, periodic, asked.fill)
-            found, law = _analysed(surface, asked, band, level)
-            record = _record(surface, found, law, source.file)
-            if folder is not None:
-                isotropic = _isotropic(surface, found, law)
-                _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder)
+            with doing("Spectrum, law and files"):
+                found, law = _analysed(surface, asked, band, level)
+                record = _record(surface, found, law, source.file)
+                if folder is not None:
+                    isotropic = _isotropic(surface, found, law)
+                    _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder, ending)
         if json:
             emit(record)
         else:
             print_facts(_facts(surface, record))
         for line in record["notes"]:
             note(line)
-        note_files(folder, ("spectrum.csv", "spectrum.png"))
+        note_files(folder, ("spectrum.csv", f"spectrum.{ending}"))
 
 
 def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surface:
@@ -249,8 +252,8 @@ def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> Powe
         return None
 
 
-def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path) -> None:
-    """Write ``spectrum.csv`` and ``spectrum.png``; the table repeats the numbers of the record."""
+def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path, ending: str) -> None:
+    """Write ``spectrum.csv`` and the picture; the table repeats the numbers of the record."""
     from matplotlib.figure import Figure
 
     from roughcontact.files.provenance import provenance
@@ -261,13 +264,13 @@ def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: P
     spectrum, law, isotropic = found
     figure = Figure(figsize=(6.0 if isotropic is None else 10.0, 4.6), layout="constrained")
     panels = figure.subplots(1, 1 if isotropic is None else 2, squeeze=False)[0]
-    spectrum_curve(panels[0], spectrum, law)
+    spectrum_curve(spectrum, panels[0], law=law)
     if isotropic is not None:
-        spectrum_curve(panels[1], isotropic, label="isotropic surface\nwith this profile")
+        spectrum_curve(isotropic, panels[1], label="isotropic surface\nwith this profile")
     source = provenance(surface, command=command_line())
     with all_or_none(folder) as aside:
         write_csv(_table(found, record), aside / "spectrum.csv", source, dimension="bin")
-        save(figure, aside / "spectrum.png")
+        save(figure, aside / f"spectrum.{ending}")
 
 
 def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:

@@ -30,10 +30,13 @@ if TYPE_CHECKING:
 __all__ = [
     "ADD_EXAMPLES",
     "EXPORT_EXAMPLES",
+    "FOLDER",
     "RUN_EXAMPLES",
     "STATUS_EXAMPLES",
     "add",
     "export",
+    "own_cases",
+    "require_results",
     "run",
     "status",
 ]
@@ -72,7 +75,7 @@ def run(
     json: bool = JSON,
 ) -> None:
     """Compute what is left of a study. Ctrl-C stops it; run again, it goes on."""
-    with reported(source, out), _own_cases():
+    with reported(source, out, as_json=json), own_cases():
         from roughcontact.cli.study_progress import progress
         from roughcontact.study.run import run as run_study
 
@@ -80,7 +83,11 @@ def run(
         with working():
             engine = workplace.open()
         again = [*workplace.typed(), *(["--retry"] if retry else [])]
-        with working(), resumable(_command("run", folder, *again)), progress(study.name) as show:
+        with (
+            working(),
+            resumable(_command("run", folder, *again), as_json=json),
+            progress(study.name) as show,
+        ):
             summary = run_study(study, folder, engine, retry=retry, on_progress=show)
         _tell(study, folder, summary, as_json=json)
         if summary.failed:
@@ -90,7 +97,7 @@ def run(
 
 def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -> None:
     """Say how far a study is; also while it runs."""
-    with reported(folder), _own_cases():
+    with reported(folder, as_json=json), own_cases():
         from roughcontact.study.store import Store
 
         with Store.open(folder) as store:
@@ -103,7 +110,7 @@ def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -
 
 def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> None:
     """Write all results of a study side by side into one file; also while it runs."""
-    with reported(folder, out), _own_cases():
+    with reported(folder, out, as_json=json), own_cases():
         from roughcontact.files.aside import require_target
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_netcdf
@@ -117,8 +124,7 @@ def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> Non
         require_target(out)
         with Store.open(folder) as store:
             study, summary = store.study, store.summary()
-            if not summary.done:
-                raise UsageError(f"{folder} holds no results yet: {_command('run', folder)}")
+            require_results(folder, summary)
             dataset = exported(store)
         if kind == ".nc":
             write_netcdf(dataset, out, provenance(command=command_line()))
@@ -131,7 +137,7 @@ def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> Non
 
 def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> None:
     """Give a study more samples; they are computed when it is run again."""
-    with reported(folder), _own_cases():
+    with reported(folder, as_json=json), own_cases():
         from roughcontact.study.store import Store
 
         study, _ = _found(folder, None)
@@ -141,6 +147,12 @@ def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> 
             study, summary = store.study, store.summary()
         _tell(study, folder, summary, as_json=json)
         note(f"to compute them: {_command('run', folder)}")
+
+
+def require_results(folder: Path, summary: Summary) -> None:
+    """Refuse a folder in which no case is done."""
+    if not summary.done:
+        raise UsageError(f"{folder} holds no results yet: {_command('run', folder)}")
 
 
 def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
@@ -166,7 +178,7 @@ def _command(name: str, folder: Path, *options: str) -> str:
 
 
 @contextmanager
-def _own_cases() -> Iterator[None]:
+def own_cases() -> Iterator[None]:
     """Let modules of the current folder be imported, after all others."""
     here = os.getcwd()
     sys.path.append(here)

@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
-from roughcontact.cli.messages import as_typed, plain, reported
+from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
-from roughcontact.cli.report import surface_facts, surface_record, tell
+from roughcontact.cli.output import output
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
+from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import (
@@ -24,11 +26,13 @@ from roughcontact.cli.unit_options import (
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
+    from roughcontact.surface.spikes import Spikes
+    from roughcontact.surface.surface import Surface
 
 __all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
 
 INFO_EXAMPLES = """
-roughcontact surface info part.x3p
+roughcontact surface info part.x3p --out result --format svg
 roughcontact surface info heights.csv --unit nm --size 1mm --json
 roughcontact surface info scan.csv
 """
@@ -40,34 +44,52 @@ _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows
 _BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
 
-def info(source: options.Source, *, json: bool = options.JSON) -> None:
+def info(
+    source: options.Source,
+    *,
+    out: Path | None = options.OUT,
+    format: PictureFormat | None = FORMAT,
+    json: bool = options.JSON,
+) -> None:
     """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness.
 
-    What looks suspicious comes with the option of 'surface prepare' that mends it.
+    What looks suspicious comes with the option of 'surface prepare' that mends it. With --out a picture of the heights,
+    their spikes ringed, and of their distribution.
     """
     file = source.file
-    with reported(file):
+    with reported(file, out, as_json=json) as beside:
         from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
 
+        ending = picture_ending(format, out)
         channels = _channels(file)
         try:
             surface = source.map_or_line()
-        except ReadError as error:
+        except ReadError:
             # What the file leaves open, such as its size, does not hide what it holds.
-            tell(
-                {"file": plain(str(file)), "channels": channels, "error": str(error)},
-                _channel_facts(channels),
-                as_json=json,
-            )
+            beside |= {"file": plain(str(file)), "channels": channels}
+            if not json:
+                print_facts([("file", beside["file"]), *_channel_facts(channels)])
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        spikes, lines = advice(surface)
+        with doing("Looking for spikes, steps and form"):
+            spikes, lines = advice(surface)
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
+        with output(out) as folder:
+            if folder is not None:
+                _draw(surface, spikes, folder / f"surface.{ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
+        if folder is not None:
+            note(f"surface.{ending} is in {folder}")
+
+
+def _draw(surface: Surface, spikes: Spikes, path: Path) -> None:
+    from roughcontact.plot.canvas import save, surface_figure
+
+    save(surface_figure(surface, spikes), path)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,7 +116,7 @@ class Recipe:
 
 def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
-    with reported(out):
+    with reported(out, as_json=json):
         import numpy as np
 
         import roughcontact as rc
@@ -109,15 +131,17 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
             for name in ("rolloff", "long_cutoff", "short_cutoff")
             if (text := getattr(recipe, name)) is not None
         }
-        surface = rc.self_affine(
-            grid,
-            exponent,
-            height,
-            np.random.default_rng(chosen),
-            rms_band=None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band"),
-            nodal=recipe.nodal,
-            **waves,  # type: ignore[arg-type]
-        )
+        band = None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band")
+        with doing("Adding up the waves"):
+            surface = rc.self_affine(
+                grid,
+                exponent,
+                height,
+                np.random.default_rng(chosen),
+                rms_band=band,
+                nodal=recipe.nodal,
+                **waves,  # type: ignore[arg-type]
+            )
         made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
         made = f"made by roughcontact {rc.__version__}: {made}"
         surface = replace(surface, provenance=(*surface.provenance, made))

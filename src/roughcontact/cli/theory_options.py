@@ -159,7 +159,7 @@ def exponents(curve: Curve, comparisons: Mapping[str, Comparison]) -> list[tuple
     }
     lines: list[tuple[str, str]] = []
     for each in curve.local_exponents():
-        low, high = (quantity("force", end) for end in each.window)
+        low, high = (quantity("force", end, curve.geometry) for end in each.window)
         words = [f"{each.exponent:.3f} +- {each.error:.3f} from {low} to {high} ({each.count} loads)"]
         for name, laws in theirs.items():
             if (law := laws[each.window]) is not None:

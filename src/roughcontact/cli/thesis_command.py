@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import print_facts, screen
+from roughcontact.cli.report import doing, print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.cli.unit_options import parse_seed
 
@@ -76,7 +76,7 @@ def _compute(name: str, folder: Path, scale: Scale, seed: int | None, workers: i
     else:
         simple = cast("SimpleFigure", found)
         first = simple.SEED if seed is None else seed
-        with screen().status(f"Computing {name} ..."):
+        with doing(f"Computing {name}"):
             data = simple.case(first)
         more = [("seed", str(first))]
     _draw(name, found, data, folder)
@@ -91,7 +91,7 @@ def _draw(name: str, found: FigureModule, data: Any, folder: Path) -> None:
     from roughcontact.plot.canvas import save
     from roughcontact.thesis.figures import drawn
 
-    with screen().status(f"Drawing {name} ..."), all_or_none(folder) as aside:
+    with doing(f"Drawing {name}"), all_or_none(folder) as aside:
         save(drawn(found, data), aside / f"{name}.png")
 
 

@@ -12,8 +12,10 @@ import numpy.typing as npt
 from roughcontact.cli.messages import UsageError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import (
+    AREA,
     CONDUCTIVITY,
     FORCE,
+    FORCE_PER_LENGTH,
     LENGTH,
     PRESSURE,
     RESISTIVITY,
@@ -22,8 +24,10 @@ from roughcontact.files.quantity import (
 )
 
 __all__ = [
+    "AREA",
     "CONDUCTIVITY",
     "FORCE",
+    "FORCE_PER_LENGTH",
     "LENGTH",
     "PRESSURE",
     "RESISTIVITY",
@@ -100,7 +104,7 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
         If it is not.
     """
     if kind is not LENGTH:
-        return parse_positive(text, kind, option, f"the {kind.name.split()[-1]}")
+        return parse_positive(text, kind, option, f"the {kind.name.removeprefix('a ')}")
     value = parse(text, kind, option)
     if value < 0:
         raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
@@ -202,16 +206,23 @@ def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
 
 
 def parse_size(text: str, option: str) -> tuple[float, ...]:
-    """Return one length or two, "1mm" or "1mm x 2mm" (down the rows, then along them), in [m].
+    """Return one length or two, "1mm", "1mm x 2mm" or "1 x 2mm" (down the rows, then along them), in [m].
 
     Raises
     ------
     UsageError
-        If a part is no positive length or there are more than two.
+        If a part is no positive length, there are more than two, or the second of two has no unit beside a first that
+        has one.
     """
-    parts = re.split(r"[x*]", text)
+    parts = re.split(r"[x*\u00d7]", text)
     if len(parts) > 2:
         raise UsageError(f"{option}: {text!r} holds {len(parts)} lengths; write '1mm' or '1mm x 2mm'")
+    if len(parts) == 2 and quantity.has_unit(parts[1]) != quantity.has_unit(parts[0]):
+        if not quantity.has_unit(parts[1]):
+            raise UsageError(
+                f"{option}: the second length of {text!r} has no unit; write '1 x 2mm' or '1mm x 2mm'"
+            )
+        parts[0] += quantity.unit_in(parts[1])  # "1x2mm": of both, as people write it
     return tuple(parse_positive(part, LENGTH, option, "a side length") for part in parts)
 
 
@@ -255,4 +266,6 @@ def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
 
 
 def _range_example(kind: Kind) -> str:
-    return f"1m{kind.unit}:1{kind.unit}:100" if kind.unit == "N" else f"1n{kind.unit}:1u{kind.unit}:100"
+    return (
+        f"1m{kind.unit}:1{kind.unit}:100" if kind.unit.startswith("N") else f"1n{kind.unit}:1u{kind.unit}:100"
+    )

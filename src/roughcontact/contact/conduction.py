@@ -55,6 +55,11 @@ class Conductors:
                 raise ValueError(f"give the numbers of both bodies, such as (1.7e-8, 1.7e-8), not {pair!r}")
         self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
 
+    def given(self) -> dict[str, tuple[float, float]]:
+        """Return what was given, by the names of the fields."""
+        pairs = {"resistivities": self.resistivities, "conductivities": self.conductivities}
+        return {name: pair for name, pair in pairs.items() if pair is not None}
+
     def of(self, stiffness: Array, modulus: float) -> dict[str, Array]:
         """Return the conductances and resistances of contacts by `stiffness` [N/m] at reduced `modulus` [Pa]."""
         found: dict[str, Array] = {}

@@ -12,11 +12,13 @@ import numpy.typing as npt
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
+from roughcontact.contact.dataset import curve_dataframe
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CURVE_POINTS, unit_of
+from roughcontact.pictures import curve_html, plot_curve
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
@@ -329,6 +331,10 @@ class Curve:
         from roughcontact.contact.dataset import curve_record
 
         return curve_record(self)
+
+    to_dataframe = curve_dataframe
+    plot = plot_curve
+    _repr_html_ = curve_html
 
 
 @one_blas_thread()

@@ -11,12 +11,13 @@ from roughcontact.labels.labelled import centres, dataset_of, plain_values, size
 from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
 
-__all__ = ["curve_dataset", "curve_record", "solution_dataset", "solution_record"]
+__all__ = ["curve_dataframe", "curve_dataset", "curve_record", "solution_dataset", "solution_record"]
 
 _CURVE_ARRAYS = (
     *(*CURVE_POINTS, "nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
@@ -85,6 +86,26 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     if solution.notes:
         dataset.attrs["notes"] = "\n".join(solution.notes)
     return dataset
+
+
+def curve_dataframe(curve: Curve) -> pandas.DataFrame:
+    """Return a loading curve as a table of pandas: one row a load, in SI units.
+
+    Parameters
+    ----------
+    curve : Curve
+
+    Returns
+    -------
+    DataFrame
+        Columns by the names of the quantities, with ``resolved`` and ``status``; units by column stand in
+        ``attrs["units"]``.
+    """
+    dataset = curve_dataset(curve)
+    columns = dataset[[name for name, values in dataset.items() if values.dims == ("load",)]]
+    frame = columns.to_dataframe()
+    frame.attrs["units"] = {name: values.attrs.get("units", "") for name, values in columns.items()}
+    return frame
 
 
 def curve_record(curve: Curve) -> dict[str, Any]:

@@ -129,7 +129,8 @@ def load_range(
     kind = SurfaceKind.of(surface)
     if geometry is Geometry.LINE:
         low, high = (part * scale for part in ON_LINES)
-        return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ("of E* h", "of E* h"), ())
+        ends = (f"{ON_LINES[0]:g} E* h", f"{ON_LINES[1]:g} E* h")
+        return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
     problem = make_problem(surface, modulus, Force(scale), operator, tolerance=1e-8, hardness=hardness)
     search = find_range(problem, kind, scale)
     return _loads(search, count, surface)

@@ -28,7 +28,15 @@ from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.validation import Array
 
-__all__ = ["ON_ONE_FEATURE", "SPOT_CELLS", "STEPS_PER_DECADE", "LoadSearch", "SurfaceKind", "find_range"]
+__all__ = [
+    "ON_ONE_FEATURE",
+    "SPOT_CELLS",
+    "STEPS_PER_DECADE",
+    "LoadSearch",
+    "SurfaceKind",
+    "find_range",
+    "pilot_of",
+]
 
 SPOT_CELLS = 16  # cells of the mean spot, weighted by force: twenty lone cells resolve nothing
 AREA_SHARE = 0.5  # of the nominal area in contact: beyond, the interfaces of flat maps are nearly closed
@@ -177,7 +185,7 @@ def _end(solution: Solution, kind: SurfaceKind, full: float, *, on_one_feature: 
 def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> LoadSearch:
     """Return rising loads that go beyond both ends of the range, as far as forces of about a scale [N] do."""
     start, most = (part * scale for part in SEARCHED)
-    pilot = _pilot(problem)
+    pilot = pilot_of(problem)
     if pilot is not None:  # from a tenth of the force at which so rough a map is as stiff as twenty cells
         few, rough = CELLS * cell_stiffness(problem.operator), climb(pilot, kind, start, most)
         stiff = (load.force for load in rough.loads if load.stiffness >= few)
@@ -188,7 +196,7 @@ def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> Load
     return search
 
 
-def _pilot(problem: ContactProblem) -> ContactProblem | None:
+def pilot_of(problem: ContactProblem) -> ContactProblem | None:
     """Return the problem on larger cells, as high as the highest of each block; None where the map is small."""
     shape = problem.separation.shape
     factors = tuple(-(-n // PILOT_CELLS) for n in shape)

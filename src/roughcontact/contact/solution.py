@@ -24,6 +24,7 @@ from roughcontact.contact.stiffness import (
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
+from roughcontact.pictures import plot_solution, solution_html
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
@@ -337,6 +338,9 @@ class Solution:
         from roughcontact.contact.dataset import solution_record
 
         return solution_record(self.on_host())
+
+    plot = plot_solution
+    _repr_html_ = solution_html
 
     def _of_cells(self, field: Array, mask: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
         """Return a field on the cells of a mask and their areas, on the host."""

@@ -87,7 +87,10 @@ def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     if kind not in _OURS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        raise ContentError(problem, f"export it as one of {', '.join(_OURS)}")
+        holding = (each for each in _OURS if each != ".xyz")
+        raise ContentError(
+            problem, f"name a text .txt, or export it as one of {', '.join(holding)}; read a map by read"
+        )
     found = (_PROFILE if kind in _TEXTS else _OURS[kind]).read(data, channel)
     require_line(found)
     return found

@@ -35,9 +35,10 @@ __all__ = ["list_foreign", "read_foreign"]
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
 _OURS = {
-    **{"asc": ".txt", "matrix": ".txt", "xyz": ".xyz", "npy": ".npy", "npz": ".npz", "x3p": ".x3p"},
+    **{"npy": ".npy", "npz": ".npz", "x3p": ".x3p"},
     **{"nc": ".nc", "sur": ".sur"},
 }
+_TEXTS = {"asc", "matrix", "xyz"}
 # Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
 _UNMARKED = {".hgt": "hgt", ".nms": "nms"}
 # Formats whose lateral size comes out wrong (by 1e6): the size must be given.
@@ -53,6 +54,7 @@ _UPRIGHT = {"metropro"}
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
 _REMEDY = "check that the file is whole, or export it as X3P, Gwyddion text or .npz"
+_AS_TEXT = "give a map of heights, or export the profile as a text of two columns, places and heights"
 
 
 def _unless_reading(_: logging.LogRecord) -> bool:
@@ -109,7 +111,8 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     except ContentError:
         raise
     except Exception as error:  # any reader of forty may fail in any way on a damaged file
-        raise ContentError(f"it cannot be read ({_brief(error)})", _REMEDY) from error
+        hint = "" if b"\0" in data else "name a text of numbers .txt; "
+        raise ContentError(f"it cannot be read ({_brief(error)})", hint + _REMEDY) from error
     finally:
         _READING.reset(reading)
 
@@ -124,6 +127,11 @@ def _brief(error: Exception) -> str:
 def _accept(format_name: str, kind: str) -> None:
     """Refuse what the other library reads too readily."""
     unmarked = {name: suffix for suffix, name in _UNMARKED.items()}
+    if format_name in _TEXTS:
+        raise ContentError(
+            "its extension hides its format: it is a text of numbers",
+            f"rename it to .txt if it is a matrix or a profile, to .xyz if it is a list of points; {_REMEDY}",
+        )
     suffix = _OURS.get(format_name) or unmarked.get(format_name)
     if suffix is not None and not (format_name in unmarked and kind == suffix):
         raise ContentError(
@@ -188,8 +196,8 @@ def _choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int,
         return index, _doubts(channels[index])
     if not any(map(_is_map, channels)):
         raise ContentError(
-            f"it holds no map but {describe(channels)}: a profile cannot be pressed as a surface",
-            "give a two-dimensional map of heights",
+            f"it holds no map but {describe(channels)}",
+            _AS_TEXT,
         )
     heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
     if not heights:  # without a unit they need the user's, which is asked for later
@@ -242,7 +250,7 @@ def _heights(reader: Any, index: int) -> Array:
 
 def _map(reader: Any, index: int, channel: Channel) -> HeightMap:
     if len(channel.shape) != 2:
-        raise ContentError(f"channel {channel.name!r} is a profile", "give a two-dimensional map of heights")
+        raise ContentError(f"channel {channel.name!r} is a profile", _AS_TEXT)
     require_memory(BYTES_PER_POINT * math.prod(channel.shape))
     info = reader.channels[index]
     if reader.format() in _UPRIGHT and not info.height_scale_factor > 0:

@@ -18,22 +18,30 @@ _HOLE = "write nan where a point was not measured, so that all rows are equally 
 _ROWS = re.compile(
     r"(?:(?:number of )?rows|y-pixels|y-?res|ny|zeilen|lignes)\s*[:=,;\t]\s*(\d{1,9})", re.IGNORECASE
 )
-_PLAIN = "give rows of numbers only; lines of explanation before them start with #"
+_PLAIN = "give rows of numbers only; lines of explanation before them start with #, or read name = value"
+# Above a table: a name that no number begins with, and what it is; or the words that end a header.
+_STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)
+_WORDS = re.compile(r"(?:(?!(?:nan|inf)\b)[^\W\d_]+\s+){2}.*", re.IGNORECASE)  # among such lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """The numbers of a text, shape (rows, columns), its comment lines without their ``#``, and doubts."""
+    """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, and doubts.
+
+    `statements` says whether some of these lines had no ``#``, but were of the form ``name = value``.
+    """
 
     values: Array
     comments: tuple[str, ...]
+    statements: bool
     doubts: tuple[str, ...]
 
 
 def parse_table(data: bytes) -> Table:
     """Return the table in a text separated by blanks, tabs, semicolons or commas.
 
-    A decimal comma is understood beside any separator but the comma itself.
+    Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood beside any
+    separator but the comma itself.
 
     Raises
     ------
@@ -45,6 +53,7 @@ def parse_table(data: bytes) -> Table:
     rows: list[tuple[int, str]] = []
     interrupted = False
     interruption = 0  # the line of an empty line or comment after the first row
+    statements = False
     text = decode(data)
     for number, line in enumerate(text.split("\n"), start=1):
         bare = line.strip()
@@ -53,6 +62,9 @@ def parse_table(data: bytes) -> Table:
                 comments.append(bare.lstrip("# ").strip())
             if rows and not interruption:
                 interruption = number
+        elif not rows and (_STATEMENT.fullmatch(bare) or (statements and _WORDS.fullmatch(bare))):
+            comments.append(bare)
+            statements = True
         elif interruption:
             interrupted = True
             break
@@ -68,7 +80,7 @@ def parse_table(data: bytes) -> Table:
             "keep one uninterrupted table in a file",
         )
     require_rows(comments, len(rows))
-    return Table(values, tuple(comments), unended(text))
+    return Table(values, tuple(comments), statements, unended(text))
 
 
 def require_rows(comments: Iterable[str], found: int) -> None:

@@ -20,7 +20,10 @@ _PRINTED = 1.001
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan", re.IGNORECASE)
 _UNIT = r"[^\W\d_]{1,10}"
 _NAMED = {"micrometer": "um", "micrometers": "um", "nanometer": "nm", "nanometers": "nm", "millimeter": "mm"}
-_REMEDY = "give one column of heights, or two: places along the line and heights"
+_REMEDY = (
+    "give one column of heights, or two: places along the line and heights; or a third, valid, of 1 and 0"
+)
+_VALID = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)
 
 
 def read_profile(data: bytes) -> HeightMap:
@@ -28,13 +31,16 @@ def read_profile(data: bytes) -> HeightMap:
 
     Lines of words come first; their last one may name the units of two columns, in brackets or as last words
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
-    such as ``Length, 1500 um`` is compared with the places.
+    such as ``Length, 1500 um`` is compared with the places. A third column that the words call ``valid`` says by 1 and
+    0 which heights were measured, as in the profiles headed ``X;Y;valid`` and ``[mm];[mm];[1/0]``.
     """
     text = decode(data)
     words, rows = _split(text)
     require_rows(words, len(rows))
     doubts = unended(text)
-    values = np.array([[float(field) for field in row] for row in rows])
+    values = np.array([[float(field or "nan") for field in row] for row in rows])
+    if values.shape[1] == 3:
+        values[values[:, 2] == 0, 1] = np.nan
     if values.shape[1] == 1:
         unit = _header_units(words, 1)[0]
         return HeightMap(as_heights(values[:, 0]), "text profile", unit=unit, doubts=doubts)
@@ -61,9 +67,10 @@ def _split(text: str) -> tuple[list[str], list[list[str]]]:
     lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
         bare = line.strip().rstrip(",;").rstrip()
-        fields = re.split(r"\s*[,;\t]\s*|\s+", bare)
-        if all(_NUMBER.fullmatch(field) for field in fields):
-            if len(fields) > 2 or len(fields) != len((rows or [fields])[0]):
+        fields = _fields(bare)
+        judged = len(fields) == 3 and _of_validity(words) and fields[2] in ("0", "1")
+        if all(_NUMBER.fullmatch(field) for field in fields) or (judged and fields[1:] == ["", "0"]):
+            if len(fields) > 2 + judged or len(fields) != len((rows or [fields])[0]):
                 raise ContentError(f"line {number} holds {len(fields)} numbers", _REMEDY)
             rows.append(fields)
         elif rows:
@@ -75,6 +82,19 @@ def _split(text: str) -> tuple[list[str], list[list[str]]]:
     if len(rows) < 2:
         raise ContentError(f"it holds {len(rows)} rows of numbers", _REMEDY)
     return words, rows
+
+
+def _fields(line: str) -> list[str]:
+    """Return the fields of a line; beside a semicolon or a tab a comma is the decimal mark."""
+    if re.search(r"[;\t]", line):
+        return re.split(r"\s*[;\t]\s*", line.replace(",", "."))
+    return re.split(r"\s*,\s*|\s+", line)
+
+
+def _of_validity(words: list[str]) -> bool:
+    """Whether the last two lines of words call the third of three columns that of validity."""
+    columns = (re.split(r"\s*[,;\t]\s*|\s+", line) for line in words[-2:])
+    return any(len(each) == 3 and _VALID.fullmatch(each[2]) for each in columns)
 
 
 def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
@@ -102,7 +122,7 @@ def _header_units(words: list[str], columns: int) -> tuple[str | None, ...]:
         bracketed = re.findall(r"[\[(]\s*([^\])]+?)\s*[\])]", words[-1])
         last = [re.split(r"\s+", part.strip())[-1] for part in re.split(r"[,;\t]", words[-1])]
         for found in (bracketed, last):
-            units = [_NAMED.get(unit.casefold(), unit) for unit in found]
+            units = [_NAMED.get(unit.casefold(), unit) for unit in found if not _VALID.fullmatch(unit)]
             if len(units) == columns and all(map(is_length, units)):
                 return tuple(units)
     return (None,) * columns

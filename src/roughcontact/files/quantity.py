@@ -9,8 +9,10 @@ from functools import cache
 from typing import Any
 
 __all__ = [
+    "AREA",
     "CONDUCTIVITY",
     "FORCE",
+    "FORCE_PER_LENGTH",
     "LENGTH",
     "PRESSURE",
     "RESISTIVITY",
@@ -19,6 +21,7 @@ __all__ = [
     "has_unit",
     "parse",
     "parse_number",
+    "unit_in",
 ]
 
 # A number in the way programs write it, then whatever is left as the unit.
@@ -41,7 +44,9 @@ class Kind:
 
 
 FORCE = Kind("a force", "N", "10N")
+FORCE_PER_LENGTH = Kind("a force per length", "N/m", "10N/mm")
 LENGTH = Kind("a length", "m", "5um")
+AREA = Kind("an area", "m^2", "1mm^2")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
@@ -75,8 +80,13 @@ def parse(text: str, kind: Kind) -> float:
 
 def has_unit(text: str) -> bool:
     """Return whether anything stands behind the number in a text."""
+    return unit_in(text) != ""
+
+
+def unit_in(text: str) -> str:
+    """Return what stands behind the number in a text; all of a text without a number."""
     match = _NUMBER.fullmatch(text)
-    return match is None or bool(match[2])
+    return text if match is None else match[2]
 
 
 def parse_number(text: str, example: str) -> float:

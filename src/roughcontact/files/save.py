@@ -15,12 +15,14 @@ import numpy.typing as npt
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
+from roughcontact.contact.interface_table import InterfaceTable
+from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes
 from roughcontact.files.provenance import provenance
 from roughcontact.files.text import text_bytes
-from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf
+from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf, write_text
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
@@ -34,28 +36,30 @@ __all__ = ["require_surface_file", "write"]
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
-Writable = Surface | Solution | TangentialSolution | Curve | SlipCurve
+Writable = Surface | Solution | TangentialSolution | Curve | SlipCurve | InterfaceTable
 
 
 def write(what: Writable, path: str | os.PathLike[str]) -> None:
     """Write a surface, a solution or a curve; the file appears whole or not at all.
 
-    ========  ==================================================================================================
-    ``.npz``  a surface: heights, spacing, unit, periodic, history; read back to the last bit
-    ``.nc``   a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit, a loading
-              curve by `read_curve`
-    ``.csv``  a curve: one line a load
-    ``.x3p``  a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
-              history, for which the format has no place
-    ``.txt``  a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
-              read back but for ``periodic`` and the history, the spacing to rounding
-    ``.npy``  the heights of a surface [m] and nothing else: unit and size are to be stated when it is read
-    ``.vti``  a surface or the fields of a solution for ParaView; y points up, as its pictures do
-    ========  ==================================================================================================
+    ==========  ==================================================================================================
+    ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
+    ``.nc``     a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit, a loading
+                curve by `read_curve`
+    ``.csv``    a curve, or the table of an interface: one line a load
+    ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
+                history, for which the format has no place
+    ``.txt``    a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
+                read back but for ``periodic`` and the history, the spacing to rounding
+    ``.npy``    the heights of a surface [m] and nothing else: unit and size are to be stated when it is read
+    ``.vti``    a surface or the fields of a solution for ParaView; y points up, as its pictures do
+    ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in SI units
+    ``.table``  the table of an interface: energy and force against mean gap for LAMMPS (``units si``)
+    ==========  ==================================================================================================
 
     Parameters
     ----------
-    what : Surface, Solution, TangentialSolution, Curve or SlipCurve
+    what : Surface, Solution, TangentialSolution, Curve, SlipCurve or InterfaceTable
         What is written.
     path : str or path
         File to write; one that is there is replaced.
@@ -76,6 +80,10 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     if isinstance(what, Curve | SlipCurve):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
+        return
+    if isinstance(what, InterfaceTable):
+        kind = _require_kind(path, type(what).__name__, _OF_AN_INTERFACE)
+        _OF_AN_INTERFACE[kind](what, path)
         return
     if not isinstance(what, Surface | Solution | TangentialSolution):
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
@@ -157,6 +165,18 @@ def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
     return parts | {"slipping": on_host(solution.slipping).astype(bool)}
 
 
+def _interface_csv(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
+    write_csv(table.to_dataset(), path)
+
+
+def _interface_inp(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
+    write_text(abaqus_text(table), path)
+
+
+def _interface_lammps(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
+    write_text(lammps_text(table), path)
+
+
 def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
     """Return cell fields, each of the shape of the grid, as ImageData of VTK: an XML header, and the numbers appended.
 
@@ -207,5 +227,8 @@ _OF_A_SURFACE: Mapping[str, Callable[[Surface], bytes]] = MappingProxyType(
 )
 _OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
+)
+_OF_AN_INTERFACE: Mapping[str, Callable[[InterfaceTable, str | os.PathLike[str]], None]] = MappingProxyType(
+    {".csv": _interface_csv, ".inp": _interface_inp, ".table": _interface_lammps}
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("netcdf_bytes", "plain_cells", "scale_remark", "units_remark"),
-    *("write_csv", "write_json", "write_netcdf", "write_table"),
+    *("write_csv", "write_json", "write_netcdf", "write_table", "write_text"),
 ]
 
 Attributes = Mapping[str, str | float]
@@ -167,6 +167,16 @@ def write_json(
     """
     whole = dict(record) | ({"provenance": dict(provenance)} if provenance else {})
     # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
-    text = json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    write_text(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n", path)
+
+
+def write_text(text: str, path: str | os.PathLike[str]) -> None:
+    """Write a text; the file appears whole or not at all.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+    """
     with written_aside(path) as aside:
         aside.write_text(text, encoding="utf-8", newline="\n")

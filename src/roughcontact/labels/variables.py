@@ -72,6 +72,8 @@ _VARIABLES = {
         "1", "relative real contact area, corrected for the perimeter of its cells", "A/A0, corrected"
     ),
     "mean_gap": Variable("m", "gap averaged over the measured cells"),
+    "overclosure": Variable("m", "closing of the mean gap from where the pressure of the table begins"),
+    "zero_gap": Variable("m", "mean gap at which the pressure of the table begins"),
     "elastic_energy": Variable("J", "elastic energy of the bodies"),
     "spots": Variable("1", "number of connected contact spots", "contact spots"),
     "dimensionless_force": Variable("1", "force over modulus, length and rms height", "force / (E* L h)"),

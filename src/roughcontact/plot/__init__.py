@@ -1,1 +1,61 @@
-"""Pictures: functions of axes and data."""
+"""Pictures: functions of what is drawn and the axes it is drawn on, and whole figures.
+
+A function takes what is drawn first, then ``ax=None``, the Matplotlib axes to draw on, and the rest by name; it returns
+the axes. Without axes it makes a figure of pyplot, which notebooks show. A name that ends in ``figure`` makes a whole
+figure, without pyplot, which `save` writes as PNG, PDF or SVG.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.late import late_names, open_name
+
+_LATE = late_names(__spec__)
+if TYPE_CHECKING or _LATE is None:
+    from roughcontact.plot.canvas import (
+        areal_figure as areal_figure,
+        curve_figure as curve_figure,
+        pressure_distribution_figure as pressure_distribution_figure,
+        resistance_figure as resistance_figure,
+        save as save,
+        solution_figure as solution_figure,
+        surface_figure as surface_figure,
+    )
+    from roughcontact.plot.curves import (
+        area_curve as area_curve,
+        areal_curve as areal_curve,
+        depth_curve as depth_curve,
+        resistance_curve as resistance_curve,
+        stiffness_curve as stiffness_curve,
+    )
+    from roughcontact.plot.distributions import (
+        height_distribution as height_distribution,
+        pressure_distribution as pressure_distribution,
+    )
+    from roughcontact.plot.engineering_units import Scale as Scale
+    from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
+    from roughcontact.plot.maps import (
+        contact_map as contact_map,
+        height_map as height_map,
+        pressure_map as pressure_map,
+    )
+    from roughcontact.plot.profile_plot import (
+        contact_profile as contact_profile,
+        pressure_profile as pressure_profile,
+        profile_curve as profile_curve,
+    )
+    from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
+    from roughcontact.plot.stress_map import von_mises_section as von_mises_section
+    from roughcontact.plot.study_picture import study_figure as study_figure
+    from roughcontact.plot.view import surface_view as surface_view
+
+__all__ = [name for name in _LATE or globals() if not name.startswith("_")]
+
+
+def __getattr__(name: str) -> Any:
+    return open_name(globals(), _LATE, name)
+
+
+def __dir__() -> list[str]:
+    return __all__

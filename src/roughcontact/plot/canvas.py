@@ -7,52 +7,110 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import xarray
 from matplotlib.figure import Figure
 
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, stiffness_curve
+from roughcontact.labels.variables import unit_of
+from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, resistance_curve, stiffness_curve
+from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
 from roughcontact.plot.engineering_units import Scale, written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
 from roughcontact.plot.marks import contact_window
+from roughcontact.plot.profile_plot import contact_profile, pressure_profile, profile_curve
 from roughcontact.plot.raster import Window
 from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 
-__all__ = ["areal_figure", "curve_figure", "save", "solution_figure", "surface_figure"]
+__all__ = [
+    *("areal_figure", "curve_figure", "pressure_distribution_figure", "resistance_figure"),
+    *("require_picture", "save", "solution_figure", "surface_figure"),
+]
 
 _FORMATS = ("png", "pdf", "svg")
 
 
 def solution_figure(solution: Solution) -> Figure:
-    """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps."""
+    """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a surface, a line or rings.
+
+    Returns
+    -------
+    Figure
+    """
     solution = solution.on_host()
-    window = contact_window(solution)
-    height, width = solution.problem.grid.lengths
-    if width <= 1.8 * height:
-        figure = Figure(figsize=(9.0, 4.2), layout="constrained")
-        first, second = figure.subplots(1, 2)
-    else:  # of a wide map two are better one above the other
-        figure = Figure(figsize=(7.0, max(1.8 + 11.0 * height / width, 3.2)), layout="constrained")
-        first, second = figure.subplots(2, 1)
-    contact_map(first, solution, frame=window)
-    pressure_map(second, solution, window)
-    first.set_title("contact over the heights", fontsize=LABEL)
-    second.set_title(_peak(solution, window), fontsize=LABEL)
+    grid = solution.problem.grid
+    if grid.ndim == 1:
+        figure = Figure(figsize=(7.0, 4.6), layout="constrained")
+        first, second = figure.subplots(2, 1, sharex=True)
+        contact_profile(solution, first)
+        pressure_profile(solution, second)
+        first.set_xlabel("")
+    else:
+        window = contact_window(solution)
+        height, width = grid.lengths
+        if width <= 1.8 * height:
+            figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+            first, second = figure.subplots(1, 2)
+        else:  # of a wide map two are better one above the other
+            figure = Figure(figsize=(7.0, max(1.8 + 11.0 * height / width, 3.2)), layout="constrained")
+            first, second = figure.subplots(2, 1)
+        contact_map(solution, first, frame=window)
+        pressure_map(solution, second, window=window)
+        first.set_title("contact over the heights", fontsize=LABEL)
+        second.set_title(_peak(solution, window), fontsize=LABEL)
     figure.suptitle(_summary(solution), fontsize=LABEL + 1)
     return figure
 
 
+def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
+    """Return the distribution of the pressure and what theories say about it.
+
+    Parameters
+    ----------
+    solution : Solution
+        With at least one cell in contact.
+    theories : mapping of str to callable, optional
+        By name, the density [1/Pa] at pressures [Pa].
+
+    Returns
+    -------
+    Figure
+    """
+    figure = Figure(figsize=(5.6, 4.0), layout="constrained")
+    pressure_distribution(solution, figure.subplots(), theories=theories)
+    return figure
+
+
 def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()) -> Figure:
-    """Return stiffness, contact area and depth against force, and what theories say about them."""
+    """Return stiffness, contact area and depth against force, and what theories say about them.
+
+    Parameters
+    ----------
+    curve : Curve
+    law : PowerLaw, optional
+        Such as ``curve.fit()``.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+
+    Returns
+    -------
+    Figure
+    """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "depth"]], width_ratios=(1.6, 1))
-    stiffness_curve(axes["stiffness"], curve, law, theories)
-    area_curve(axes["area"], curve, theories)
-    depth_curve(axes["depth"], curve, theories)
+    stiffness_curve(curve, axes["stiffness"], law=law, theories=theories)
+    area_curve(curve, axes["area"], theories=theories)
+    depth_curve(curve, axes["depth"], theories=theories)
     return figure
 
 
@@ -62,37 +120,106 @@ def areal_figure(
     theories: Sequence[Law] = (),
     units: Mapping[str, Scale] | None = None,
 ) -> Figure:
-    """Return K/A0, A/A0 and mean gap against nominal pressure: what a joint has whatever its size."""
+    """Return K/A0, A/A0 and mean gap against nominal pressure: what a joint has whatever its size.
+
+    Parameters
+    ----------
+    curve : Curve
+    law : PowerLaw, optional
+        Of k, such as ``curve.fit()``; drawn on a periodic grid alone.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+    units : mapping of str to Scale, optional
+        Units to draw in, by ``"nominal_pressure"``, ``"interfacial_stiffness_per_area"`` and ``"mean_gap"``.
+
+    Returns
+    -------
+    Figure
+    """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "gap"]], width_ratios=(1.6, 1))
-    areal_curve(axes["stiffness"], curve, "interfacial_stiffness_per_area", law, theories, units)
+    areal_curve(curve, axes["stiffness"], law=law, theories=theories, units=units)
     if axes["stiffness"].get_legend_handles_labels()[0]:
-        axes["stiffness"].legend(loc="upper left", fontsize=TICK, frameon=False)
-    areal_curve(axes["area"], curve, "contact_fraction", None, theories, units)
-    areal_curve(axes["gap"], curve, "mean_gap", None, theories, units)
+        axes["stiffness"].legend(loc="best" if theories else "upper left", fontsize=TICK, frameon=False)
+    areal_curve(curve, axes["area"], quantity="contact_fraction", theories=theories, units=units)
+    areal_curve(curve, axes["gap"], quantity="mean_gap", theories=theories, units=units)
     return figure
 
 
-def surface_figure(surface: Surface) -> Figure:
-    """Return the heights of a surface."""
-    figure = Figure(figsize=(5.2, 4.2), layout="constrained")
-    height_map(figure.subplots(), surface)
+def resistance_figure(dataset: xarray.Dataset) -> Figure:
+    """Return the electrical and the thermal resistance, those that the dataset holds: of the interface per area.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As `roughcontact.conductance` returns it.
+
+    Returns
+    -------
+    Figure
+    """
+    names = ("electrical_resistance", "thermal_resistance")
+    areal = [f"{name}_per_area" for name in names if f"{name}_per_area" in dataset]
+    found = areal or [name for name in names if name in dataset]
+    figure = Figure(figsize=(4.8 * len(found), 4.0), layout="constrained")
+    for axes, name in zip(np.ravel(figure.subplots(1, len(found))), found, strict=True):
+        resistance_curve(dataset, name, axes)
+    return figure
+
+
+def surface_figure(surface: Surface, spikes: Spikes | None = None) -> Figure:
+    """Return the heights of a surface or a profile beside their distribution.
+
+    Parameters
+    ----------
+    surface : Surface
+    spikes : Spikes, optional
+        Such as ``roughcontact.find_spikes(surface)``, to be marked.
+
+    Returns
+    -------
+    Figure
+    """
+    figure = Figure(figsize=(9.6, 4.2), layout="constrained")
+    heights, distribution = figure.subplots(1, 2, width_ratios=(1.25, 1))
+    draw = height_map if surface.grid.ndim == 2 else profile_curve
+    draw(surface, heights, spikes=spikes)
+    height_distribution(surface, distribution)
     return figure
 
 
 def save(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write a figure as PNG, PDF or SVG, by the ending of `path`; whole or not at all.
 
+    Parameters
+    ----------
+    figure : Figure
+        Of axes its ``ax.figure``.
+    path : path-like
+        Its name ends in ``.png``, ``.pdf`` or ``.svg``.
+
     Raises
     ------
     WriteError
         If the ending is another or the file cannot be written.
     """
+    ending = require_picture(path)
+    with written_aside(path) as aside:
+        figure.savefig(aside, format=ending, dpi=200)
+
+
+def require_picture(path: str | os.PathLike[str]) -> str:
+    """Return the format of a picture, by the ending of `path`; meant to be asked before a long computation.
+
+    Raises
+    ------
+    WriteError
+        If the ending is none of a picture.
+    """
     ending = Path(path).suffix.lower().removeprefix(".")
     if ending not in _FORMATS:
         raise WriteError(f"cannot write the picture {path}: end its name in {', '.join(_FORMATS)}")
-    with written_aside(path) as aside:
-        figure.savefig(aside, format=ending, dpi=200)
+    return ending
 
 
 def _peak(solution: Solution, window: Window | None) -> str:
@@ -111,9 +238,9 @@ def _peak(solution: Solution, window: Window | None) -> str:
 
 
 def _summary(solution: Solution) -> str:
-    spots = solution.spots.count
+    spots, kind = solution.spots.count, solution.problem.geometry
     return (
-        f"force {written(solution.force, 'N')},  depth {written(solution.depth, 'm')},  "
-        f"stiffness {written(solution.stiffness, 'N m-1')},  "
+        f"force {written(solution.force, unit_of('force', kind))},  depth {written(solution.depth, 'm')},  "
+        f"stiffness {written(solution.stiffness, unit_of('stiffness', kind))},  "
         f"contact {100 * solution.contact_fraction:.3g} % in {spots} spot{'s' if spots != 1 else ''}"
     )

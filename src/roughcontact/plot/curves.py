@@ -1,4 +1,4 @@
-"""Loading curves and theories beside them, drawn on axes that the caller owns.
+"""Loading curves and theories beside them.
 
 All are logarithmic, with force or nominal pressure along x. Points that the grid resolves are filled, the others open.
 """
@@ -14,22 +14,22 @@ import numpy as np
 import numpy.typing as npt
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import Scale, scale
-from roughcontact.plot.level import level
+from roughcontact.plot.level import free_place, level
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.statistics.power_law import PowerLaw
-from roughcontact.validation import Array
+from roughcontact.validation import Array, require
 
 __all__ = [
-    *("area_curve", "areal_curve", "depth_curve", "resistance_curve", "resistance_figure"),
-    "stiffness_curve",
+    "PER_AREA",
+    *("area_curve", "areal_curve", "depth_curve", "resistance_curve", "stiffness_curve"),
 ]
 
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
@@ -39,27 +39,40 @@ _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
 _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
 # What is drawn against nominal pressure, and the quantity of the patch that theories give for it.
-_PER_AREA = {
+PER_AREA = {
     "interfacial_stiffness_per_area": "interfacial_stiffness",
     "contact_fraction": "contact_area",
     "mean_gap": "mean_gap",
 }
 _SMOOTH = 200  # points of a line
 _FULL = "full contact"
-_WORDS = (0.25, 0.06, 0.015)  # of the axes: width and height of words on a level, and of a point beside them
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
 def stiffness_curve(
-    axes: Axes, curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()
-) -> None:
+    curve: Curve, ax: Axes | None = None, *, law: PowerLaw | None = None, theories: Sequence[Law] = ()
+) -> Axes:
     """Draw stiffness against force, both logarithmic.
 
-    Resolved points are filled, the others open. `law` is drawn strongly over its window and thinly
-    beyond. Horizontal lines mark the stiffness of twenty cells (not on a line contact, where widths tell
-    what is resolved) and that of all measured cells in contact. The outer axes give force and stiffness
-    without dimension. `theories` are drawn as lines in colours of their own.
+    Resolved points are filled, the others open. Horizontal lines mark the stiffness of twenty cells (not on a line
+    contact, where widths tell what is resolved) and that of all measured cells in contact. The outer axes give force
+    and stiffness without dimension.
+
+    Parameters
+    ----------
+    curve : Curve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    law : PowerLaw, optional
+        Such as ``curve.fit()``: drawn strongly over its window and thinly beyond.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`: lines in colours of their own.
+
+    Returns
+    -------
+    Axes
     """
+    axes = axes_for(ax)
     x, y = _draw(axes, curve, "stiffness")
     values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
     limits = _limits(curve)
@@ -71,74 +84,136 @@ def stiffness_curve(
         _draw_law(axes, curve, law, (x, y))
     _draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
     for words, value in limits.items():
-        place = {"ha": "left", "va": "bottom"} if words == _FULL else _free_corner(axes, value * y.factor)
+        place = free_place(axes, value * y.factor, ("left", "bottom") if words == _FULL else None)
         level(axes, value * y.factor, words, (0, (6, 3)), **place)
     if axes.get_legend_handles_labels()[0]:
-        # The corner between the curve and its upper limit is the one that stays free.
-        top = math.log(curve.full_contact_stiffness / low) / math.log(high / low) if len(limits) > 1 else 1.0
-        axes.legend(loc="upper left", bbox_to_anchor=(0.0, top - 0.005), fontsize=TICK, frameon=False)
+        # The corner between the curve and its upper limit is the one that stays free, but for theories.
+        top = math.log(limits[_FULL] / low) / math.log(high / low) if _FULL in limits else 1.0
+        corner: Any = {"loc": "upper left", "bbox_to_anchor": (0.0, top - 0.005)}
+        axes.legend(**({"loc": "best"} if theories else corner), fontsize=TICK, frameon=False)
     _outer(axes, curve, (x, y))
+    return axes
 
 
-def area_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the real contact area against force, both logarithmic; the right axis gives the relative one."""
+def area_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
+    """Draw the real contact area against force, both logarithmic; the right axis gives the relative one.
+
+    Parameters
+    ----------
+    curve : Curve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+
+    Returns
+    -------
+    Axes
+    """
+    axes = axes_for(ax)
     x, y = _draw(axes, curve, "contact_area")
     _draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
     outer_axis(axes, "right", "relative real contact area A/A0", _parts_of(curve.nominal_area * y.factor))
+    return axes
 
 
-def depth_curve(axes: Axes, curve: Curve, theories: Sequence[Law] = ()) -> None:
-    """Draw the indentation depth, since first touch, against force, both logarithmic."""
+def depth_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
+    """Draw the indentation depth, since first touch, against force, both logarithmic.
+
+    Parameters
+    ----------
+    curve : Curve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+
+    Returns
+    -------
+    Axes
+    """
+    axes = axes_for(ax)
     _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+    return axes
 
 
 def areal_curve(
-    axes: Axes,
     curve: Curve,
-    name: str,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "interfacial_stiffness_per_area",
     law: PowerLaw | None = None,
     theories: Sequence[Law] = (),
     units: Mapping[str, Scale] | None = None,
-) -> None:
-    """Draw K/A0, A/A0 or the mean gap against nominal pressure, both logarithmic, in `units` where they are given.
+) -> Axes:
+    """Draw K/A0, A/A0 or the mean gap against nominal pressure, both logarithmic: what a joint has whatever its size.
 
-    `law`, a power law of k, and the limits of what is resolved belong to k, and are drawn with K/A0 where the two are
-    one: on a periodic grid. `theories` are drawn as lines in colours of their own.
+    Parameters
+    ----------
+    curve : Curve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    quantity : {"interfacial_stiffness_per_area", "contact_fraction", "mean_gap"}
+    law : PowerLaw, optional
+        Of k. This and the limits of what is resolved are drawn with K/A0 where the two are one: on a periodic grid.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+    units : mapping of str to Scale, optional
+        Units to draw in, by ``"nominal_pressure"`` and the quantity.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the quantity is another.
     """
-    quantity = _PER_AREA[name]
-    words = [(VARIABLES[each].label, unit_of(each, curve.geometry)) for each in ("nominal_pressure", name)]
-    numbers = (curve.nominal_pressure, np.asarray(getattr(curve, name)))
-    given = tuple((units or {}).get(each) for each in ("nominal_pressure", name))
+    require(quantity in PER_AREA, f"quantity must be one of {', '.join(PER_AREA)}, not {quantity!r}")
+    axes = axes_for(ax)
+    of_theory = PER_AREA[quantity]
+    words = [
+        (VARIABLES[each].label, unit_of(each, curve.geometry)) for each in ("nominal_pressure", quantity)
+    ]
+    numbers = (curve.nominal_pressure, np.asarray(getattr(curve, quantity)))
+    given = tuple((units or {}).get(each) for each in ("nominal_pressure", quantity))
     x, y = _draw_points(axes, numbers, words, np.asarray(curve.resolved), _POINTS, given)
     # From what belongs to the patch to what is drawn: over the nominal area, the gap as it is.
     of_force = Scale(x.factor / curve.nominal_area, x.unit)
-    of_patch = y if quantity == name else Scale(y.factor / curve.nominal_area, y.unit)
-    if name == "interfacial_stiffness_per_area" and np.array_equal(
+    of_patch = y if of_theory == quantity else Scale(y.factor / curve.nominal_area, y.unit)
+    low, high = axes.get_ylim()
+    is_of_k = quantity == "interfacial_stiffness_per_area" and np.array_equal(
         curve.stiffness, curve.interfacial_stiffness
-    ):
-        low, high = axes.get_ylim()
-        if law is not None:
-            _draw_law(axes, curve, law, (of_force, of_patch))
-        for text, value in _limits(curve).items():
-            place = value * of_patch.factor
-            if low <= place <= high:
-                level(axes, place, text, (0, (6, 3)), **_free_corner(axes, place))
-        axes.set_ylim(low, high)
-    _draw_laws(axes, theories, quantity, _forces(curve), (of_force, of_patch))
+    )
+    if law is not None and is_of_k:
+        _draw_law(axes, curve, law, (of_force, of_patch))
+    axes.set_ylim(low, high)
+    _draw_laws(axes, theories, of_theory, _forces(curve), (of_force, of_patch))
+    for text, value in _limits(curve).items() if is_of_k else ():
+        place = value * of_patch.factor
+        if low <= place <= high:
+            level(axes, place, text, (0, (6, 3)), **free_place(axes, place))
+    return axes
 
 
-def resistance_figure(dataset: xarray.Dataset) -> Figure:
-    """Return the electrical and the thermal resistance, those that the dataset holds: of the interface per area."""
-    areal = [f"{name}_per_area" for name in _RESISTANCES if f"{name}_per_area" in dataset]
-    names = areal or [name for name in _RESISTANCES if name in dataset]
-    figure = Figure(figsize=(4.8 * len(names), 4.0), layout="constrained")
-    for axes, name in zip(np.ravel(figure.subplots(1, len(names))), names, strict=True):
-        resistance_curve(axes, dataset, name)
-    return figure
+def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None) -> Axes:
+    """Draw one resistance against force, one per area against pressure; what is infinite has no place on the axis.
 
+    Parameters
+    ----------
+    dataset : Dataset
+        As `roughcontact.conductance` returns it.
+    name : str
+        Of the resistance in it, such as ``"electrical_resistance_per_area"``.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
 
-def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
-    """Draw one resistance against force, one per area against pressure; what is infinite has no place on the axis."""
+    Returns
+    -------
+    Axes
+    """
+    axes = axes_for(ax)
     load = "nominal_pressure" if name.endswith("_per_area") else "force"
     numbers = (dataset[load].to_numpy(), dataset[name].to_numpy())
     included = "" if load == "nominal_pressure" else ", spreading resistance included"
@@ -152,6 +227,7 @@ def resistance_curve(axes: Axes, dataset: xarray.Dataset, name: str) -> None:
     _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), colour, given)
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)
+    return axes
 
 
 def _limits(curve: Curve) -> dict[str, float]:
@@ -161,20 +237,6 @@ def _limits(curve: Curve) -> dict[str, float]:
         limits = {f"{CELLS} x one cell": CELLS * curve.cell_stiffness} | limits
     # A periodic surface in full contact is infinitely stiff: that limit has no line.
     return {words: value for words, value in limits.items() if math.isfinite(value)}
-
-
-def _free_corner(axes: Axes, value: float) -> dict[str, str]:
-    """Return how words on a level are aligned, at one of its ends above or below it, to have no point under them."""
-    to_axes = axes.transData + axes.transAxes.inverted()
-    points = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
-    x, y = to_axes.transform(np.concatenate([*points, [[1.0, value]]])).T
-    x, above = x[:-1], y[:-1] - y[-1]
-    wide, high, near = _WORDS
-    ends, sides = {"right": x > 1 - wide, "left": x < wide}, {"bottom": above, "top": -above}
-    for ha, va in (("right", "bottom"), ("right", "top"), ("left", "top"), ("left", "bottom")):
-        if not (ends[ha] & (sides[va] > -near) & (sides[va] < high)).any():
-            break
-    return {"ha": ha, "va": va}
 
 
 def _forces(curve: Curve) -> tuple[float, float]:
@@ -258,11 +320,17 @@ def _draw_law(axes: Axes, curve: Curve, law: PowerLaw, scales: tuple[Scale, Scal
 
 def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:
     """Put the quantities without dimension on the upper and the right axis."""
-    name = rf"$\bar{{k}}$ = {VARIABLES['dimensionless_stiffness'].label}"
+    name = rf"$\bar{{k}}$ = {_without_length('dimensionless_stiffness', curve)}"
     outer_axis(axes, "right", name, _parts_of(curve.stiffness_scale * scales[1].factor))
     if curve.force_scale > 0:  # a flat surface has no height to compare with
-        name = rf"$\bar{{F}}$ = {VARIABLES['dimensionless_force'].label}"
+        name = rf"$\bar{{F}}$ = {_without_length('dimensionless_force', curve)}"
         outer_axis(axes, "top", name, _parts_of(curve.force_scale * scales[0].factor))
+
+
+def _without_length(name: str, curve: Curve) -> str:
+    """Return how a quantity without dimension is made: on a line, where loads are per length, without L."""
+    label = VARIABLES[name].label
+    return label.replace("E* L", "E*").replace("(E*)", "E*") if curve.geometry is Geometry.LINE else label
 
 
 def _parts_of(unit: float) -> Any:

@@ -1,4 +1,4 @@
-"""Distributions of heights and of the contact pressure, drawn on axes that the caller owns."""
+"""Distributions of heights and of the contact pressure."""
 
 from __future__ import annotations
 
@@ -9,39 +9,54 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from roughcontact.contact.solution import Solution
 from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.usual_range import usual_range
 from roughcontact.surface.analysis.histogram import height_histogram
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 
-__all__ = ["height_distribution", "pressure_distribution", "pressure_distribution_figure"]
+__all__ = ["Density", "height_distribution", "pressure_distribution"]
 
 Density = Callable[[Array], Array]
 
 _BARS: Any = {"fill": True, "color": "#0072b2", "alpha": 0.45}
 _LINES = ("#d55e00", "#009e73", "#cc79a7")
-_BEYOND = 0.999  # quantile of the pressure where the axis ends: a few cells at the edges of spots carry many times more
+_PART = 0.75  # of the axis of pressures, whose density falls off
+_EDGES = 0.1  # of the cells in contact, which may lie along the edges of spots
+_ABOVE = 1.25  # height of the axes over what is drawn: there the legend covers nothing
 
 
 def pressure_distribution(
-    axes: Axes, solution: Solution, theories: Mapping[str, Density] | None = None, bins: int = 60
-) -> None:
+    solution: Solution,
+    ax: Axes | None = None,
+    *,
+    theories: Mapping[str, Density] | None = None,
+    bins: int = 60,
+) -> Axes:
     """Draw the probability density of the pressure over the nominal area, without the part that carries none.
+
+    A few cells at the edges of spots may carry many times more than all others: where they would take a quarter of the
+    axis for themselves, it ends before, and the legend says how much lies beyond.
 
     Parameters
     ----------
-    axes : Axes
     solution : Solution
         With at least one cell in contact.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
     theories : mapping of str to callable, optional
         By name, the density [1/Pa] at pressures [Pa]; its integral is the theory's contact fraction.
     bins : int
         Number of bars at the most: of few cells Rice's rule, ``2 n^(1/3)``, makes fewer.
+
+    Returns
+    -------
+    Axes
 
     Raises
     ------
@@ -53,12 +68,17 @@ def pressure_distribution(
     pressures = solution.pressure[solution.contact]
     if not pressures.size:
         raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
-    end = float(np.quantile(pressures, _BEYOND)) * 1.05
+    axes = axes_for(ax)
+    largest = float(pressures.max())
+    end = (usual_range(np.append(0.0, pressures), _PART, _EDGES) or (0.0, largest))[1]
     x = scale(end, unit)
     areas = np.broadcast_to(solution.problem.operator.weights, grid.shape)[solution.contact]
     shares, edges = np.histogram(pressures, _fewer(bins, pressures), (0.0, end), weights=areas / grid.area)
     density = shares / np.diff(edges)
     computed = f"computed, {100 * solution.contact_fraction:.3g} % in contact"
+    if end < largest:
+        beyond = 100 * float(areas[pressures > end].sum() / areas.sum())
+        computed += f",\n{beyond:.2g} % of it beyond, up to {written(largest, unit)}"
     axes.stairs(density / x.factor, edges * x.factor, label=computed, **_BARS)
     stress = np.linspace(0.0, end, 400)
     for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
@@ -66,32 +86,45 @@ def pressure_distribution(
     axes.set_title(f"nominal pressure {written(solution.force / grid.area, unit)}", fontsize=LABEL)
     name = f"{VARIABLES['pressure'].label} [{x.unit}]"
     _finish(axes, (0.0, end * x.factor), name, f"part of the nominal area [1/{x.unit}]")
+    return axes
 
 
-def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
-    """Return the distribution of the pressure and what theories say about it."""
-    figure = Figure(figsize=(5.6, 4.0), layout="constrained")
-    pressure_distribution(figure.subplots(), solution, theories)
-    return figure
-
-
-def height_distribution(axes: Axes, surface: Surface, bins: int = 60) -> None:
+def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int = 60) -> Axes:
     """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
 
-    A flat surface has no normal distribution; it is drawn without one. Of few points Rice's rule, ``2 n^(1/3)``, makes
-    fewer bars than `bins`.
+    A flat surface has no normal distribution; it is drawn without one. Where a few points
+    would take half of the axis for themselves, it ends before, and the legend says how many lie beyond.
+
+    Parameters
+    ----------
+    surface : Surface
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    bins : int
+        Number of bars at the most: of few points Rice's rule, ``2 n^(1/3)``, makes fewer.
+
+    Returns
+    -------
+    Axes
     """
-    found = height_histogram(surface, bins=_fewer(bins, surface.heights[surface.measured]))
-    reach = float(np.abs(found.edges).max())
-    z = scale(reach, VARIABLES["heights"].unit)
+    axes = axes_for(ax)
+    heights = surface.heights[surface.measured]
+    heights = heights - heights.mean()
+    found = height_histogram(surface, bins=_fewer(bins, heights), ends=usual_range(heights))
+    z = scale(float(np.abs(found.edges).max()), VARIABLES["heights"].unit)
+    label = "heights"
+    if beyond := 100 * (1 - float(found.count.sum()) / heights.size):
+        low, high = (written(float(end), "m") for end in (heights.min(), heights.max()))
+        label += f",\n{beyond:.2g} % of them beyond, {low} to {high}"
     edges = found.edges * z.factor
-    axes.stairs(found.density / z.factor, edges, label="heights", **_BARS)
+    axes.stairs(found.density / z.factor, edges, label=label, **_BARS)
     if found.rms > 0:
         points = np.linspace(found.edges[0], found.edges[-1], 400)
-        normal, label = found.gaussian(points) / z.factor, f"normal, rms {written(found.rms, 'm')}"
-        axes.plot(points * z.factor, normal, color=_LINES[0], linewidth=1.5, label=label)
+        normal, words = found.gaussian(points) / z.factor, f"normal, rms {written(found.rms, 'm')}"
+        axes.plot(points * z.factor, normal, color=_LINES[0], linewidth=1.5, label=words)
     name = f"{VARIABLES['heights'].label} above the mean [{z.unit}]"
     _finish(axes, (float(edges[0]), float(edges[-1])), name, f"probability density [1/{z.unit}]")
+    return axes
 
 
 def _fewer(bins: int, values: Array) -> int:
@@ -101,6 +134,6 @@ def _fewer(bins: int, values: Array) -> int:
 
 def _finish(axes: Axes, limits: tuple[float, float], x: str, y: str) -> None:
     axes.set_xlim(limits)
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, _ABOVE * axes.get_ylim()[1])
     label_axes(axes, x, y)
-    axes.legend(fontsize=TICK, frameon=False)
+    axes.legend(loc="upper right", fontsize=TICK, frameon=False)

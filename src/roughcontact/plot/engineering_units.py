@@ -14,7 +14,15 @@ _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """A unit for a picture: multiply a value in SI by `factor` and write `unit` beside it."""
+    """A unit for a picture: multiply a value in SI by `factor` and write `unit` beside it.
+
+    Parameters
+    ----------
+    factor : float
+        Numbers in `unit` over those in SI.
+    unit : str
+        As it is printed.
+    """
 
     factor: float
     unit: str
@@ -24,31 +32,38 @@ def scale(largest: float, unit: str) -> Scale:
     """Return the scale that brings `largest`, in the SI unit `unit`, between 1 and 1000.
 
     The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and counts as often as
-    that unit does (``"m2"`` becomes µm², a factor of 1e12). Kilometres are the largest length. A stiffness per area
-    is in N/µm/mm² (MPa/µm).
+    that unit does (``"m2"`` becomes µm², a factor of 1e12, ``"m-2"`` 1/µm²). A prefix of an area is a million times
+    the next: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length. A
+    stiffness per area is in N/µm/mm² (MPa/µm).
     """
     if unit == "Pa m-1":  # the unit of machine design, whatever the number
         return Scale(1e-12, "N/µm/mm²")
     first = unit.split()[0] if unit else ""
-    power = int(re.search(r"\d+$", first).group()) if re.search(r"\d$", first) else 1  # type: ignore[union-attr]
+    found = re.search(r"-?\d+$", first)
+    power = int(found.group()) if found else 1
     exponent = 0
     if math.isfinite(largest) and largest > 0 and first not in ("", "1"):
+        lowest = -2 * (abs(power) - 1)  # decade where the numbers begin
         # The hair keeps 1e-6 m, which floating point may put just below, at 1 µm.
-        exponent = 3 * math.floor(math.log10(largest * (1 + 1e-9)) / (3 * power))
+        decades = math.log10(largest * (1 + 1e-9)) - lowest
+        exponent = 3 * math.floor(decades / (3 * abs(power))) * (1 if power > 0 else -1)
     highest = 3 if first.startswith("m") else 12
     exponent = min(max(exponent, -12), highest)
     # A division by an exact power of ten rounds once.
-    factor = 10.0 ** (-exponent * power) if exponent <= 0 else 1 / 10.0 ** (exponent * power)
+    shift = -exponent * power
+    factor = 10.0**shift if shift >= 0 else 1 / 10.0**-shift
     return Scale(factor, pretty(f"{_PREFIXES[exponent]}{unit}"))
 
 
 def pretty(unit: str) -> str:
-    """Return a unit of the table as it is written in print: ``"N m-1"`` as N/m, ``"m2"`` as m²."""
+    """Return a unit of the table as it is written in print: ``"N m-1"`` as N/m, ``"m2"`` as m², ``"m-2"`` as 1/m²."""
     if unit in ("", "1"):
         return ""
     over = [part.replace("-1", "").replace("-", "") for part in unit.split() if "-" in part]
     under = [part for part in unit.split() if "-" not in part]
-    return "/".join(["·".join(under) or "1", *over]).translate(_SUPERSCRIPTS)
+    units = ["·".join(under), *over]
+    raised = "/".join(units).translate(_SUPERSCRIPTS)
+    return raised if under else f"1{raised}"
 
 
 def written(value: float, unit: str, digits: int = 3) -> str:

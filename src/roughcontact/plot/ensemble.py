@@ -11,38 +11,46 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import pretty
 from roughcontact.plot.ticks import TICK, label_axes
 from roughcontact.validation import Array
 
-__all__ = ["fitted_values", "mean_curves"]
+__all__ = ["fitted_values", "mean_curves", "shades"]
 
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_NAMED = 12  # more groups than these leave no room for a legend
 _BAND = 0.25  # opacity
 
 
 def mean_curves(
-    axes: Axes,
     force: xarray.DataArray,
     mean: xarray.DataArray,
+    ax: Axes | None = None,
+    *,
     error: xarray.DataArray | None = None,
     resolved: xarray.DataArray | None = None,
-) -> None:
+) -> Axes:
     """Draw means over samples against force, both logarithmic, one line a group.
 
     Parameters
     ----------
-    axes : Axes
     force : DataArray
         Along the points, and the groups where they differ; such as ``dimensionless_force`` of an export.
     mean : DataArray
         Along the points and at most one dimension more, whose values tell the groups apart.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
     error : DataArray, optional
         Half the width of a band about the mean, such as `roughcontact.statistics.samples.standard_error`, or the
         standard deviation where the scatter of samples is meant.
     resolved : DataArray of bool, optional
         Points outside it are drawn thin and dotted.
+
+    Returns
+    -------
+    Axes
 
     Raises
     ------
@@ -56,38 +64,41 @@ def mean_curves(
             f"curves lie along {points!r} and one dimension of groups, not along {', '.join(map(str, mean.dims))}: "
             "select or average the others first"
         )
+    axes = axes_for(ax)
     half = 0.0 * mean if error is None else error
     inside = mean.notnull() if resolved is None else resolved
     every = xarray.broadcast(force, mean, half, inside)
     rows = [np.atleast_2d(each.transpose(*groups, points).to_numpy()) for each in every]
     names = [_named(mean, groups[0], i) for i in range(len(rows[0]))] if groups else [""]
-    for x, y, band, kept, name, colour in zip(*rows, names, _shades(len(names)), strict=True):
+    for x, y, band, kept, name, colour in zip(*rows, names, shades(len(names)), strict=True):
         _curve(axes, (x, y, band), kept, name, colour)
     axes.set(xscale="log", yscale="log")
     label_axes(axes, _words(force), _words(mean), grid=True)
-    if groups and len(names) <= len(_COLOURS):
+    if groups and len(names) <= _NAMED:
         axes.legend(title=_words(mean[groups[0]]), fontsize=TICK, title_fontsize=TICK, frameon=False)
+    return axes
 
 
 def fitted_values(
-    axes: Axes,
     fits: xarray.Dataset,
     name: str = "exponent",
+    ax: Axes | None = None,
     *,
     along: str,
     label: str = "",
     colour: str = _COLOURS[0],
     shift: float = 0.0,
-) -> None:
+) -> Axes:
     """Draw what `roughcontact.statistics.fit.fit_power_laws` found against a parameter, with its intervals.
 
     Parameters
     ----------
-    axes : Axes
     fits : Dataset
         Of no other dimension than `along`; ensembles without a fit are left out.
     name : str
         ``"exponent"`` or ``"prefactor"``.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
     along : str
         The parameter.
     label : str
@@ -95,6 +106,10 @@ def fitted_values(
     colour : str
     shift : float
         Of the marks along the axis, so that several series do not hide one another.
+
+    Returns
+    -------
+    Axes
 
     Raises
     ------
@@ -105,6 +120,7 @@ def fitted_values(
         raise ValueError(
             f"{name} lies along {', '.join(map(str, fits[name].dims))}, not along {along!r} alone: select first"
         )
+    axes = axes_for(ax)
     x, y, low, high = (fits[each].to_numpy() for each in (along, name, f"{name}_low", f"{name}_high"))
     shown = np.isfinite(y)
     # Of one sample there is a value and no interval.
@@ -112,6 +128,7 @@ def fitted_values(
     style: Any = {"fmt": "o", "markersize": 4, "capsize": 2, "linewidth": 1.0, "color": colour, "zorder": 3}
     axes.errorbar(x[shown] + shift, y[shown], np.maximum(arms, 0.0), label=label or None, **style)
     label_axes(axes, _words(fits[along]), _words(fits[name]), grid=True)
+    return axes
 
 
 def _curve(
@@ -130,7 +147,8 @@ def _curve(
         axes.fill_between(x[shown], lower[shown], (y + half)[shown], **band)
 
 
-def _shades(count: int) -> list[Any]:
+def shades(count: int) -> list[Any]:
+    """Return that many colours for lines on white."""
     if count <= len(_COLOURS):
         return list(_COLOURS[:count])
     # The last of viridis is too pale for a line on white.

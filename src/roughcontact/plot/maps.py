@@ -1,4 +1,4 @@
-"""Maps of a surface and of one loaded state, drawn on axes that the caller owns."""
+"""Maps of a surface and of one loaded state."""
 
 from __future__ import annotations
 
@@ -10,53 +10,131 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
 from roughcontact.contact.solution import Solution
+from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.marks import faint_spots
 from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_image, length_scale, part, show
+from roughcontact.plot.ticks import LABEL
+from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 
 __all__ = ["contact_map", "height_map", "pressure_map"]
 
 _CONTACT = "#c8290b"
+_SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of a ring [points^2]
 
 
-def height_map(axes: Axes, surface: Surface) -> None:
-    """Draw the heights of a surface, with a colour bar; points that were not measured are hatched."""
-    image, unit = heights_image(axes, surface.heights, surface.grid, None, "viridis")
-    colour_bar(axes, image, f"{VARIABLES['heights'].label} [{unit}]")
+def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
+    """Draw the heights of a surface, with a colour bar; points that were not measured are hatched.
+
+    Where a few heights far out would take half of the colours for themselves, these end before, and the bar says so.
+    Heights that differ by little of their size are given above one of them.
+
+    Parameters
+    ----------
+    surface : Surface
+        On a grid of two axes.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    spikes : Spikes, optional
+        Such as ``roughcontact.find_spikes(surface)``: each is ringed.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the surface is a profile.
+    """
+    window = part(surface.grid, None)
+    axes = axes_for(ax)
+    image, words, cut = heights_image(axes, surface.heights, surface.grid, window, "viridis")
+    colour_bar(axes, image, words, "both" if cut else "neither")
+    if spikes is not None and spikes.count:
+        y, x = (_steps(surface.grid) * (spikes.places + 0.5)).T
+        ring: Any = {"facecolors": "none", "edgecolors": _SPIKE, "linewidths": 1.1, "clip_on": False}
+        axes.scatter(x, y, s=_RING, label=str(spikes), **ring)
+        axes.set_title(f"{spikes}, ringed", fontsize=LABEL)
+    return axes
 
 
-def pressure_map(axes: Axes, solution: Solution, window: Window | None = None) -> None:
+def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window | None = None) -> Axes:
     """Draw the pressure in colour over the heights in grey, with a colour bar.
 
-    Spots too small to be seen at this scale get a dot in the colour of their largest pressure. A
-    `window` of cells (two slices) shows a part of the map; see `contact_window`.
+    Spots too small to be seen at this scale get a dot in the colour of their largest pressure.
+
+    Parameters
+    ----------
+    solution : Solution
+        On a grid of two axes.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    window : tuple of two slices, optional
+        Rows and columns of the part to show.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the solution is that of a line or of rings.
     """
-    _backdrop(axes, solution, window)
+    solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
+    axes = axes_for(ax)
+    _backdrop(axes, solution, window)
     chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
     pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
     highest, cut = _limit(pressure[~np.isnan(pressure)])
-    end = written(highest / chosen.factor, VARIABLES["pressure"].unit) if cut else ""
+    end = written(highest / chosen.factor, VARIABLES["pressure"].unit)
+    words = f"\n(colours end at {end})" if cut else ""
     image = show(axes, pressure, grid, cells, "inferno", (0.0, highest))
     x, y, peaks, _ = _marks(solution, cells)
     dots: Any = {"s": 16, "cmap": image.cmap, "norm": image.norm, "linewidths": 0.5, "edgecolors": "white"}
     axes.scatter(x, y, c=peaks * chosen.factor, **dots)
-    colour_bar(axes, image, f"{VARIABLES['pressure'].label} [{chosen.unit}]", end)
+    name = f"{VARIABLES['pressure'].label} [{chosen.unit}]{words}"
+    colour_bar(axes, image, name, "max" if cut else "neither")
+    return axes
 
 
 def contact_map(
-    axes: Axes, solution: Solution, window: Window | None = None, frame: Window | None = None
-) -> None:
+    solution: Solution, ax: Axes | None = None, *, window: Window | None = None, frame: Window | None = None
+) -> Axes:
     """Draw the cells in contact over the heights in grey.
 
-    Spots too small to be seen at this scale are ringed, the larger the load the larger the ring. A
-    `window` of cells (two slices) shows a part; a `frame` outlines a part that is shown elsewhere.
+    Spots too small to be seen at this scale are ringed, the larger the load the larger the ring.
+
+    Parameters
+    ----------
+    solution : Solution
+        On a grid of two axes.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    window : tuple of two slices, optional
+        Rows and columns of the part to show.
+    frame : tuple of two slices, optional
+        Rows and columns of a part to outline, which is shown elsewhere.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the solution is that of a line or of rings.
     """
-    _backdrop(axes, solution, window)
+    solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
+    axes = axes_for(ax)
+    _backdrop(axes, solution, window)
     touched = np.where(solution.contact[cells], 1.0, np.nan)
     show(axes, touched, grid, cells, ListedColormap([_CONTACT]), (0.0, 1.0))
     x, y, _, loads = _marks(solution, cells)
@@ -65,6 +143,7 @@ def contact_map(
     if frame is not None:
         left, right, bottom, top = extent(grid, frame)
         box(axes, (left, right), (top, bottom), color="black", linewidth=1)
+    return axes
 
 
 def _limit(pressures: Array) -> tuple[float, bool]:
@@ -89,6 +168,10 @@ def _marks(solution: Solution, cells: Window) -> tuple[Array, Array, Array, Arra
     """Return x, y on the axes, largest pressure [Pa] and load [N] of the spots that need a mark."""
     spots, places = faint_spots(solution, cells)
     peaks = solution.pressure[tuple(places.T)]
-    steps = np.array(solution.problem.grid.spacing) * length_scale(solution.problem.grid).factor
-    y, x = ((places + 0.5) * steps).T
+    y, x = (_steps(solution.problem.grid) * (places + 0.5)).T
     return x, y, peaks, solution.spots.loads[spots]
+
+
+def _steps(grid: AnyGrid) -> Array:
+    """Return what leads from rows and columns to places on the axes: the sides of a cell in their unit."""
+    return np.array(grid.spacing) * length_scale(grid).factor

@@ -1,30 +1,48 @@
-"""Heights along a line, drawn on axes that the caller owns."""
+"""Heights and pressure along a line."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.engineering_units import scale
-from roughcontact.plot.ticks import label_axes
+from roughcontact.contact.solution import Solution
+from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.axes_for import axes_for
+from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.raster import length_scale
+from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, require
 
-__all__ = ["profile_curve"]
+__all__ = ["contact_profile", "pressure_profile", "profile_curve"]
 
-_LINE = "#0072b2"
+_LINE, _SPIKE, _CONTACT = "#0072b2", "#d55e00", "#c8290b"
+_FLAT = (7.0, 2.8)  # size of a picture of a line
 
 
-def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
+def profile_curve(
+    surface: Surface, ax: Axes | None = None, *, row: int | None = None, spikes: Spikes | None = None
+) -> Axes:
     """Draw the heights along a row of a surface, or a profile; the curve is broken where points are missing.
 
     Parameters
     ----------
-    axes : Axes
     surface : Surface
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
     row : int, optional
         Row of the picture, counted from 0 at its top, or from -1 at its bottom; by default the middle one. A line
         scan has none.
+    spikes : Spikes, optional
+        Such as ``roughcontact.find_spikes(surface)``: the cells of those on the row are marked.
+
+    Returns
+    -------
+    Axes
 
     Raises
     ------
@@ -32,12 +50,14 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
         If there is no such row.
     """
     heights = surface.heights
+    marked = None if spikes is None else spikes.mask
     if surface.grid.ndim == 2:
         rows = heights.shape[0]
         chosen = rows // 2 if row is None else row
         if not -rows <= chosen < rows:
             raise ValueError(f"row must lie between {-rows} and {rows - 1}, not at {chosen}")
         heights = heights[chosen]
+        marked = None if marked is None else marked[chosen]
     elif row is not None:
         raise ValueError(f"a profile has no row {row}: leave row out")
     step = surface.grid.spacing[-1]
@@ -45,6 +65,95 @@ def profile_curve(axes: Axes, surface: Surface, row: int | None = None) -> None:
     x = scale(heights.size * step, VARIABLES["lengths"].unit)
     # One missing row says nothing about the unit of the picture.
     z = scale(float(np.nanmax(np.abs(surface.heights))), VARIABLES["heights"].unit)
+    axes = axes_for(ax, _FLAT)
     axes.plot(places * x.factor, heights * z.factor, color=_LINE, linewidth=1.0)
+    if spikes is not None and marked is not None and marked.any():
+        style: Any = {"color": _SPIKE, "markersize": 4, "label": str(spikes)}
+        axes.plot(places[marked] * x.factor, heights[marked] * z.factor, "o", **style)
+        axes.set_title(str(spikes), fontsize=LABEL)
     axes.set_xlim(0.0, heights.size * step * x.factor)
     label_axes(axes, f"x [{x.unit}]", f"{VARIABLES['heights'].label} [{z.unit}]", grid=True)
+    return axes
+
+
+def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
+    """Draw the heights of a line or of rings over the flat, before and under the load, and the cells in contact.
+
+    Parameters
+    ----------
+    solution : Solution
+        On a grid of one axis.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the solution is that of a surface.
+    """
+    solution, axes = _of_line(solution), axes_for(ax, _FLAT)
+    problem = solution.problem
+    before = np.where(problem.measured, solution.depth - problem.separation, np.nan)
+    z = scale(float(np.nanmax(np.abs(before))), VARIABLES["heights"].unit)
+    x, unit, name = _places(problem.grid)
+    middle = (x[1:] + x[:-1]) / 2
+    for heights, colour, words in ((before, "0.6", "before"), (-solution.gap, _LINE, "under the load")):
+        axes.plot(middle, heights * z.factor, color=colour, linewidth=1.0, label=words)
+    touched = np.flatnonzero(solution.contact)
+    if touched.size:
+        style: Any = {"color": _CONTACT, "linewidth": 3.0, "label": "in contact", "zorder": 3}
+        axes.hlines(0.0 * touched, x[touched], x[touched + 1], **style)
+    axes.set_xlim(x[0], x[-1])
+    label_axes(axes, f"{name} [{unit}]", f"height over the flat [{z.unit}]", grid=True)
+    axes.legend(fontsize=TICK, frameon=False)
+    return axes
+
+
+def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
+    """Draw the pressure along a line or over the radius of rings, each cell as it is.
+
+    Parameters
+    ----------
+    solution : Solution
+        On a grid of one axis.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the solution is that of a surface.
+    """
+    solution, axes = _of_line(solution), axes_for(ax, _FLAT)
+    unit = unit_of("pressure", solution.problem.geometry)
+    largest = float(solution.pressure.max())
+    p, (x, of_x, name) = scale(largest, unit), _places(solution.problem.grid)
+    axes.stairs(solution.pressure * p.factor, x, fill=True, color=_LINE)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(bottom=0.0)
+    axes.set_title(f"at most {written(largest, unit)}", fontsize=LABEL)
+    label_axes(axes, f"{name} [{of_x}]", f"{VARIABLES['pressure'].label} [{p.unit}]", grid=True)
+    return axes
+
+
+def _of_line(solution: Solution) -> Solution:
+    """Return the solution on the host, if its grid has one axis."""
+    require(solution.problem.grid.ndim == 1, "this is a surface: draw it with pressure_map or contact_map")
+    return solution.on_host()
+
+
+def _places(grid: AnyGrid) -> tuple[Array, str, str]:
+    """Return the edges of the cells of a line or of rings, their unit and the name of their axis."""
+    x = length_scale(grid)
+    if isinstance(grid, RadialGrid):
+        return grid.edges * x.factor, x.unit, "r"
+    edges = np.arange(grid.size + 1, dtype=np.float64) * grid.spacing[0]
+    return edges * x.factor, x.unit, "x"

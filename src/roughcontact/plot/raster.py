@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,8 +12,9 @@ from matplotlib.image import AxesImage
 
 from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.engineering_units import Scale, scale
+from roughcontact.plot.engineering_units import Scale, scale, written
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.usual_range import usual_range
 from roughcontact.validation import Array
 
 __all__ = [
@@ -34,6 +35,9 @@ Colours = Colormap | str
 # More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
 # leaves out some rows could leave out the contact.
 _DRAWN = 1024
+_ALIKE = (
+    0.05  # of their size, that heights differ by: as numbers they would differ in their last digits alone
+)
 
 
 def part(grid: AnyGrid, window: Window | None) -> Window:
@@ -102,25 +106,35 @@ def pooled(values: Array) -> Array:
 
 def heights_image(
     axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colours
-) -> tuple[AxesImage, str]:
-    """Draw heights, hatched where they are missing; return the image and the unit."""
+) -> tuple[AxesImage, str, bool]:
+    """Draw heights, hatched where missing; return the image, its words, and whether colours end before heights.
+
+    Heights that differ by little of their size are drawn above one of them, which the words name.
+    """
     window = part(grid, window)
     inside = heights[window]
     measured = inside[~np.isnan(inside)]
-    low, high = (measured.min(), measured.max()) if measured.size else (0.0, 0.0)
-    chosen = scale(float(max(abs(low), abs(high))), VARIABLES["heights"].unit)
+    whole = (float(measured.min()), float(measured.max())) if measured.size else (0.0, 0.0)
+    low, high = (usual_range(measured) if measured.size else None) or whole
+    words, unit, datum = VARIABLES["heights"].label, VARIABLES["heights"].unit, 0.0
+    if 0 < high - low < _ALIKE * max(abs(low), abs(high)):
+        datum = float(f"{low:.3g}")
+        words += f" above {written(datum, unit)}"
+    chosen = scale(max(abs(low - datum), abs(high - datum)), unit)
+    words += f" [{chosen.unit}]"
+    if cut := (low, high) != whole:
+        words += f"\n(heights go from {written(whole[0], unit)} to {written(whole[1], unit)})"
     if measured.size < inside.size:
         axes.patch.set(facecolor="white", edgecolor="0.55", hatch="//////")
-    limits = low * chosen.factor, high * chosen.factor
-    return show(axes, inside * chosen.factor, grid, window, colours, limits), chosen.unit
+    shown, limits = (inside - datum) * chosen.factor, [(end - datum) * chosen.factor for end in (low, high)]
+    return show(axes, shown, grid, window, colours, (limits[0], limits[1])), words, cut
 
 
-def colour_bar(axes: Axes, image: AxesImage, label: str, end: str = "") -> None:
-    """Put a colour bar beside the map, as high as the map itself.
-
-    Where larger values than the last colour occur, the bar is pointed and says at which value it does `end`.
-    """
-    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend="max" if end else "neither")
-    bar.set_label(f"{label}\n(colours end at {end})" if end else label, fontsize=LABEL)
+def colour_bar(
+    axes: Axes, image: AxesImage, label: str, extend: Literal["neither", "max", "both"] = "neither"
+) -> None:
+    """Put a colour bar beside the map, as high as the map itself; pointed where values go on beyond its colours."""
+    bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend=extend)
+    bar.set_label(label, fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)
     bar.outline.set_linewidth(0.5)

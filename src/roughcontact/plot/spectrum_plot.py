@@ -1,4 +1,4 @@
-"""Power spectra, drawn on axes that the caller owns."""
+"""Power spectra."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import Scale, scale
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.surface.analysis.hurst import HurstFit
@@ -43,14 +44,29 @@ class SpectrumScales:
 
 
 def spectrum_curve(
-    axes: Axes, spectrum: PowerSpectrum, law: HurstFit | None = None, *, label: str = "measured"
-) -> None:
+    spectrum: PowerSpectrum, ax: Axes | None = None, *, law: HurstFit | None = None, label: str = "measured"
+) -> Axes:
     """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
 
     Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
-    averaged to forty a decade. `law` is drawn over the band that it was fitted in; vertical lines mark where it ends.
-    `label` says in the legend where the spectrum comes from.
+    averaged to forty a decade.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    law : HurstFit, optional
+        Such as `roughcontact.fit_spectrum` returns: drawn over the band that it was fitted in; vertical lines mark
+        where it ends.
+    label : str
+        Says in the legend where the spectrum comes from.
+
+    Returns
+    -------
+    Axes
     """
+    axes = axes_for(ax)
     shown = spectrum.rebinned(_DRAWN)
     with_power = shown.density > 0  # a logarithmic axis has no place for zero
     wavelengths = shown.wavelength[with_power]
@@ -72,6 +88,7 @@ def spectrum_curve(
     # Last, since a limit that is set ends the fitting of the axis to what is drawn.
     axes.set_ylim(bottom=float(density[with_power].min()) / _ROOM)
     axes.legend(loc="lower left", fontsize=TICK, frameon=False)
+    return axes
 
 
 def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -> SpectrumScales:

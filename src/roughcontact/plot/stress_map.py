@@ -1,47 +1,52 @@
-"""The stress below a line of cells, drawn on axes that the caller owns."""
+"""The stress below a line of cells."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from roughcontact.contact.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.subsurface.fields_below import stress
 from roughcontact.material import Solid
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.raster import colour_bar, length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
 
-__all__ = ["von_mises_figure", "von_mises_section"]
+__all__ = ["von_mises_section"]
 
 DEPTHS = 40
 
 
 def von_mises_section(
-    axes: Axes,
     solution: Solution,
     solid: Solid | float,
+    ax: Axes | None = None,
     *,
     row: int | None = None,
     deepest: float | None = None,
-) -> None:
+) -> Axes:
     """Draw the equivalent stress of von Mises below a row of cells, and mark where it is largest there.
 
     A line along the top shows which cells are in contact.
 
     Parameters
     ----------
-    axes : Axes
     solution : Solution
         Of a half-space under a surface, with at least one cell in contact.
     solid : Solid or float
         The body looked into, or its Poisson's ratio.
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
     row : int, optional
         Index of the row; the one that holds the largest pressure without.
     deepest : float, optional
         Depth where the picture ends [m]; the extent of the contact without.
+
+    Returns
+    -------
+    Axes
 
     Raises
     ------
@@ -65,6 +70,7 @@ def von_mises_section(
     here = row - first[0]
     values = np.stack([stress(pressure, part, depth, nu).von_mises[here] for depth in depths])
 
+    axes = axes_for(ax, (6.4, 3.6))
     unit, length = scale(float(values.max()), "Pa"), length_scale(grid)
     left = first[1] * grid.spacing[1] * length.factor
     right = left + part.lengths[1] * length.factor
@@ -82,10 +88,4 @@ def von_mises_section(
     axes.set_title(f"largest in this section {largest}, {below} deep", fontsize=LABEL)
     label_axes(axes, f"x [{length.unit}]", f"depth [{length.unit}]")
     colour_bar(axes, image, f"von Mises stress [{unit.unit}]")
-
-
-def von_mises_figure(solution: Solution, solid: Solid | float, *, row: int | None = None) -> Figure:
-    """Return the equivalent stress of von Mises below a row of cells."""
-    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
-    von_mises_section(figure.subplots(), solution, solid, row=row)
-    return figure
+    return axes

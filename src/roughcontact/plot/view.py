@@ -1,4 +1,4 @@
-"""A surface seen from aside, drawn on three-dimensional axes that the caller owns."""
+"""A surface seen from aside."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
@@ -22,19 +23,23 @@ _DRAWN = 200  # points along a side: more take long, and no page shows them
 _HEIGHT = 0.3  # of the box over its longer side: heights are drawn larger than they are
 
 
-def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
+def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = True) -> Axes3D:
     """Draw a surface from aside, its heights enlarged to be seen; points that were not measured are left open.
 
     More than 200 points along a side are averaged over blocks first. The first row of the picture lies at the back.
 
     Parameters
     ----------
-    axes : Axes3D
-        Made with ``projection="3d"``.
     surface : Surface
         On a grid of two axes.
+    ax : Axes3D, optional
+        Axes to draw on, made with ``projection="3d"``; without, those of a new figure.
     frame : bool
         Whether to draw the box with its scales.
+
+    Returns
+    -------
+    Axes3D
 
     Raises
     ------
@@ -43,6 +48,7 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     """
     if surface.grid.ndim != 2:
         raise ValueError("a profile has no view from aside: draw it with profile_curve")
+    axes: Any = axes_for(ax, projection="3d")
     small = _reduced(surface)
     grid = small.grid
     length, z = length_scale(grid), scale(float(np.nanmax(np.abs(small.heights))), VARIABLES["heights"].unit)
@@ -64,6 +70,7 @@ def surface_view(axes: Axes3D, surface: Surface, *, frame: bool = True) -> None:
     every = {"rstride": 1, "cstride": 1, "linewidth": 0, "antialiased": False, "shade": False}
     axes.plot_surface(*np.meshgrid(x, y), heights, facecolors=opaque, **every)
     _box(axes, surface, (length.factor, length.unit), (low, high, z.unit), frame)
+    return axes
 
 
 def _reduced(surface: Surface) -> Surface:

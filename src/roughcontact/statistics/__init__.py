@@ -2,6 +2,11 @@
 
 from types import ModuleType as _Module
 
+from roughcontact.statistics.averages import (
+    averages as averages,
+    combinations as combinations,
+    sample_dimensions as sample_dimensions,
+)
 from roughcontact.statistics.common_forces import on_common as on_common
 from roughcontact.statistics.fit import fit_power_laws as fit_power_laws, law_at as law_at
 from roughcontact.statistics.fit_window import (

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
+from roughcontact.pictures import plot_surface, surface_html
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.height_range import own_heights
 from roughcontact.surface.levelling import levelled, without_form
@@ -192,3 +193,6 @@ class Surface:
     transposed = on_host_only(transposed)
     flipped = on_host_only(flipped)
     rotated = on_host_only(rotated)
+
+    plot = on_host_only(plot_surface)
+    _repr_html_ = surface_html

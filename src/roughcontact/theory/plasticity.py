@@ -9,11 +9,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from roughcontact.theory.nayak import summits
 from roughcontact.theory.profile_moments import ProfileMoments, moment
-from roughcontact.validation import numeric, positive
+from roughcontact.validation import Array, number, numeric, positive, require
 
-__all__ = ["PlasticityIndex", "asperity_index", "slope_index"]
+__all__ = ["PlasticityIndex", "asperity_index", "slope_index", "summit_index"]
+
+ELASTIC_BELOW, PLASTIC_ABOVE = 0.6, 1.0  # Greenwood and Williamson (1966)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -112,7 +116,64 @@ def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> 
     'plastic'
     """
     mean = summits(moments)
-    return PlasticityIndex(math.sqrt(mean.std / mean.radius) * _ratio(modulus, hardness), 0.6, 1.0)
+    value = math.sqrt(mean.std / mean.radius) * _ratio(modulus, hardness)
+    return PlasticityIndex(value, ELASTIC_BELOW, PLASTIC_ABOVE)
+
+
+@numeric
+def summit_index(height: Array, curvature: Array, modulus: float, hardness: float) -> PlasticityIndex:
+    """Return ``(E*/sigma_0) sqrt(s kappa)`` of summits that were found on a surface; limits as of `asperity_index`.
+
+    Parameters
+    ----------
+    height : array, shape (n,)
+        Of each summit above any common plane [m]; s is their standard deviation.
+    curvature : array, shape (n,)
+        Mean curvature of each summit [1/m]; kappa is the mean of all.
+    modulus : float
+        Reduced modulus E* [Pa].
+    hardness : float
+        Indentation hardness of the softer body sigma_0 [Pa].
+
+    Returns
+    -------
+    PlasticityIndex
+
+    Raises
+    ------
+    ValueError
+        If there are less than two summits, their heights or curvatures are not finite or not as many, or the mean
+        curvature is not positive.
+
+    Notes
+    -----
+    Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966). On an isotropic Gaussian surface whose shortest waves are
+    well resolved it is `asperity_index`; any other surface has summits, too. Spikes of a measurement are among them:
+    remove them first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import plasticity
+    >>> grid = rc.Grid((128, 128), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(0), short_cutoff=16e-6)
+    >>> summits = rc.find_summits(surface)
+    >>> plasticity.summit_index(summits.height, summits.mean_curvature, 1e10, 1e10).regime
+    'elastic'
+    """
+    heights, curvatures = (
+        np.ravel(number(each, name)) for each, name in ((height, "height"), (curvature, "curvature"))
+    )
+    require(
+        heights.size == curvatures.size and heights.size > 1,
+        f"an index takes heights and curvatures of two summits or more, not {heights.size} and {curvatures.size}",
+    )
+    for each, name in ((heights, "height [m]"), (curvatures, "curvature [1/m]")):
+        require(np.isfinite(each), f"every {name} of a summit must be finite")
+    kappa = float(positive(float(curvatures.mean()), "the mean curvature of the summits [1/m]"))
+    value = math.sqrt(float(heights.std()) * kappa) * _ratio(modulus, hardness)
+    return PlasticityIndex(value, ELASTIC_BELOW, PLASTIC_ABOVE)
 
 
 def _ratio(modulus: float, hardness: float) -> float:

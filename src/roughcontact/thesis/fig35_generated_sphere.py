@@ -42,5 +42,5 @@ def draw(figure: Figure, data: rc.Surface) -> None:
     grid = data.grid
     y, x = (place - length / 2 for place, length in zip(grid.coordinates, grid.lengths, strict=True))
     inside = np.hypot(*np.meshgrid(y, x, indexing="ij")) <= LENGTH / 2
-    surface_view(axes, rc.Surface(np.where(inside, data.heights, np.nan), grid), frame=False)
+    surface_view(rc.Surface(np.where(inside, data.heights, np.nan), grid), axes, frame=False)
     axes.set_box_aspect((1, 1, 0.3), zoom=1.15)

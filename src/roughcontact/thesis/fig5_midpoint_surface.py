@@ -57,7 +57,7 @@ def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
         axes.set_title(words)
     for place, (letter, level, surface) in enumerate(zip("def", LEVELS, data, strict=True), start=4):
         view = figure.add_subplot(2, 3, place, projection="3d")
-        surface_view(view, surface, frame=False)
+        surface_view(surface, view, frame=False)
         view.set_title(f"({letter}) {level} {'level' if level == 1 else 'levels'}", loc="left")
 
 

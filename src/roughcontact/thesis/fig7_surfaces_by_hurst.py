@@ -38,5 +38,5 @@ def draw(figure: Figure, data: tuple[rc.Surface, ...]) -> None:
     places = [table[0, 0:2], table[0, 2:4], table[0, 4:6], table[1, 1:3], table[1, 3:5]]
     for letter, place, hurst, surface in zip("abcde", places, EXPONENTS, data, strict=True):
         axes = figure.add_subplot(place, projection="3d")
-        surface_view(axes, surface, frame=False)
+        surface_view(surface, axes, frame=False)
         axes.set_title(f"({letter})  H = {hurst:.1f}", loc="center", y=0.92)

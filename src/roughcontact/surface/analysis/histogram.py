@@ -65,7 +65,9 @@ class HeightHistogram:
 
 
 @numeric
-def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
+def height_histogram(
+    surface: Surface, *, bins: int = 100, ends: tuple[float, float] | None = None
+) -> HeightHistogram:
     """Return the histogram of the heights above their mean.
 
     Parameters
@@ -73,7 +75,9 @@ def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     surface : Surface
         Missing points are ignored.
     bins : int
-        Number of bins between the lowest and the highest point.
+        Number of bins.
+    ends : tuple of two floats, optional
+        Heights above the mean between which they lie [m]; by default the lowest and the highest point.
 
     Returns
     -------
@@ -83,7 +87,7 @@ def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     Raises
     ------
     ValueError
-        If the number of bins is not a positive whole number.
+        If the number of bins is not a positive whole number, or the ends do not rise or hold no point.
 
     Examples
     --------
@@ -98,5 +102,15 @@ def height_histogram(surface: Surface, *, bins: int = 100) -> HeightHistogram:
     require(bins >= 1, f"bins must be a positive whole number, not {bins}")
     heights = surface.heights[surface.measured]
     heights -= heights.mean()
-    count, edges = np.histogram(heights, bins=int(bins))
+    count, edges = np.histogram(heights, bins=int(bins), range=None if ends is None else _ends(ends))
+    require(count.sum() > 0, f"ends must have points between them, not {ends}")
     return HeightHistogram(edges, count, surface.rms)
+
+
+def _ends(given: tuple[float, float]) -> tuple[float, float]:
+    low, high = (float(end) for end in given)
+    require(
+        -np.inf < low < high < np.inf,
+        f"ends must be a height above the mean [m] and a larger one, not {given}",
+    )
+    return low, high

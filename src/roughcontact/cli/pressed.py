@@ -1,0 +1,92 @@
+"""What is pressed: the kind of the map, and whether its asperities stay elastic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli.messages import is_ours, note
+from roughcontact.cli.report import quantity
+
+if TYPE_CHECKING:
+    from roughcontact.contact.load_search import SurfaceKind
+    from roughcontact.surface.surface import Surface
+    from roughcontact.theory.plasticity import PlasticityIndex
+
+__all__ = ["Pressed"]
+
+
+@dataclass(frozen=True, slots=True)
+class Pressed:
+    """A surface as a contact knows it.
+
+    Parameters
+    ----------
+    kind : SurfaceKind
+        Periodic, nominally flat, with form, or a profile.
+    words : str
+        The same in words.
+    index : PlasticityIndex or None
+        Of Greenwood and Williamson, where a hardness is known.
+    softer : (float, str) or None
+        The hardness [Pa], and of what it is.
+    """
+
+    kind: SurfaceKind
+    words: str
+    index: PlasticityIndex | None
+    softer: tuple[float, str] | None
+
+    @classmethod
+    def of(cls, surface: Surface, modulus: float, softer: tuple[float, str] | None) -> Pressed:
+        """Return what a surface is; say on standard error why a known hardness gives no index."""
+        from roughcontact.contact.load_search import SurfaceKind
+
+        kind = SurfaceKind.of(surface)
+        if surface.grid.ndim == 1:  # which has no summits
+            return cls(kind, "a periodic profile" if all(surface.grid.periodic) else "a profile", None, None)
+        return cls(kind, kind.value, None if softer is None else _index(surface, modulus, softer[0]), softer)
+
+    def facts(self) -> list[tuple[str, str]]:
+        """Return what is worth telling, line by line."""
+        lines = [("the map is", self.words)]
+        if self.index is not None and self.softer is not None:
+            index, of = self.index, f"{quantity('hardness', self.softer[0])} {self.softer[1]}"
+            lines.append(
+                (
+                    "plasticity index",
+                    f"{index.value:.3g}, {index.regime} (elastic below {index.elastic_below:g}, plastic above "
+                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of})",
+                )
+            )
+        return lines
+
+    def record(self) -> dict[str, Any]:
+        """Return the same as plain values."""
+        if self.index is None or self.softer is None:
+            return {"kind": self.kind.value, "plasticity_index": None}
+        return {
+            "kind": self.kind.value,
+            "plasticity_index": {
+                "value": self.index.value,
+                "regime": self.index.regime,
+                "elastic_below": self.index.elastic_below,
+                "plastic_above": self.index.plastic_above,
+                "hardness": self.softer[0],
+            },
+        }
+
+
+def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:
+    """Return the index of the summits of a map; None, and why, where there is none."""
+    import roughcontact as rc
+
+    try:
+        flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
+        summits = rc.find_summits(flat)
+        return rc.theory.plasticity.summit_index(summits.height, summits.mean_curvature, modulus, hardness)
+    except ValueError as error:
+        if not is_ours(error):
+            raise
+        note(f"no plasticity index: {error}")
+        return None

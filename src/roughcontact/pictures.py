@@ -1,0 +1,143 @@
+"""How values are drawn: the door from what is computed to the room that draws.
+
+`Surface`, `Solution` and `Curve` have these functions as their methods. What draws is imported when they are called.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+
+    from roughcontact.contact.compare import Law
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.solution import Solution
+    from roughcontact.statistics.power_law import PowerLaw
+    from roughcontact.surface.spikes import Spikes
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["curve_html", "plot_curve", "plot_solution", "plot_surface", "solution_html", "surface_html"]
+
+
+def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
+    """Draw the heights: a map in colour, of a profile a curve.
+
+    Parameters
+    ----------
+    surface : Surface
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    spikes : Spikes, optional
+        Such as ``roughcontact.find_spikes(surface)``: marked, and left out of the range of colours.
+
+    Returns
+    -------
+    Axes
+    """
+    from roughcontact.plot.maps import height_map
+    from roughcontact.plot.profile_plot import profile_curve
+
+    draw = height_map if surface.grid.ndim == 2 else profile_curve
+    return draw(surface, ax, spikes=spikes)
+
+
+def plot_solution(
+    solution: Solution, ax: Axes | None = None, *, field: Literal["pressure", "contact"] = "pressure"
+) -> Axes:
+    """Draw the pressure, or the cells in contact over the heights: maps, of a line or of rings curves.
+
+    Parameters
+    ----------
+    solution : Solution
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    field : {"pressure", "contact"}
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the field is another.
+    """
+    from roughcontact.plot import maps, profile_plot
+
+    if field not in ("pressure", "contact"):
+        raise ValueError(f"field must be 'pressure' or 'contact', not {field!r}")
+    if solution.problem.grid.ndim == 1:
+        one = {"pressure": profile_plot.pressure_profile, "contact": profile_plot.contact_profile}
+        return one[field](solution, ax)
+    return maps.pressure_map(solution, ax) if field == "pressure" else maps.contact_map(solution, ax)
+
+
+def plot_curve(
+    curve: Curve,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "stiffness",
+    law: PowerLaw | None = None,
+    theories: Sequence[Law] = (),
+) -> Axes:
+    """Draw a quantity against load, both logarithmic; points that the grid does not resolve are open.
+
+    Parameters
+    ----------
+    curve : Curve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    quantity : str
+        ``"stiffness"``, ``"contact_area"`` or ``"depth"`` against force; ``"interfacial_stiffness_per_area"``,
+        ``"contact_fraction"`` or ``"mean_gap"`` against nominal pressure.
+    law : PowerLaw, optional
+        To be drawn with a stiffness, such as ``curve.fit()``.
+    theories : sequence of Law, optional
+        Such as those of `roughcontact.loading_laws`.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the quantity is another, or a law is given that is not about it.
+    """
+    from roughcontact.plot import curves
+
+    draw = {"contact_area": curves.area_curve, "depth": curves.depth_curve}
+    if law is not None and "stiffness" not in quantity:
+        raise ValueError(f"law is about the stiffness: leave it out with {quantity!r}")
+    if quantity == "stiffness":
+        return curves.stiffness_curve(curve, ax, law=law, theories=theories)
+    if quantity in draw:
+        return draw[quantity](curve, ax, theories=theories)
+    if quantity not in curves.PER_AREA:
+        every = ", ".join(("stiffness", *draw, *curves.PER_AREA))
+        raise ValueError(f"quantity must be one of {every}, not {quantity!r}")
+    return curves.areal_curve(curve, ax, quantity=quantity, law=law, theories=theories)
+
+
+def surface_html(surface: Surface) -> str | None:
+    """Return a surface as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_surface(surface)
+
+
+def solution_html(solution: Solution) -> str:
+    """Return a solution as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_solution(solution)
+
+
+def curve_html(curve: Curve) -> str:
+    """Return a curve as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_curve(curve)

@@ -1,0 +1,140 @@
+"""What is worth telling of an answer, line by line and in units that suit: on a screen and in a notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.engineering_units import Scale, pretty, scale, written
+from roughcontact.solver.control import Status
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.contact.solution import Solution
+    from roughcontact.grid import AnyGrid
+    from roughcontact.surface.surface import Surface
+
+__all__ = [
+    *("AREAL_COLUMNS", "CURVE_COLUMNS"),
+    *("load_table", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
+]
+
+_ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
+CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
+AREAL_COLUMNS = (
+    *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
+    *("mean_gap", "spots", "residual"),
+)
+
+
+def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
+    """Return a quantity of the table of variables with a unit that suits it."""
+    return written(value, unit_of(name, geometry), digits=4)
+
+
+def size_of(grid: AnyGrid) -> str:
+    """Return the cells and the side lengths of a grid in words."""
+    cells = " x ".join(str(n) for n in grid.shape)
+    lengths = " x ".join(quantity("lengths", length) for length in grid.lengths)
+    return f"{cells} cells, {lengths}, {'periodic' if all(grid.periodic) else 'free'}"
+
+
+def solution_facts(solution: Solution) -> list[tuple[str, str]]:
+    """Return what one loaded state is worth telling, line by line."""
+    problem, kind = solution.problem, solution.problem.geometry
+    pressure = solution.force / problem.grid.area
+    met = "met" if solution.status.converged else "MISSED"
+    return [
+        ("surface", size_of(problem.grid)),
+        ("reduced modulus E*", quantity("modulus", problem.modulus)),
+        ("force", quantity("force", solution.force, kind)),
+        ("nominal pressure", quantity("pressure", pressure, kind)),
+        ("largest pressure", quantity("pressure", float(solution.pressure.max()), kind)),
+        ("depth", quantity("depth", solution.depth, kind)),
+        ("stiffness", quantity("stiffness", solution.stiffness, kind)),
+        ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
+        ("contact area", quantity("contact_area", solution.contact_area, kind)),
+        ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
+        ("contact spots", str(solution.spots.count)),
+        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)), kind)),
+        ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
+        ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
+    ]
+
+
+def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
+    header, columns = [], []
+    geometry = Geometry(dataset.attrs.get("geometry", "surface"))
+    for name in names:
+        values, known = dataset[name].to_numpy(), unit_of(name, geometry)
+        if name == "mean_gap":
+            values = _closed(values, dataset["depth"].to_numpy())
+        plain = known in ("", "1")
+        chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
+        label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
+        header.append(label if plain else f"{label} [{chosen.unit or pretty(known)}]")
+        digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
+        columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
+    if {"resolved", "status"} <= dataset.keys():
+        header.append("")
+        points = zip(dataset["resolved"].to_numpy(), dataset["status"].to_numpy(), strict=True)
+        columns.append([_remark(*point) for point in points])
+    return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def surface_record(surface: Surface) -> dict[str, Any]:
+    """Return what is worth keeping of a surface, as plain values."""
+    grid = surface.grid
+    return {
+        "shape": list(grid.shape),
+        "spacing": list(grid.spacing),
+        "lengths": list(grid.lengths),
+        "periodic": list(grid.periodic),
+        "missing": surface.missing,
+        "rms": surface.rms,
+        "rms_levelled": surface.levelled("plane").rms,
+        "lowest": float(np.nanmin(surface.heights)),
+        "highest": float(np.nanmax(surface.heights)),
+        "provenance": list(surface.provenance),
+        "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
+    }
+
+
+def surface_facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what is worth telling of a surface, line by line."""
+    cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
+    missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
+    trend = "plane" if surface.grid.ndim == 2 else "slope"
+    rms = f"{quantity('rms', surface.rms)}; {quantity('rms', record['rms_levelled'])} about its {trend}"
+    return [
+        ("size", size_of(surface.grid)),
+        ("cell", cell),
+        ("missing points", missing),
+        ("rms height", rms),
+        ("heights", f"{quantity('heights', record['lowest'])} to {quantity('heights', record['highest'])}"),
+        *(("history", line) for line in record["provenance"]),
+    ]
+
+
+def _scale(values: Any, unit: str, known: str) -> Scale:
+    """Return the unit that suits a column; one that the user chose stays."""
+    if unit != known:
+        return Scale(1.0, unit)
+    return scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), unit)
+
+
+def _closed(gap: Any, depth: Any) -> Any:
+    """Return mean gaps with 0 for those that are mere rounding of the depth."""
+    return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
+
+
+def _remark(resolved: bool, status: str) -> str:
+    if not Status(status).converged:
+        return f"MISSED: {status}"
+    return "" if resolved else "not resolved"

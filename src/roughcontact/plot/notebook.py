@@ -1,0 +1,90 @@
+"""What a notebook shows of a value: what is worth telling as a table, beside a picture."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from html import escape
+from io import BytesIO
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughcontact.arrays import is_numpy
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.dataset import curve_dataset
+from roughcontact.contact.solution import Solution
+from roughcontact.pictures import plot_curve, plot_solution, plot_surface
+from roughcontact.plot.facts import (
+    AREAL_COLUMNS,
+    CURVE_COLUMNS,
+    load_table,
+    quantity,
+    solution_facts,
+    surface_facts,
+    surface_record,
+)
+from roughcontact.surface.surface import Surface
+
+__all__ = ["of_curve", "of_solution", "of_surface"]
+
+_SHOWN = 30  # loads of a longer curve: the first and the last half of these
+_SIZE, _DPI = (4.6, 3.4), 96
+_LEFT = "text-align:left"
+
+
+def of_surface(surface: Surface) -> str | None:
+    """Return size, missing points, heights and history of a surface beside its picture.
+
+    None of heights on another device, so that they stay there: the notebook takes ``repr`` then.
+    """
+    if not is_numpy(surface.heights):
+        return None
+    figure, axes = _figure()
+    plot_surface(surface, axes)
+    return _page("Surface", surface_facts(surface, surface_record(surface)), figure)
+
+
+def of_solution(solution: Solution) -> str:
+    """Return the numbers of one loaded state beside the pressure."""
+    solution = solution.on_host()
+    figure, axes = _figure()
+    plot_solution(solution, axes)
+    facts = [*solution_facts(solution), *(("note", line) for line in solution.notes)]
+    return _page("Solution", facts, figure)
+
+
+def of_curve(curve: Curve) -> str:
+    """Return a table of the loads beside the stiffness; per area against pressure where the map is periodic."""
+    joint = all(curve.periodic)
+    figure, axes = _figure()
+    plot_curve(curve, axes, quantity="interfacial_stiffness_per_area" if joint else "stiffness")
+    header, rows = load_table(curve_dataset(curve), AREAL_COLUMNS if joint else CURVE_COLUMNS)
+    if len(rows) > _SHOWN:
+        left_out = ["..."] * len(header)
+        rows = [*rows[: _SHOWN // 2], left_out, *rows[-_SHOWN // 2 :]]
+    facts = [
+        ("loads", f"{len(curve)}, of which the grid resolves {int(curve.resolved.sum())}"),
+        ("reduced modulus E*", quantity("modulus", curve.modulus)),
+    ]
+    head = f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in header)}</tr>"
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    return _page("Curve", facts, figure) + f"<table>{head}{body}</table>"
+
+
+def _figure() -> tuple[Figure, Axes]:
+    figure = Figure(figsize=_SIZE, dpi=_DPI, layout="constrained")
+    return figure, figure.subplots()
+
+
+def _page(name: str, facts: Sequence[tuple[str, str]], figure: Figure) -> str:
+    """Return a heading, lines of a name and a value, and the picture beside them."""
+    rows = "".join(
+        f'<tr><th style="{_LEFT}">{escape(fact)}</th><td style="{_LEFT}">{escape(value)}</td></tr>'
+        for fact, value in facts
+    )
+    whole = BytesIO()
+    figure.savefig(whole, format="png")
+    picture = f'<img src="data:image/png;base64,{b64encode(whole.getvalue()).decode()}" alt="{name}">'
+    beside = "display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start"
+    return f'<div style="{beside}"><table><caption>{name}</caption>{rows}</table>{picture}</div>'

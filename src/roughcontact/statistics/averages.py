@@ -1,0 +1,136 @@
+"""A study on the average: means and errors of all that it computed, and the power laws of its loading curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.solver.control import Status
+from roughcontact.statistics.fit import fit_power_laws
+from roughcontact.statistics.fit_window import Window
+from roughcontact.statistics.samples import dimensions, summary
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["averages", "combinations", "sample_dimensions"]
+
+_CONVERGED = [status.value for status in Status if status.converged]
+# Along these lie independent draws: those of a study, and those of a case that draws many lines at once.
+_SAMPLES = ("sample", "line")
+
+
+def sample_dimensions(dataset: xarray.Dataset) -> tuple[str, ...]:
+    """Return the dimensions along which the independent samples of a study lie.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As `roughcontact.study.export` makes it.
+
+    Returns
+    -------
+    tuple of str
+        ``sample``, and ``line`` where each sample is many lines.
+    """
+    return tuple(name for name in _SAMPLES if name in dataset.sizes)
+
+
+def averages(
+    dataset: xarray.Dataset,
+    window: Window | None = None,
+    *,
+    rng: np.random.Generator,
+    samples: str | Sequence[str] | None = None,
+) -> xarray.Dataset:
+    """Return means, scatter and errors of all that a study computed, and the power laws of its loading curves.
+
+    Points that missed their tolerance have no part in it.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As `roughcontact.study.export` makes it.
+    window : Window, optional
+        In which power laws are fitted, see `fit_power_laws`.
+    rng : Generator
+        For the intervals of the laws.
+    samples : str or sequence of str, optional
+        Dimensions of the samples; by default those of `sample_dimensions`.
+
+    Returns
+    -------
+    Dataset
+        ``NAME_mean``, ``NAME_standard_error`` and all else of `summary`, of every number that differs from sample to
+        sample; what is the same in all of them as it is. Of loading curves also the laws of `fit_power_laws`, whose
+        numbers of forces and samples are called ``law_count`` and ``law_samples``, and the attribute ``window``; where
+        there are no laws, the attribute ``no_power_law`` says why. ``cases`` counts the cases that are done.
+
+    Raises
+    ------
+    ValueError
+        If no samples lie along a dimension.
+    """
+    over = sample_dimensions(dataset) if samples is None else dimensions(samples)
+    if not over or any(d not in dataset.sizes for d in over):
+        raise ValueError(
+            f"no samples lie along {' or '.join(over or _SAMPLES)}: take what study.export makes"
+        )
+    answered = dataset.assign(
+        {name: _answered(dataset, values) for name, values in dataset.data_vars.items()}
+    )
+    numbers = [
+        str(name)
+        for name, values in answered.data_vars.items()
+        if values.dtype.kind in "fiub" and (set(over) <= set(values.dims) or not set(over) & set(values.dims))
+    ]
+    result = summary(answered, numbers, over)
+    if "case_status" in dataset:
+        result["cases"] = _done(dataset["case_status"], over)
+    try:
+        laws = fit_power_laws(dataset, window, rng=rng, samples=over)
+    except ValueError as error:
+        return result.assign_attrs(no_power_law=str(error))
+    laws = laws.rename(count="law_count", samples="law_samples")
+    return result.assign(laws.data_vars).assign_attrs(window=laws.attrs["window"])
+
+
+def combinations(averaged: xarray.Dataset) -> Iterator[tuple[dict[str, Any], xarray.Dataset]]:
+    """Yield the parameters that vary, by name, and what is known on the average, for each combination of them.
+
+    Parameters
+    ----------
+    averaged : Dataset
+        As `averages` makes it of the export of a study.
+
+    Yields
+    ------
+    tuple of dict and Dataset
+        In the order of the study.
+    """
+    cases = averaged["cases"]
+    for place in np.ndindex(cases.shape):
+        point = averaged.isel(dict(zip(cases.dims, place, strict=True)))
+        yield {name: point[name].item() for name in _varying(averaged)}, point
+
+
+def _varying(averaged: xarray.Dataset) -> tuple[str, ...]:
+    """Return the names of the parameters that vary: the dimensions of the cases, and what lies along their rows."""
+    dims = averaged["cases"].dims
+    in_rows = [name for name, values in averaged.coords.items() if values.dims == ("row",) and name != "row"]
+    return tuple(str(name) for d in dims for name in (in_rows if d == "row" else [d]))
+
+
+def _done(status: xarray.DataArray, over: Sequence[str]) -> xarray.DataArray:
+    done = (status == "done").sum([d for d in over if d in status.dims])
+    return done.assign_attrs(long_name="samples of the combination that are done", units="1")
+
+
+def _answered(dataset: xarray.Dataset, values: xarray.DataArray) -> xarray.DataArray:
+    """Return numbers along the loads with NaN where a load missed its tolerance."""
+    if values.dtype.kind != "f" or "status" not in dataset:
+        return values
+    status = dataset["status"]
+    return values.where(status.isin(_CONVERGED)) if set(status.dims) <= set(values.dims) else values

@@ -1,0 +1,206 @@
+"""What a study says on the average, by command."""
+
+import json
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+from roughcontact.statistics import averages
+from roughcontact.statistics.fit_window import force_window
+from roughcontact.study import Store, export
+
+PAGE = Path(__file__).parents[2] / "docs" / "studies.md"
+TEXT = """
+name = "tried"
+case = "curve"
+seed = 3
+samples = 3
+parameters = { size = "1 mm", rms = "1 um", modulus = "110 GPa", loads = 8, lowest_force = 5e-3, points = 64 }
+table = { hurst = [0.4, 1.6] }
+"""
+WINDOW = ("--window", "5e-3:0.07")
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """Return the folder of a study that was run."""
+    from typer.testing import CliRunner
+
+    from roughcontact.cli.app import app
+
+    folder = tmp_path_factory.mktemp("study")
+    (folder / "tried.toml").write_text(TEXT)
+    words = ["study", "run", folder / "tried.toml", "--out", folder / "tried", "--executor", "serial"]
+    assert CliRunner().invoke(app, [str(word) for word in words]).exit_code == 0
+    return folder / "tried"
+
+
+@pytest.fixture
+def averaged(study):
+    with Store.open(study) as store:
+        return averages(export(store), force_window(5e-3, 0.07), rng=np.random.default_rng(3))
+
+
+def test_averages_are_written_as_netcdf_and_as_a_table(invoke, study, averaged, tmp_path):
+    answer = invoke("study", "average", study, "--out", tmp_path / "a.nc", *WINDOW)
+    assert answer.exit_code == 0, answer.stderr
+    assert answer.stdout == f"file      {tmp_path / 'a.nc'}\ncontent   averages of 6 cases, 2 combinations\n"
+    with xarray.open_dataset(tmp_path / "a.nc") as dataset:
+        assert set(dataset.data_vars) == set(averaged.data_vars)
+        np.testing.assert_array_equal(dataset["exponent"], averaged["exponent"])
+        np.testing.assert_array_equal(dataset["stiffness_mean"], averaged["stiffness_mean"])
+        assert dataset["stiffness_standard_error"].attrs["units"] == "N m-1"
+        assert "history" in dataset.attrs
+    told = json.loads(
+        invoke("study", "average", study, "--out", tmp_path / "a.csv", *WINDOW, "--json").stdout
+    )
+    assert told["cases"] == 6
+    table = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True, comments="#")
+    assert len(table) == 2 * 8
+    np.testing.assert_array_equal(table["stiffness_mean"], averaged["stiffness_mean"].to_numpy().ravel())
+    np.testing.assert_array_equal(table["exponent"][::8], averaged["exponent"])
+
+
+def test_a_table_has_a_line_for_each_combination(invoke, study, averaged):
+    answer = invoke("study", "table", study, *WINDOW)
+    assert answer.exit_code == 0
+    header, *rows = answer.stdout.splitlines()
+    assert header.split() == [
+        "hurst",
+        "samples",
+        "exponent",
+        "prefactor",
+        "from",
+        "F/(E*",
+        "h",
+        "L)",
+        "to",
+        "loads",
+    ]
+    alpha, error = averaged["exponent"].to_numpy(), averaged["exponent_error"].to_numpy()
+    for i, row in enumerate(rows):
+        words = row.split()
+        assert words[:2] == [("0.4", "1.6")[i], "3"]
+        digits = len(words[4].partition(".")[2])
+        assert words[2:5] == [f"{alpha[i]:.{digits}f}", "+-", f"{error[i]:.{digits}f}"]
+        assert len(words[4].lstrip("0.")) == 2
+        assert words[-1] == "8"
+
+
+def test_means_can_be_asked_for_at_a_force(invoke, study, averaged):
+    force = float(averaged["dimensionless_force"][3])
+    words = ("--quantity", "stiffness,rms", "--at", force)
+    told = json.loads(invoke("study", "table", study, *words, "--json").stdout)
+    assert told["dimensionless_force"] == force
+    assert told["units"] == {"stiffness": "N m-1", "rms": "m"}
+    for i, row in enumerate(told["rows"]):
+        assert row["parameters"] == {"hurst": (0.4, 1.6)[i]}
+        assert row["samples"] == 3
+        for word in ("mean", "standard_error"):
+            # The force is one of the loads: nothing is interpolated.
+            assert row["stiffness"][word] == averaged[f"stiffness_{word}"][i, 3]
+        assert row["rms"]["mean"] == pytest.approx(1e-6, rel=1e-12)
+    header, first, _ = invoke("study", "table", study, *words).stdout.splitlines()
+    assert header.split()[:4] == ["hurst", "samples", "stiffness", "[MN/m]"]
+    assert first.split()[2] == f"{averaged['stiffness_mean'][0, 3].item() * 1e-6:.2f}"
+
+
+def test_json_holds_the_laws(invoke, study, averaged):
+    told = json.loads(invoke("study", "table", study, *WINDOW, "--json").stdout)
+    assert told["window"] == "force from 0.005 to 0.07"
+    law = told["rows"][1]["power_law"]
+    assert law["exponent"] == averaged["exponent"][1]
+    assert law["prefactor_high"] == averaged["prefactor_high"][1]
+    assert law["law_count"] == 8
+
+
+def test_pictures_are_drawn(invoke, study, tmp_path):
+    begins = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
+    for ending, words in (
+        ("png", ()),
+        ("pdf", ("--quantity", "contact_area")),
+        ("svg", ("--quantity", "rms_slope")),
+    ):
+        out = tmp_path / f"picture.{ending}"
+        answer = invoke("study", "plot", study, "--out", out, *words, *WINDOW)
+        assert answer.exit_code == 0, answer.stderr
+        assert out.read_bytes().startswith(begins[ending])
+        assert f"quantity   {words[1] if words else 'dimensionless_stiffness'}" in answer.stdout
+    told = json.loads(invoke("study", "plot", study, "--out", out, *WINDOW, "--json").stdout)
+    assert told["quantity"] == "dimensionless_stiffness"
+
+
+def test_where_there_is_no_law_it_says_why(invoke, study):
+    answer = invoke("study", "table", study)  # 64 x 64 cells resolve nothing of it
+    assert answer.exit_code == 0
+    assert [row.split()[2] for row in answer.stdout.splitlines()[1:]] == ["-", "-"]
+    assert (
+        "Note: no power law for hurst = 0.4; hurst = 1.6: fewer than 3 loads lie in the window"
+        in answer.stderr
+    )
+    assert "choose another --window" in answer.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("average", "STUDY", "--out", "a.xlsx"), "--out: cannot write a.xlsx: give a file .nc"),
+        (
+            ("plot", "STUDY", "--out", "a.jpg"),
+            "cannot write the picture a.jpg: end its name in png, pdf, svg",
+        ),
+        (("plot", "STUDY", "--out", "no/a.png"), "there is no folder"),
+        (
+            ("plot", "STUDY", "--out", "a.png", "--along", "points"),
+            "'points' is no number that varies: choose",
+        ),
+        (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
+        (("table", "STUDY", "--window", "2:1"), "--window goes from a force to a larger one"),
+        (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
+        (
+            ("table", "STUDY", "--at", "2"),
+            "--at: the loads go from 0.005 to 0.07: choose a force between them",
+        ),
+        (("table", "STUDY", "--at", "0"), "--at: a force over E* h L is above 0"),
+        (
+            ("table", "STUDY", "--quantity", "stifness"),
+            "--quantity: no 'stifness' differs between samples: choose of",
+        ),
+        (("table", "STUDY", "--quantity", "stiffness"), "stiffness lies along load: choose a force by --at"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(invoke, study, tmp_path, monkeypatch, words, message):
+    monkeypatch.chdir(tmp_path)
+    answer = invoke("study", *(study if word == "STUDY" else word for word in words))
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_study_without_results_is_refused(invoke, tmp_path):
+    (tmp_path / "tried.toml").write_text(
+        TEXT.replace("[0.4, 1.6]", "[0.4]").replace("64 }", "64, hardness = 1.0 }")
+    )
+    run = invoke("study", "run", tmp_path / "tried.toml", "--out", tmp_path / "tried", "--executor", "serial")
+    assert "failed   3" in run.stdout
+    answer = invoke("study", "table", tmp_path / "tried")
+    assert answer.exit_code == 2
+    assert "holds no results yet" in answer.stderr
+
+
+def test_the_example_of_the_page_gives_numbers(invoke, tmp_path):
+    """With two samples instead of all: the window of a law depends on the means, and these on the samples, hardly."""
+    text = PAGE.read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
+    example = tomllib.loads(text)
+    assert example["case"] == "curve"
+    (tmp_path / "hurst.toml").write_text(text.replace(f"samples = {example['samples']}", "samples = 2"))
+    words = (tmp_path / "hurst.toml", "--out", tmp_path / "hurst", "--workers", "2")
+    assert invoke("study", "run", *words).exit_code == 0
+    answer = invoke("study", "table", tmp_path / "hurst", "--json")
+    assert "no power law" not in answer.stderr
+    rows = json.loads(answer.stdout)["rows"]
+    assert len(rows) == example["table"]["hurst"]["count"]
+    assert all(row["power_law"]["law_count"] >= 3 and row["power_law"]["exponent"] > 0 for row in rows)

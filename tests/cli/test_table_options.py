@@ -1,0 +1,80 @@
+"""Tables of the interface beside the files of a curve."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+
+LOADS = ("--pressures", "10MPa,30MPa,100MPa,1GPa", "--modulus", "110GPa")
+HEAT = ("--conductivity", "50W/m/K,160W/m/K")
+
+
+@pytest.fixture
+def joint(tmp_path):
+    grid = rc.Grid((48, 48), 1e-6, periodic=True)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(2), short_cutoff=8e-6)
+    rc.write(surface, tmp_path / "joint.npz")
+    return tmp_path / "joint.npz"
+
+
+def numbers(text):
+    """Return the first and the second number of all lines that hold two."""
+    pairs = [line.split(",") for line in text.splitlines() if line[0] in "0123456789"]
+    return np.array(pairs, dtype=float)
+
+
+def test_the_tables_are_those_of_the_library(invoke, joint, tmp_path):
+    out = tmp_path / "out"
+    words = ("--table", "abaqus,abaqus-mm,csv,lammps", "--table-area", "1mm^2", "--out", out)
+    answer = invoke("curve", joint, *LOADS, *HEAT, *words)
+    assert answer.exit_code == 0, answer.stderr
+    assert "interface.inp, interface_mm.inp, interface.csv and interface.table are in" in answer.stderr
+    curve = rc.read_curve(out / "curve.nc")
+    table = rc.interface_table(curve, conductivities=(50.0, 160.0), area=1e-6)
+    for name in ("interface.inp", "interface.table", "interface.csv"):
+        rc.write(table, tmp_path / name)
+        ours, theirs = ((folder / name).read_text(encoding="utf-8") for folder in (tmp_path, out))
+        # What the command adds is where it comes from.
+        left = [line for line in theirs.splitlines() if line not in ours.splitlines()]
+        assert left
+        assert all(line.startswith(("#", "**")) for line in left)
+        assert [line for line in theirs.splitlines() if line not in left] == ours.splitlines()
+    assert "input_sha256 = " in (out / "interface.inp").read_text()
+    millimetres, metres = (
+        numbers((out / name).read_text()) for name in ("interface_mm.inp", "interface.inp")
+    )
+    assert len(metres) == 2 * (len(table) + 1)
+    np.testing.assert_allclose(
+        millimetres[: len(table) + 1], metres[: len(table) + 1] * (1e-6, 1e3), rtol=1e-14
+    )
+
+
+def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
+    out = tmp_path / "out"
+    words = ("--forces", "1nN,2nN", "--modulus", "110GPa", "--table", "abaqus", "--out", out)
+    answer = invoke("curve", joint, *words)
+    assert answer.exit_code == 0
+    assert "Note: no --table: a table needs two resolved loads, and the curve has 0" in answer.stderr
+    assert sorted(path.name for path in out.iterdir()) == ["curve.csv", "curve.json", "curve.nc", "curve.png"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--table", "abaqus"), "--table writes files: say where by --out"),
+        (("--table", "ansys", "--out", "OUT"), "--table: there is no 'ansys': choose of csv, abaqus"),
+        (("--table", "csv,csv", "--out", "OUT"), "--table: name each table once"),
+        (("--table", ",", "--out", "OUT"), "--table: name each table once"),
+        (("--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
+        (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
+        (("--table", "lammps", "--table-area", "1mm", "--out", "OUT"), "'1mm' is not an area"),
+        (("--table", "lammps", "--table-area", "0mm^2", "--out", "OUT"), "the area must be positive"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_before_the_work(invoke, joint, tmp_path, monkeypatch, words, message):
+    monkeypatch.setattr(rc, "loading_path", lambda *_, **__: pytest.fail("it went to work"))
+    words = [tmp_path / "out" if word == "OUT" else word for word in words]
+    answer = invoke("curve", joint, *LOADS, *words)
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+    assert not (tmp_path / "out").exists()

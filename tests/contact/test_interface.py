@@ -1,0 +1,212 @@
+"""The law of an interface: what of a curve stands in it, and that other programs read the same law from their texts."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.interface_text import abaqus_text, lammps_text
+
+P0, U0 = 2e8, 3e-7  # an exponential law p = P0 exp(-g/U0), whose stiffness is p/U0
+GAPS = np.array([1.9e-6, 1.6e-6, 1.2e-6, 9e-7, 8e-7, 5e-7])
+
+
+@pytest.fixture(scope="module")
+def curve():
+    grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    return rc.loading_curve(surface, 1e11, pressures=np.geomspace(1e5, 1e9, 9))
+
+
+@pytest.fixture
+def exponential(curve):
+    """Return the table of the exponential law."""
+    pressure = P0 * np.exp(-GAPS / U0)
+    table = rc.interface_table(curve, area=2.5e-7)
+    return replace(
+        table, pressure=pressure, gap=GAPS, stiffness=pressure / U0, contact_fraction=pressure / P0
+    )
+
+
+def numbers(text, *, after):
+    """Return the lines of numbers that follow a line."""
+    lines = text.splitlines()
+    found = []
+    for line in lines[lines.index(after) + 1 :]:
+        if line.startswith("*"):
+            break
+        found.append([float(word) for word in line.split(",")])
+    return np.array(found)
+
+
+def rows(text):
+    """Return index, r, energy and force of a table for LAMMPS, and the number that its head states."""
+    head, _, body = text.partition("\n\nINTERFACE\n")
+    assert all(line.startswith("# ") for line in head.splitlines())
+    count, blank, *lines = body.splitlines()
+    assert blank == ""
+    return np.array([[float(word) for word in line.split()] for line in lines]), count
+
+
+class TestTable:
+    def test_it_holds_the_resolved_loads_per_area(self, curve):
+        table = rc.interface_table(curve)
+        kept = curve.resolved
+        assert 2 <= kept.sum() < len(curve)  # else this would say nothing
+        np.testing.assert_array_equal(table.pressure, curve.nominal_pressure[kept])
+        np.testing.assert_array_equal(table.gap, curve.mean_gap[kept])
+        np.testing.assert_array_equal(table.stiffness, curve.interfacial_stiffness_per_area[kept])
+        np.testing.assert_array_equal(table.contact_fraction, curve.contact_fraction[kept])
+        assert table.validity == (table.pressure[0], table.pressure[-1])
+        assert table.area == curve.nominal_area
+        assert table.periodic
+
+    def test_the_first_line_is_the_tangent_of_the_first_load(self, curve):
+        table = rc.interface_table(curve)
+        # Of a difference of gaps as long as the overclosure is: a few roundings of the gap.
+        rounding = 4 * np.finfo(float).eps * table.zero_gap / table.overclosure[0]
+        assert table.pressure[0] / table.overclosure[0] == pytest.approx(table.stiffness[0], rel=rounding)
+        assert (np.diff(table.overclosure) > 0).all()
+
+    def test_straight_lines_lie_above_an_exponential_by_what_is_stated(self, exponential):
+        fine = np.linspace(GAPS[-1], GAPS[0], 200_001)
+        chords = np.interp(fine, GAPS[::-1], exponential.pressure[::-1])
+        # The largest of many evenly spaced points is below the maximum by the square of their distance: 1e-9 here.
+        assert (chords / (P0 * np.exp(-fine / U0)) - 1).max() == pytest.approx(
+            exponential.chord_error, rel=1e-6
+        )
+
+    def test_conductances_are_those_of_the_interface(self, curve):
+        bodies = {"resistivities": (1e-7, 2e-8), "conductivities": (50.0, 160.0)}
+        table = rc.interface_table(curve, **bodies)
+        found = rc.conductance(curve, **bodies)
+        assert set(table.conductances) == {"thermal_conductance_per_area", "electrical_conductance_per_area"}
+        for name, values in table.conductances.items():
+            np.testing.assert_array_equal(values, found[name][curve.resolved])
+        assert rc.interface_table(curve, conductivities=(50.0, 160.0)).conductances.keys() == {
+            "thermal_conductance_per_area"
+        }
+
+    def test_the_dataset_has_units(self, curve):
+        dataset = rc.interface_table(curve, conductivities=(50.0, 160.0)).to_dataset()
+        units = {name: values.attrs["units"] for name, values in dataset.data_vars.items()}
+        assert units == {
+            "nominal_pressure": "Pa",
+            "mean_gap": "m",
+            "overclosure": "m",
+            "interfacial_stiffness_per_area": "Pa m-1",
+            "contact_fraction": "1",
+            "thermal_conductance_per_area": "W m-2 K-1",
+            "zero_gap": "m",
+        }
+        np.testing.assert_array_equal(dataset["zero_gap"] - dataset["mean_gap"], dataset["overclosure"])
+        low, high = curve.nominal_pressure[curve.resolved][[0, -1]]
+        assert dataset.attrs["validity"] == f"nominal pressure from {low:.6g} to {high:.6g} Pa"
+
+    def test_what_has_no_law_is_refused(self, curve):
+        line = rc.self_affine(rc.Grid(64, 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+        profile = rc.loading_curve(line, 1e11, forces=[1.0, 2.0], operator=rc.line(line.grid, 1e11))
+        with pytest.raises(ValueError, match="where a map of it was pressed, not a line: press a map"):
+            rc.interface_table(profile)
+        with pytest.raises(
+            ValueError, match=r"needs two resolved loads, and the curve has 0: take the forces"
+        ):
+            rc.interface_table(replace(curve, stiffness=np.zeros(len(curve))))
+        with pytest.raises(ValueError, match="the gap does not fall"):
+            rc.interface_table(replace(curve, mean_gap=np.ones(len(curve))))
+        with pytest.raises(ValueError, match="a Curve is wanted"):
+            rc.interface_table([1.0])
+        with pytest.raises(ValueError, match=r"area \[m\^2\]"):
+            rc.interface_table(curve, area=0.0)
+
+
+class TestAbaqus:
+    def test_pressure_rises_with_overclosure_from_zero(self, exponential):
+        found = numbers(abaqus_text(exponential), after="*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR")
+        assert found[0].tolist() == [0.0, 0.0]
+        np.testing.assert_array_equal(found[1:, 0], exponential.pressure)
+        np.testing.assert_array_equal(found[1:, 1], exponential.overclosure)
+        assert (np.diff(found, axis=0) > 0).all()
+
+    def test_conductance_stands_before_pressure(self, curve):
+        table = rc.interface_table(curve, resistivities=(1e-7, 2e-8), conductivities=(50.0, 160.0))
+        text = abaqus_text(table)
+        for name, keyword in (
+            ("thermal_conductance_per_area", "*GAP CONDUCTANCE, PRESSURE"),
+            ("electrical_conductance_per_area", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE"),
+        ):
+            found = numbers(text, after=keyword)
+            assert found[0].tolist() == [0.0, 0.0]
+            np.testing.assert_array_equal(found[1:], np.transpose([table.conductances[name], table.pressure]))
+        assert "*GAP" not in abaqus_text(rc.interface_table(curve))
+
+    def test_millimetres_go_with_megapascals(self, curve):
+        table = rc.interface_table(curve, resistivities=(1e-7, 2e-8), conductivities=(50.0, 160.0))
+        text, si = abaqus_text(table, units="mm"), abaqus_text(table)
+        for keyword, factors in (
+            ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR", (1e-6, 1e3)),
+            # 1 W = 1e3 mW and 1 V = 1e3 mV over 1 m2 = 1e6 mm2.
+            ("*GAP CONDUCTANCE, PRESSURE", (1e-3, 1e-6)),
+            ("*GAP ELECTRICAL CONDUCTANCE, PRESSURE", (1e-9, 1e-6)),
+        ):
+            expected = numbers(si, after=keyword) * factors
+            np.testing.assert_allclose(numbers(text, after=keyword), expected, rtol=1e-15)
+        assert "** units: mm, N, MPa, mW/mm2/K, A/mV/mm2" in text
+
+    def test_comments_say_where_it_holds_and_what_zero_is(self, exponential, curve):
+        low, high = exponential.validity
+        text = abaqus_text(exponential, ["made by Jörg\nin two lines", "long " * 80])
+        lines = text.splitlines()
+        assert (
+            f"** valid from {low:.6g} to {high:.6g} Pa, 6 resolved loads; below: a straight line to zero"
+            in lines
+        )
+        assert any(f"overclosure 0 is a mean gap of {exponential.zero_gap!r}" in line for line in lines)
+        assert "** made by J?rg | in two lines" in lines
+        assert max(map(len, lines)) <= 123
+        assert "for loading only" not in text
+        assert "no cell bears more than 2e+09 Pa" in abaqus_text(replace(exponential, hardness=2e9))
+        assert "free patch" in abaqus_text(replace(exponential, periodic=False))
+
+
+class TestLammps:
+    def test_forces_between_the_loads_are_those_of_the_law(self, exponential):
+        found, count = rows(lammps_text(exponential))
+        assert count == f"N {len(found)}"
+        np.testing.assert_array_equal(found[:, 0], np.arange(1, len(found) + 1))
+        r, force = found[:, 1], found[:, 3]
+        between = r <= GAPS[0]
+        # Monotone cubics go through straight lines as they are, and a line is what ln p is here: rounding of ln p.
+        expected = 2.5e-7 * P0 * np.exp(-r[between] / U0)
+        np.testing.assert_allclose(force[between], expected, rtol=1e-13)
+        assert (r[0], force[-1], found[-1, 2]) == (GAPS[-1], 0.0, 0.0)
+        assert r[-1] == pytest.approx(exponential.zero_gap, rel=1e-15)
+        tangent = 2.5e-7 * exponential.stiffness[0] * (exponential.zero_gap - r[~between])
+        # The last step but one is a difference of lengths a thousand times as long: 1e-16 of these.
+        np.testing.assert_allclose(force[~between], tangent, rtol=1e-12, atol=1e-18)
+
+    def test_energy_is_the_work_of_closing(self, exponential):
+        found, _ = rows(lammps_text(exponential))
+        first, last = exponential.validity
+        work = 2.5e-7 * (U0 * (last - first) + first**2 / (2 * exponential.stiffness[0]))
+        # Simpson's rule in steps h of 2e-9 m: (h/U0)^4/2880, 1e-12; and in the step of the first load, where the
+        # curvature jumps by p/U0^2, at most h^3/12 of that, which over the work is 1e-2 (h/U0)^3/12, 3e-10.
+        assert found[0, 2] == pytest.approx(work, rel=1e-9)
+
+    def test_lammps_finds_force_and_energy_consistent(self, exponential, curve):
+        """As it asks itself: each force lies between the slopes of the energy on either side."""
+        for table in (exponential, rc.interface_table(curve)):
+            found, _ = rows(lammps_text(table))
+            r, energy, force = found[:, 1:].T
+            slopes = -np.diff(energy) / np.diff(r)
+            assert (slopes[:-1] > force[1:-1]).all()
+            assert (force[1:-1] > slopes[1:]).all()
+
+    def test_comments_hold_the_command_and_the_cutoff(self, exponential):
+        text = lammps_text(exponential)
+        assert text.startswith("# UNITS: si\n")
+        assert f"zlo POSITION FILE INTERFACE {exponential.zero_gap!r}" in text
+        assert "force and energy of a nominal area of 2.5e-07 m2" in text
+        assert math.isfinite(rows(text)[0].sum())

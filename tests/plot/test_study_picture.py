@@ -1,0 +1,128 @@
+"""The picture of a study: lines, bands and marks lie where the numbers are."""
+
+import numpy as np
+import pytest
+import xarray
+from matplotlib.colors import to_hex
+
+from roughcontact.plot.study_picture import study_figure
+from roughcontact.statistics.averages import averages
+from roughcontact.statistics.fit_window import force_window
+
+FORCE = np.geomspace(1e-4, 0.07, 12)
+HURST, POINTS = np.array([0.2, 0.8]), np.array([64, 256, 1024])
+DIMS = ("hurst", "points", "sample", "load")
+
+
+@pytest.fixture
+def averaged():
+    shape = (2, 3, 4, 12)
+    draw = np.random.default_rng(3)
+    stiffness = FORCE ** (1 / (1 + HURST))[:, None, None, None] * draw.lognormal(0, 0.1, (*shape[:3], 1))
+    dataset = xarray.Dataset(
+        {
+            "dimensionless_force": ("load", FORCE),
+            "dimensionless_stiffness": (DIMS, stiffness, {"units": "1"}),
+            "resolved": (DIMS, np.broadcast_to(FORCE > 1e-3, shape)),
+            "rms": (DIMS[:3], draw.lognormal(0, 0.1, shape[:3]), {"units": "m"}),
+            "pulled": ((*DIMS[:3], "pull"), draw.lognormal(0, 0.1, (*shape[:3], 5)), {"units": "m"}),
+            "case_status": (DIMS[:3], np.full(shape[:3], "done")),
+        },
+        {"hurst": HURST, "points": POINTS, "sample": np.arange(4)},
+    )
+    return averages(dataset, force_window(1e-3, 0.07), rng=np.random.default_rng(1))
+
+
+def means_drawn(axes):
+    """Return the full lines: the means where they are resolved."""
+    return [line for line in axes.lines if line.get_linestyle() == "-"]
+
+
+def marks(axes):
+    """Return of each series its colour, its places and its values with their limits."""
+    found = []
+    for container in axes.containers:
+        x, y = container.lines[0].get_data()
+        [segments] = [bars.get_segments() for bars in container.lines[2]]
+        limits = np.array([[each[0][1], each[1][1]] for each in segments])
+        found.append((to_hex(container.lines[0].get_color()), np.asarray(x), np.asarray(y), limits))
+    return found
+
+
+def test_means_laws_and_exponents_are_drawn(averaged):
+    left, right = study_figure(averaged, "dimensionless_stiffness").axes
+    expected = averaged["dimensionless_stiffness_mean"].to_numpy().reshape(6, 12)
+    lines = means_drawn(left)
+    assert len(lines) == 6
+    for line, values in zip(lines, expected, strict=True):
+        np.testing.assert_array_equal(line.get_xdata(), FORCE[FORCE > 1e-3])
+        np.testing.assert_array_equal(line.get_ydata(), values[FORCE > 1e-3])
+    assert left.get_legend().get_title().get_text() == "hurst, points"
+    assert [text.get_text() for text in left.get_legend().get_texts()][:2] == ["0.2, 64", "0.2, 256"]
+    laws = [line for line in left.lines if line.get_linestyle() == "--"]
+    for law, alpha, zeta in zip(
+        laws, averaged["exponent"].values.flat, averaged["prefactor"].values.flat, strict=True
+    ):
+        np.testing.assert_allclose(law.get_ydata(), zeta * law.get_xdata() ** alpha, rtol=1e-14)
+
+    # There are three numbers of points and two Hurst exponents: the former stand on the axis, by their logarithm.
+    assert (right.get_xlabel(), right.get_xscale()) == ("points", "log")
+    assert [text.get_text() for text in right.get_legend().get_texts()] == ["hurst = 0.2", "hurst = 0.8"]
+    for i, (_, x, y, limits) in enumerate(marks(right)):
+        np.testing.assert_array_equal(x, POINTS)
+        np.testing.assert_array_equal(y, averaged["exponent"][i])
+        ends = np.transpose([averaged["exponent_low"][i], averaged["exponent_high"][i]])
+        np.testing.assert_allclose(limits, ends, rtol=1e-14)
+    assert right.get_title() == "95 % intervals"
+
+
+def test_the_parameter_on_the_axis_can_be_chosen(averaged):
+    _, right = study_figure(averaged, "dimensionless_stiffness", "hurst").axes
+    series = marks(right)
+    assert len({colour for colour, *_ in series}) == 3
+    for i, (_, x, y, _) in enumerate(series):
+        np.testing.assert_array_equal(y, averaged["exponent"][:, i])
+        # Marks of several series stand beside each other, a hundredth of the axis apart at most.
+        assert (x - HURST >= 0).all()
+        assert (x - HURST <= 0.02 * np.ptp(HURST)).all()
+
+
+def test_a_number_without_loads_stands_against_what_varies(averaged):
+    [axes] = study_figure(averaged, "rms").axes
+    for i, (_, x, y, limits) in enumerate(marks(axes)):
+        mean, error = averaged["rms_mean"][i], averaged["rms_standard_error"][i]
+        np.testing.assert_array_equal(x, POINTS)
+        np.testing.assert_array_equal(y, mean)
+        np.testing.assert_allclose(limits, np.transpose([mean - error, mean + error]), rtol=1e-14)
+    assert axes.get_ylabel() == "rms height [m]"
+    assert axes.get_title() == "means and their standard errors"
+
+
+def test_of_one_combination_there_is_one_curve(averaged):
+    one = averaged.isel(hurst=0, points=0, drop=True)
+    [axes] = study_figure(one, "dimensionless_stiffness").axes
+    assert len(means_drawn(axes)) == 1
+    assert axes.get_legend() is None
+    with pytest.raises(ValueError, match="'rms' is one number, and nothing varies"):
+        study_figure(one, "rms")
+
+
+def test_rows_are_groups_with_all_their_parameters(averaged):
+    rows = averaged.isel(points=0, drop=True).rename(hurst="row")
+    rows = rows.assign_coords(row=[0, 1], hurst=("row", HURST), label=("row", ["a", "b"]))
+    left, right = study_figure(rows, "dimensionless_stiffness").axes
+    assert [text.get_text() for text in left.get_legend().get_texts()] == ["0.2, a", "0.8, b"]
+    np.testing.assert_array_equal(
+        [y for _, _, y, _ in marks(right)], rows["exponent"].to_numpy()[:, np.newaxis]
+    )
+
+
+def test_what_cannot_be_drawn_is_refused(averaged):
+    with pytest.raises(
+        ValueError, match="no 'stifness' differs between samples: choose one of dimensionless_stiff"
+    ):
+        study_figure(averaged, "stifness")
+    with pytest.raises(ValueError, match="'sample' is no number that varies: choose one of hurst, points"):
+        study_figure(averaged, "rms", "sample")
+    with pytest.raises(ValueError, match="'pulled' lies along pull: choose one along the loads, or none"):
+        study_figure(averaged, "pulled")
