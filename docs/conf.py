@@ -56,14 +56,25 @@ FETCHED = re.compile(r"""<(?!a\b)[^>]*\b(?:src|href)=["'](?:https?:)?//[^>]*>"""
 def setup(app):
     """Add what Sphinx does not bring."""
     app.connect("config-inited", lambda app, config: write_reference(HERE / "reference"))
+    app.connect("config-inited", lambda app, config: copy_project(HERE / "project"))
     app.connect("source-read", list_to_tree)
     app.connect("missing-reference", link_to_name)
     app.connect("build-finished", require_local)
     app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
 
+def copy_project(folder):
+    """Copy the pages that stand above this folder, as those of a repository do, to where Sphinx finds them."""
+    folder.mkdir(exist_ok=True)
+    for path in HERE.parent.glob("*.md"):
+        text = path.read_text(encoding="utf-8").replace("](docs/", "](../")
+        if path.name != "README.md":
+            (folder / path.name).write_text(text, encoding="utf-8")
+
+
 def list_to_tree(app, name, text):
     """Make a tree of the pages that a part lists, for the menus: readers of the Markdown see the list alone."""
+    text[0] = re.sub(r"\]\(\.\./([A-Z_]+\.md)\)", r"](project/\1)", text[0])
     if name in PARTS:
         pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.md\)", text[0], re.MULTILINE)
         text[0] += "\n".join(["\n\n```{toctree}\n:hidden:", *pages, "```\n"])
