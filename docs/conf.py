@@ -23,7 +23,7 @@ author = "The roughcontact developers"
 project_copyright = author
 version = release = version_of(project)
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_gallery.gen_gallery"]
 smartquotes = False  # options begin with two dashes
 myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
@@ -37,6 +37,17 @@ numpydoc_xref_aliases = {name.value.__name__: name.path for name in public_names
 default_role = "py:obj"
 nitpicky = True
 nitpick_ignore_regex = [("py:obj", r"(xarray|dask_jobqueue)\..*")]
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples/gallery",
+    "gallery_dirs": "gallery",
+    "filename_pattern": "/",  # all of them run
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "show_signature": False,
+    "write_computation_times": False,
+}
 
 html_theme = "pydata_sphinx_theme"
 html_title = project
