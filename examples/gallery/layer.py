@@ -19,7 +19,7 @@ depths = [rc.press(ball, rubber, force=1e-6, operator=layer).depth for layer in 
 half_space = rc.press(ball, rubber, force=1e-6).depth
 
 axes = plt.subplots()[1]
-axes.semilogx(thicknesses * 1e6, np.array(depths) * 1e9, "o", label="layer")
+axes.plot(thicknesses * 1e6, np.array(depths) * 1e9, "o", label="layer")
 axes.axhline(half_space * 1e9, color="k", linestyle="--", label="half-space")
 axes.set(xlabel="thickness [µm]", ylabel="depth [nm]")
 axes.legend()

@@ -16,10 +16,10 @@ one = x**2 + y**2 < 20**2
 two = ((x - 30) ** 2 + y**2 < 200) | ((x + 30) ** 2 + y**2 < 200)
 stiffness = [rc.contact_stiffness(mask, grid, 110e9) for mask in (one, two)]
 
-figure, panels = plt.subplots(1, 2)
+panels = plt.subplots(1, 2, layout="constrained")[1]
 for axes, mask, k in zip(panels, (one, two), stiffness, strict=True):
     axes.imshow(mask, cmap="Greys")
-    axes.set_title(f"{k / 1e6:.2f} N/µm")
+    axes.set(title=f"{k / 1e6:.2f} N/µm", xlabel="x [µm]", ylabel="y [µm]")
 
 exact = rc.theory.punch.disc(110e9, np.sqrt(one.sum() / np.pi) * 1e-6)
 print(f"one disc over the closed form: {stiffness[0] / exact:.3f}")
