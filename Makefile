@@ -6,6 +6,7 @@
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
+#   make docs               build the site of the documentation in build/docs
 #   make bench              compare with other programs, where they can be installed
 #   make clean              remove what the above have made
 #
@@ -18,6 +19,7 @@ ARGS ?=
 ENV := .venv
 BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
+DOCS_ENV := build/docs-env
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
@@ -25,11 +27,11 @@ TORCH ?= torch==2.13.0+cpu
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test nox lint bench clean
+.PHONY: help demo test nox lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,12s/^# *//p' Makefile
+	@sed -n '3,13s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -48,12 +50,17 @@ lint: $(ENV)/.ready-to-test
 	@$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python -m mypy \
 	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
 
+docs: $(DOCS_ENV)/.ready
+	@rm -rf build/docs
+	@$(DOCS_ENV)/bin/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
+	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
+
 bench: $(BENCH_ENV)/.ready
 	@$(BENCH_ENV)/bin/python benchmarks/peers.py $(ARGS) \
 	  && echo "bench: OK" || { echo "bench: FAILED"; exit 1; }
 
 clean:
-	rm -rf $(ENV) build dist out .nox .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(ENV) build docs/gallery docs/project docs/reference dist out .nox .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean: OK"
 
@@ -72,6 +79,12 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 	@echo "Installing what the tests need ..."
 	@$(BIN)/python $(INSTALL) -e ".[formats,test,lint]"
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
+	@touch $@
+
+$(DOCS_ENV)/.ready: pyproject.toml
+	@$(call create,$(DOCS_ENV))
+	@echo "Installing what the site is built with ..."
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs]"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this

@@ -62,7 +62,7 @@ class PublicName:
 def public_names() -> list[PublicName]:
     """Return all public objects, each once."""
     found: dict[int, PublicName] = {}
-    for path, value in _reached("roughcontact", roughcontact):
+    for path, value in sorted(_reached("roughcontact", roughcontact), key=lambda pair: pair[0].count(".")):
         found.setdefault(id(value), PublicName(path, value))
     return list(found.values())
 

@@ -35,6 +35,7 @@ def test_names_reach_modules_classes_and_methods():
     paths = {name.path for name in NAMES}
     assert {
         "roughcontact.press",
+        "roughcontact.foundation",  # the shortest of its paths
         "roughcontact.Surface.filtered",
         "roughcontact.Surface.rms",
         "roughcontact.theory.hertz.LineContact.pressure",

@@ -90,7 +90,7 @@ def conductance(
         Of a surface, of rings, or of a Winkler foundation. Of a solution under a hardness the cells that give
         way conduct like the others.
     resistivities, conductivities : tuple of float
-        At least one of the two, see `Conductors`.
+        At least one of the two, see ``Conductors``.
     of : {"interface", "total"}
         The conductance of the interface alone, from the interfacial stiffness; or the total one of two half-spaces that
         touch on this patch and nowhere else, from the stiffness: the spreading resistance of the patch (the

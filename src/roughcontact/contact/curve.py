@@ -236,7 +236,7 @@ class Curve:
         Parameters
         ----------
         theory : Law
-            For example ``rc.theory.persson.law(...)``, or one of `rc.loading_laws`.
+            For example ``rc.theory.persson.law(...)``, or one of `loading_laws`.
         quantities : sequence of str, optional
             Names of quantities of this curve; by default all that the theory predicts, but of a theory of spots that
             flow no stiffness under a hardness, where that of the curve leaves out plastic cells.

@@ -51,7 +51,7 @@ class ContactProblem:
     control : Force or Depth
         What is prescribed.
     tolerance : float
-        Largest residual of a solution, see `roughcontact.solver.optimality`.
+        Largest residual of a solution, see ``roughcontact.solver.optimality``.
     surface : Surface or RadialProfile, optional
         Where the separation comes from.
     modulus : float

@@ -38,7 +38,7 @@ def loading_laws(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
-        Of `roughcontact.theory.laws.LAWS`: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
+        Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
     **knowns : dict
         What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
         ``radius``, ``hardness``, see `roughcontact.theory.laws.SurfaceFacts`.

@@ -291,7 +291,7 @@ def of(height: Callable[[Array], Array], radius: float) -> Profile:
         f(r) [m] of an array of radii [m] (``np.cosh``, not ``math.cosh``). Its value at 0 is subtracted. Kinks are
         found; derivatives are not needed.
     radius : float
-        How far the body is known [m]. A load whose contact comes as far is refused; `Profile.cut` makes an edge.
+        How far the body is known [m]. A load whose contact comes as far is refused; ``Profile.cut`` makes an edge.
 
     Returns
     -------

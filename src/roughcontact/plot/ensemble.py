@@ -43,7 +43,7 @@ def mean_curves(
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
     error : DataArray, optional
-        Half the width of a band about the mean, such as `roughcontact.statistics.samples.standard_error`, or the
+        Half the width of a band about the mean, such as `roughcontact.statistics.standard_error`, or the
         standard deviation where the scatter of samples is meant.
     resolved : DataArray of bool, optional
         Points outside it are drawn thin and dotted.
@@ -89,7 +89,7 @@ def fitted_values(
     colour: str = _COLOURS[0],
     shift: float = 0.0,
 ) -> Axes:
-    """Draw what `roughcontact.statistics.fit.fit_power_laws` found against a parameter, with its intervals.
+    """Draw what `roughcontact.statistics.fit_power_laws` found against a parameter, with its intervals.
 
     Parameters
     ----------

@@ -84,7 +84,7 @@ class Terms:
     control : Force or Depth
         What is prescribed.
     tolerance : float
-        Largest residual of a solution, see `roughcontact.solver.optimality`.
+        Largest residual of a solution, see ``roughcontact.solver.optimality``.
     hardness : float
         Pressure that no cell exceeds [Pa]; a cell that reaches it is perfectly plastic.
     """

@@ -30,7 +30,7 @@ def on_common(
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.study.export.export` makes it.
+        As `roughcontact.study.export` makes it.
     values : array, shape (n,)
         Where the records are wanted, above zero: the coordinate `at` along a dimension of this name, in place of
         `along`.

@@ -71,13 +71,13 @@ def fit_power_laws(
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.study.export.export` makes it: ``dimensionless_force`` and ``dimensionless_stiffness`` along
+        As `roughcontact.study.export` makes it: ``dimensionless_force`` and ``dimensionless_stiffness`` along
         the samples and ``load`` (or, from `on_common`, ``dimensionless_force``); ``status`` of each point where there
         is one. All other dimensions tell ensembles apart.
     window : Window, optional
-        See `roughcontact.statistics.fit_window`. Without, that of the thesis, for which loading curves bring along
-        what it takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to 0.07. A
-        law that is not quite a power law has another exponent in another window.
+        Such as `force_window` or `resolved_window` return. Without, that of the thesis, for which loading curves bring
+        along what it takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to
+        0.07. A law that is not quite a power law has another exponent in another window.
     rng : Generator
         Draws the samples again. All ensembles are drawn alike, since their samples are paired.
     mean : {"arithmetic", "geometric"}

@@ -191,7 +191,7 @@ def summary(
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.study.export.export` makes it.
+        As `roughcontact.study.export` makes it.
     names : sequence of str, optional
         Variables of numbers or truths; without, all that lie along the samples. One that does not is the same in all
         samples, and stays as it is.

@@ -150,7 +150,7 @@ class Row:
         Parameters
         ----------
         values : tuple
-            The values of `COLUMNS`.
+            The values of ``COLUMNS``.
 
         Returns
         -------

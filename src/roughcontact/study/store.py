@@ -162,7 +162,7 @@ class Store:
         Returns
         -------
         frozenset of str
-            Keys as `Task.key`.
+            Keys as ``Task.key``.
         """
         return self._keys("done")
 
@@ -172,7 +172,7 @@ class Store:
         Returns
         -------
         frozenset of str
-            Keys as `Task.key`.
+            Keys as ``Task.key``.
         """
         return self._keys("failed")
 

@@ -232,7 +232,7 @@ class Study(Checked):
         Raises
         ------
         StudyError
-            If the case does not take them, if two of them are the same, or if there are more than `MOST_CASES` cases.
+            If the case does not take them, if two of them are the same, or if there are more than ``MOST_CASES`` cases.
         """
         model = find_case(self.case).parameters
         self._require_names(model)

@@ -95,7 +95,7 @@ def self_affine(
     wave vectors.
 
     The phase of a wave (and its modulus if Gaussian) is a function of the key and of its integer wave vector,
-    whole periods along each side, alone: `roughcontact.surface.random_phases` defines it. Phases count from
+    whole periods along each side, alone: ``roughcontact.surface.random_phases`` defines it. Phases count from
     the outer corner of the first cell, of a nodal grid from its first node. So the same generator state gives, on n,
     2n, 3n or n + 1 cells over the same sides, the same waves at the same places up to those that are too fine; nodal
     grids have their nodes in common. With `rms` alone each grid scales its waves to the same sum: at H = 0 those of
@@ -142,7 +142,7 @@ def synthesise(
     grid : Grid
         Grid of the surface, ``(ny, nx)``, or of the line, ``(n,)``.
     spectrum : callable or object with a method ``at``
-        ``spectrum(q)``: C2D [m^4] of a surface at the wavenumbers |q| [rad/m], or the two-sided C1D [m^3] of a
+        ``spectrum(q)``: C2D [m^4] of a surface at the wavenumbers ``|q|`` [rad/m], or the two-sided C1D [m^3] of a
         line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction wrap a
         function of ``(qy, qx)`` in `DirectionalSpectrum`. It is never asked for q = 0.
     rng : numpy.random.Generator

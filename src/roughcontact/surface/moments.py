@@ -74,7 +74,7 @@ class Moments:
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of |grad z|, ``sqrt(2 m2)`` (thesis, eq. 4.18); of a line ``sqrt(m2)`` [-]."""
+        """Root mean square of ``|grad z|``, ``sqrt(2 m2)`` (thesis, eq. 4.18); of a line ``sqrt(m2)`` [-]."""
         return math.sqrt(self.dimension * self.m2)
 
     @property

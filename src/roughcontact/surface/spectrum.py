@@ -173,7 +173,7 @@ class StretchedSpectrum:
     Parameters
     ----------
     spectrum : callable
-        C2D(|q|) [m^4]. Its limits become ellipses.
+        ``C2D(|q|)`` [m^4]. Its limits become ellipses.
     ratio : float
         Correlation length along over that across, positive.
     angle : float

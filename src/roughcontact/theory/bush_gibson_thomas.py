@@ -329,7 +329,7 @@ def law(moments: ProfileMoments, modulus: float, area: float, *, elliptic: bool 
     -------
     LoadingLaw
         "interfacial_stiffness", "contact_area", "mean_gap", "spots" and "elastic_energy", see
-        `interface.loading_law`.
+        ``interface.loading_law``.
 
     Examples
     --------

@@ -93,7 +93,7 @@ class Population:
     mean_height : float
         Mean of their heights above the mean plane of the surface [m]. Separations are counted from that plane.
     distribution : {"gaussian", "exponential"}
-        Of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at `mean_height - std`.
+        Of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at ``mean_height - std``.
 
     Raises
     ------

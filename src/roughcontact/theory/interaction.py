@@ -57,7 +57,7 @@ def mean_gap(
     Returns
     -------
     array
-        The one root s of ``s = plane + c p(s) sqrt(A0)/E*``; `interface.pressure` gives the load there.
+        The one root s of ``s = plane + c p(s) sqrt(A0)/E*``; ``interface.pressure`` gives the load there.
 
     Raises
     ------

@@ -170,7 +170,7 @@ def named(name: str, **knowns: Any) -> LoadingLaw:
     Parameters
     ----------
     name : str
-        One of `LAWS`.
+        One of ``LAWS``.
     **knowns
         The fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
 

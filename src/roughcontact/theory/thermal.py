@@ -106,7 +106,7 @@ def cell_resistance(
 
 
 def mean_absolute_slope(moments: ProfileMoments) -> float:
-    """Return m, the mean of |dz/dx| of a profile of a Gaussian surface [-]: ``sqrt(2 m2/pi)``.
+    """Return m, the mean of ``|dz/dx|`` of a profile of a Gaussian surface [-]: ``sqrt(2 m2/pi)``.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def elastic_conductance(
         Nominal pressure P [Pa].
     modulus : float
         Reduced modulus E* [Pa]. E* m/sqrt2 stands for the hardness: it is the mean pressure of asperity
-        theory at small loads, `E* g/sqrt(2 pi)`.
+        theory at small loads, ``E* g/sqrt(2 pi)``.
     conductivities : tuple of float
         Of both bodies [W/(m K)].
     moments : ProfileMoments

@@ -49,7 +49,7 @@ def force(
     ------
     ValueError
         If the depth exceeds 2 h2, where the short wave has been flattened, or h1/2, where the contact reaches
-        beyond q1 |x| = 1 and the crest of the long wave is no parabola.
+        beyond ``q1 |x| = 1`` and the crest of the long wave is no parabola.
 
     Notes
     -----

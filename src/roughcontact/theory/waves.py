@@ -63,7 +63,7 @@ class Waves:
     """Nodes of a quadrature over all waves of a surface: ``2 pi int q C2D f(q, g) dq = sum(power * f)``.
 
     Here g(q) is the rms slope of all waves longer than q. Make one by `of_spectrum`, `of_measured`,
-    `of_heights` or `of_bands`, or by `of` from whatever describes the surface. It is a `ProfileMoments`.
+    `of_heights` or `of_bands`, or by `of` from whatever describes the surface. It is a ``ProfileMoments``.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class Waves:
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of |grad z| over all waves [-]."""
+        """Root mean square of ``|grad z|`` over all waves [-]."""
         return math.sqrt(2 * self.m2)
 
     @classmethod

@@ -35,7 +35,7 @@ def half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
         free grid by shifting the influence function from cell to cell (the time of the matrix without its memory),
-        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see `Multilevel`).
+        or on ever coarser grids (time and memory grow as n; inexact by some 1e-6, see ``Multilevel``).
 
     Returns
     -------
@@ -50,7 +50,7 @@ def half_space(
     Notes
     -----
     Free: cells of constant pressure and displacements in their middles, by Love's influence function
-    (`roughcontact.halfspace.influence.love`). Periodic: each wave of wavenumber q is answered by 2/(E* q), mean
+    (``roughcontact.halfspace.influence.love``). Periodic: each wave of wavenumber q is answered by 2/(E* q), mean
     displacement zero.
 
     Examples
@@ -110,7 +110,7 @@ def singly_periodic(
     Notes
     -----
     Forces are those on one period. Cells under constant pressure and displacements in their middles, as on a free
-    grid, and all images of them (`roughcontact.halfspace.influence.love_singly_periodic`). A constant
+    grid, and all images of them (``roughcontact.halfspace.influence.love_singly_periodic``). A constant
     pressure is no exception: it presses the body down.
 
     Examples

@@ -53,7 +53,7 @@ class InfluenceOperator:
         On a grid that is periodic along both axes: displacement per unit pressure on all cells [m/Pa].
     summation : function
         Takes the influence and the grid and returns the way to do the sum: `fourier_sum`, `MovingGrid` or a
-        `Multilevel`.
+        ``Multilevel``.
     """
 
     grid: Grid

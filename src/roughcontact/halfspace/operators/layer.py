@@ -61,7 +61,7 @@ def layer(
     Notes
     -----
     A wave of pressure of wavenumber q is answered by ``2/(E* q) M(q thickness)``; the functions M and their limits
-    stand in `roughcontact.halfspace.influence.layer_bases`. On free grids the influence of a cell is Love's
+    stand in ``roughcontact.halfspace.influence.layer_bases``. On free grids the influence of a cell is Love's
     integral plus the integral of the difference of both bodies, a Hankel transform tabulated to 1e-13 of
     Love's. A layer may rise beside a load, so that contact need not lie where the bodies overlap: only layers
     that do not on this grid are `positive`.

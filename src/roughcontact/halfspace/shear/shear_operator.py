@@ -111,7 +111,7 @@ def shear_half_space(
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done, as for `half_space`: by fast Fourier transforms; with the full matrix (32
         n^2 bytes); and on a free grid by shifting the influence functions from cell to cell, or on ever coarser grids
-        (inexact by some 1e-6, see `Multilevel`; what drives with it is certified by the exact sum).
+        (inexact by some 1e-6, see ``Multilevel``; what drives with it is certified by the exact sum).
 
     Returns
     -------

@@ -1,0 +1,56 @@
+"""What a release says in several places is the same in all of them."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import roughcontact as rc
+
+HOME = Path(__file__).parent.parent
+PROJECT = tomllib.loads((HOME / "pyproject.toml").read_text(encoding="utf-8"))
+RECIPE = (HOME / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+WORKFLOW = (HOME / ".github" / "workflows" / "check.yml").read_text(encoding="utf-8")
+# What conda calls otherwise: Matplotlib without the libraries of windows.
+CONDA_NAMES = {"matplotlib": "matplotlib-base"}
+
+
+def test_the_version_is_one():
+    citation = (HOME / "CITATION.cff").read_text(encoding="utf-8")
+    written = [
+        PROJECT["project"]["version"],
+        re.search(r"^version: (.*)$", citation, re.MULTILINE)[1],
+        re.search(r'^  version: "(.*)"$', RECIPE, re.MULTILINE)[1],
+    ]
+    assert written == [rc.__version__] * 3
+
+
+def test_the_recipe_has_the_dependencies_of_the_package():
+    lines = [text.partition(";")[0] for text in PROJECT["project"]["dependencies"]]
+    wanted = {tuple(line.split(">=")) for line in ["python" + PROJECT["project"]["requires-python"], *lines]}
+    run = RECIPE[RECIPE.index("  run:\n") : RECIPE.index("tests:\n")]
+    found = set(re.findall(r"^    - (\S+) >=(\S+)$", run, re.MULTILINE))
+    assert found == {(CONDA_NAMES.get(name, name), bound) for name, bound in wanted}
+
+
+def test_the_workflow_does_what_the_check_of_a_checkout_does():
+    check = (HOME / ".ci" / "run").read_text(encoding="utf-8")
+    kernels = re.search(r"ARGS='(.*)'", check)[1]
+    assert f"python -m nox {kernels}\n" in WORKFLOW
+    lint = (HOME / "Makefile").read_text(encoding="utf-8")
+    for step in ("ruff check .", "ruff format --check .", "mypy", "pytest -n auto"):
+        assert f"python -m {step}" in lint
+        assert f"run: python -m {step}\n" in WORKFLOW
+
+
+def test_the_pythons_are_those_of_the_package():
+    classified = re.findall(r"Python :: (3\.\d+)", "\n".join(PROJECT["project"]["classifiers"]))
+    assert re.search(r"python: \[(.*)\]", WORKFLOW)[1] == ", ".join(f'"{each}"' for each in classified)
+    assert re.search(r"PYTHONS = \((.*)\)", (HOME / "noxfile.py").read_text())[1] == ", ".join(
+        f'"{each}"' for each in classified
+    )
+
+
+def test_the_source_archive_is_a_whole_checkout():
+    included = PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    assert [name for name in included if not (HOME / name).exists()] == []
+    assert {path.name for path in HOME.glob("*.md")} <= set(included)
