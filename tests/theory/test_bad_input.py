@@ -130,6 +130,7 @@ OTHERS = {
     "conductance.law": {"resistivities": (1e-8, 2e-8)},
     "interaction.finite_body": {"law": greenwood_williamson.law(ROUGH, 1e9, 1e-6)},
     "punch.two_discs": {"spacing": 5e-3},
+    "plasticity.summit_index": {"height": np.array([1e-6, 2e-6]), "curvature": np.array([1e4, 2e4])},
     "thermal.constriction": {"ratio": 0.3},
     "Asperity": {"exponent": 1.5},
     "SteppedIndenter": {"ratio": 2.0},
