@@ -172,3 +172,12 @@ def test_ctrl_c_ends_a_run(rough, tmp_path):
     assert "Interrupted" in stderr
     assert "Traceback" not in stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_help_waits_for_no_library_of_numerics():
+    code = (
+        "import sys; import roughcontact.cli.app; "
+        "print({'scipy', 'matplotlib', 'xarray', 'pandas', 'pydantic'} & set(sys.modules))"
+    )
+    answer = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert answer.stdout == "set()\n"

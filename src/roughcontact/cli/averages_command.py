@@ -16,7 +16,6 @@ from roughcontact.cli.report import emit, print_facts, print_table
 from roughcontact.cli.study_command import FOLDER, own_cases, require_results
 from roughcontact.cli.unit_options import parse_number
 from roughcontact.plot.engineering_units import scale
-from roughcontact.statistics.power_law import ROUNDING
 
 if TYPE_CHECKING:
     import xarray
@@ -188,6 +187,8 @@ def _averaged(folder: Path, window: Window | None, force: float | None = None) -
 
 def _require_between(dataset: xarray.Dataset, force: float) -> None:
     """Refuse a force that no load of the study comes near."""
+    from roughcontact.statistics.power_law import ROUNDING
+
     if "dimensionless_force" not in dataset:
         raise UsageError("--at: the study has no forces over E* h L; see roughcontact study export")
     low, high = (

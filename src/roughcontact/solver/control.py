@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.kernels.planes import Extremes
 from roughcontact.validation import Array, scalar
+
+if TYPE_CHECKING:
+    from roughcontact.halfspace.operators.operator import Operator
+    from roughcontact.kernels.planes import Extremes
 
 __all__ = ["Control", "Depth", "Force", "Solver", "State", "Status", "Tangent", "Terms", "checked_tolerance"]
 
