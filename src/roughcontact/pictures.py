@@ -31,7 +31,7 @@ def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | N
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
     spikes : Spikes, optional
-        Such as ``roughcontact.find_spikes(surface)``: marked, and left out of the range of colours.
+        Such as ``roughcontact.find_spikes(surface)``: each is marked.
 
     Returns
     -------

@@ -148,17 +148,17 @@ def _check(patches: Sequence[Solution]) -> None:
             )
         if not each.status.converged:
             raise ConvergenceError(each)
-        alike = (
+        same = (
             type(problem.control) is type(first.control)
             and math.isclose(problem.control.value, first.control.value, rel_tol=SAME)
             and problem.grid.shape == first.grid.shape
             and problem.grid.periodic == first.grid.periodic
             and np.allclose(problem.grid.spacing, first.grid.spacing, rtol=SAME, atol=0)
         )
-        if not alike:
+        if not same:
             raise ValueError(
-                "patches must have one size and one load to have a mean: crop them alike, and press each by the same "
-                f"force, pressure or depth, not {_words(first)} and {_words(problem)}"
+                "patches must have one size and one load to have a mean: crop them to one size, and press each by "
+                f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}"
             )
 
 
