@@ -82,7 +82,8 @@ def info(
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
         with output(out) as folder:
             if folder is not None:
-                _draw(surface, spikes, folder / f"surface.{ending}")
+                with doing("Drawing"):
+                    _draw(surface, spikes, folder / f"surface.{ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
         if folder is not None:
             note(f"surface.{ending} is in {folder}")
