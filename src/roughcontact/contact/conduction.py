@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -13,7 +13,6 @@ from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
-from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
 from roughcontact.validation import Array, number
 
@@ -127,13 +126,12 @@ def conductance(
         raise ValueError(
             f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
         )
-    if isinstance(contact, Solution) and contact.problem.hardness < math.inf:
-        # Plastic cells conduct as well: the stiffness of the whole region, as if it were elastic.
-        elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
-        contact = replace(contact, problem=elastic, _frozen=None)
+    if isinstance(contact, Solution):
+        contact = contact.flattened  # plastic cells conduct as well
     scales = contact.problem if isinstance(contact, Solution) else contact
     area = scales.nominal_area if isinstance(scales, Curve) else scales.grid.area
-    _require_conducting(scales.geometry, scales.hardness < math.inf, of)
+    hidden = isinstance(contact, Curve) and contact.hardness < math.inf
+    _require_conducting(scales.geometry, hidden, of)
     stiffness = np.asarray(getattr(contact, _PARTS[of]), dtype=np.float64)
     return _of_part(materials.of(stiffness, scales.modulus), area, of)
 

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
 from roughcontact.contact.dataset import curve_dataframe
+from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
@@ -69,6 +70,8 @@ class Curve:
         What the cells are. On a line forces, stiffness, areas and energy are per unit length.
     hardness : float
         Pressure that no cell exceeds [Pa]; cells that reach it have no part in the stiffness.
+    flow : FlowCurve, optional
+        What flows along the curve, and the stiffness of unloading; where there is a hardness.
     """
 
     force: Array
@@ -92,6 +95,7 @@ class Curve:
     nominal_area: float
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
+    flow: FlowCurve | None = None
 
     def __len__(self) -> int:
         return len(self.force)
@@ -342,9 +346,14 @@ def collect(path: Iterable[Solution]) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
     points: list[tuple[float, ...]] = []
     status: list[Status] = []
+    flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
+    hardness = 0.0
     for solution in path:
-        problem = solution.problem
+        problem = problem or solution.problem
+        if solution.problem.plastic:  # on unloading nothing limits the pressure
+            hardness = max(hardness, solution.problem.terms.largest_hardness)
+        flows.append(flow_point(solution))
         numbers = (getattr(solution, name) for name in CURVE_POINTS)
         points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
         status.append(solution.status)
@@ -366,7 +375,8 @@ def collect(path: Iterable[Solution]) -> Curve:
         full_contact_stiffness=full_contact_stiffness(problem),
         nominal_area=problem.grid.area,
         geometry=problem.geometry,
-        hardness=problem.hardness,
+        hardness=hardness or math.inf,
+        flow=flow_curve(flows),
     )
 
 

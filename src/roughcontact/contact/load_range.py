@@ -14,6 +14,7 @@ from roughcontact.contact.curve import DECADE, length_scale
 from roughcontact.contact.load_search import SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
+from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -76,7 +77,7 @@ def load_range(
     *,
     count: int = FORCES,
     operator: Operator | None = None,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
 ) -> LoadRange:
     """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
 
@@ -96,7 +97,7 @@ def load_range(
         Number of forces.
     operator : Operator, optional
         Another body than the half-space on the surface's grid.
-    hardness : float, optional
+    hardness : float, array or function, optional
         Pressure that no cell exceeds [Pa].
 
     Returns

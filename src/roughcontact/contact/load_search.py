@@ -24,6 +24,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
+from roughcontact.solver.projection import bearing_area
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.validation import Array
@@ -176,8 +177,10 @@ def _end(solution: Solution, kind: SurfaceKind, full: float, *, on_one_feature: 
     if kind is SurfaceKind.FORM and solution.touches_edge:
         return "contact at the border of the map"
     pressure = solution.force / solution.contact_area
-    if problem.hardness < math.inf:
-        return "" if pressure < PLASTIC * problem.hardness else "a mean pressure in contact near the hardness"
+    if problem.plastic:
+        borne = bearing_area(problem.measure, solution.contact, problem.terms) / solution.contact_area
+        near = pressure >= PLASTIC * (problem.terms.largest_hardness * borne)
+        return "a mean pressure in contact near the hardness" if near else ""
     strained = pressure > STRAINED * problem.modulus and problem.geometry is not Geometry.FOUNDATION
     return "a mean pressure in contact of half the reduced modulus" if strained and not on_one_feature else ""
 
@@ -212,5 +215,6 @@ def pilot_of(problem: ContactProblem) -> ContactProblem | None:
         problem.control,
         problem.tolerance,
         modulus=problem.modulus,
-        hardness=problem.hardness,
+        hardness=problem.terms.largest_hardness,
+        size_law=problem.size_law,
     )

@@ -15,13 +15,14 @@ from roughcontact.solver.control import Status
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
     from roughcontact.surface.surface import Surface
 
 __all__ = [
     *("AREAL_COLUMNS", "CURVE_COLUMNS"),
-    *("load_table", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
+    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
@@ -65,6 +66,29 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
+
+
+def loop_facts(loop: Loop) -> list[tuple[str, str]]:
+    """Return what a loop of loads is worth telling, line by line."""
+    kind, loading, unloading = loop.loading.geometry, loop.loading, loop.unloading
+    dissipated, work = loop.dissipated_work, loop.work
+    facts = [
+        (
+            "loads",
+            f"{len(loading)} up to {quantity('force', float(loading.force[-1]), kind)}, down and up again",
+        ),
+        ("largest depth", quantity("depth", float(loading.depth[-1]))),
+        ("residual depth", quantity("residual_depth", loop.residual_depth)),
+        ("stiffness on first loading", quantity("stiffness", float(loading.stiffness[-1]), kind)),
+        ("stiffness on unloading", quantity("stiffness", float(unloading.stiffness[0]), kind)),
+        ("volume of flow", quantity("flow_volume", loop.flow.volume, kind)),
+        ("work of first loading", quantity("work", work, kind)),
+        ("dissipated work", f"{quantity('dissipated_work', dissipated, kind)} ({dissipated / work:.2%})"),
+    ]
+    if loading.flow is not None:
+        part = loading.flow.plastic_area[-1] / loading.contact_area[-1]
+        facts.append(("plastic part of the contact", f"{part:.2%} at the largest load"))
+    return facts
 
 
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
