@@ -152,13 +152,11 @@ def plot_loop(
     """
     from roughcontact.plot import loops
 
-    draw = {
-        "depth": loops.depth_loop,
-        "stiffness": loops.stiffness_loop,
-        "bearing": loops.bearing_curves,
-    }
+    if quantity == "bearing":
+        return loops.bearing_curves(loop.surface, loop.flow, ax)
+    draw = {"depth": loops.depth_loop, "stiffness": loops.stiffness_loop}
     if quantity not in draw:
-        raise ValueError(f"quantity must be one of {', '.join(draw)}, not {quantity!r}")
+        raise ValueError(f"quantity must be one of {', '.join((*draw, 'bearing'))}, not {quantity!r}")
     return draw[quantity](loop, ax)
 
 

@@ -21,12 +21,12 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid
 from roughcontact.pictures import loop_html, plot_loop
 from roughcontact.solver.control import Solver
-from roughcontact.validation import number, numeric, require
+from roughcontact.validation import Array, number, numeric, require
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["BRANCHES", "Loop", "loading_loop"]
+__all__ = ["BRANCHES", "Loop", "closed_loop", "loading_loop", "loads_of_loop"]
 
 BRANCHES = ("loading", "unloading", "reloading")
 
@@ -197,7 +197,7 @@ def loading_loop(
         raise ValueError(
             f"the {name} of a loop must increase strictly: it goes down them and up again by itself"
         )
-    given: dict[str, Any] = {name: np.concatenate([loads, loads[::-1], loads])}
+    given: dict[str, Any] = {name: loads_of_loop(loads)}
     path = loading_path(
         surface,
         modulus,
@@ -211,6 +211,11 @@ def loading_loop(
     return collect_loop(path, len(loads))
 
 
+def loads_of_loop(loads: Array) -> Array:
+    """Return rising loads, up, down and up again."""
+    return np.concatenate([loads, loads[::-1], loads])
+
+
 def collect_loop(path: Iterator[Solution], count: int) -> Loop:
     """Drain a path of loads, up, down and up again, into a loop; fields are not kept, but for those at the turn."""
     turn: list[Solution] = []
@@ -220,20 +225,17 @@ def collect_loop(path: Iterator[Solution], count: int) -> Loop:
             turn[:] = [solution]
             yield solution
 
-    loading = collect(watched())
-    top = turn[0]
-    unloading, reloading = (collect(islice(path, count)) for _ in range(2))
-    flattened = top.flattened.problem
-    assert top.flow is not None
-    assert top.problem.surface is not None
-    assert flattened.surface is not None
+    return closed_loop(collect(watched()), turn[0], path)
+
+
+def closed_loop(loading: Curve, turn: Solution, path: Iterator[Solution]) -> Loop:
+    """Return the loop of a curve of first loading, its last state, and the path of the loads that follow."""
+    unloading, reloading = (collect(islice(path, len(loading))) for _ in range(2))
+    before, after = turn.problem.surface, turn.flattened.problem
+    assert turn.flow is not None
+    assert before is not None
+    assert after.surface is not None
+    touch = after.first_touch
     return Loop(
-        loading,
-        unloading,
-        reloading,
-        top.problem.surface,
-        flattened.surface,
-        top.flow,
-        flattened.first_touch,
-        flattened.mean_separation - flattened.first_touch,
+        loading, unloading, reloading, before, after.surface, turn.flow, touch, after.mean_separation - touch
     )

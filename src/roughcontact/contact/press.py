@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
@@ -174,6 +175,8 @@ def solve_state(
         guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)
         if problem.size_law is not None:
             return settle(problem, problem.size_law, solver, guess, subdomains)
+        if problem.flow is not None:
+            return problem, *_from_touch(problem, solver, guess, subdomains)
         return problem, *subdomains.solve(solver, problem.separation, problem.terms, guess)
 
 
@@ -181,6 +184,19 @@ def lock(pressure: Array) -> None:
     """Make an answer read-only, where its library can."""
     if is_numpy(pressure):
         pressure.flags.writeable = False
+
+
+def _from_touch(
+    problem: ContactProblem, solver: Solver, guess: tuple[Array, float], subdomains: SubdomainSolver
+) -> tuple[State, Subdomain]:
+    """Solve with depths that count from where the flattened bodies touch: more would cost digits of the pressure."""
+    touch = problem.first_touch
+    separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
+    control, (pressure, depth) = problem.control, guess
+    nearer = Depth(control.value - touch) if isinstance(control, Depth) else control
+    terms = replace(problem.terms, control=nearer)
+    state, subdomain = subdomains.solve(solver, separation, terms, (pressure, depth - touch))
+    return replace(state, depth=state.depth + touch), subdomain
 
 
 def _untouched(problem: ContactProblem, depth: float) -> tuple[State, Subdomain]:

@@ -50,6 +50,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     problem, kind = solution.problem, solution.problem.geometry
     pressure = solution.force / problem.grid.area
     met = "met" if solution.status.converged else "MISSED"
+    flowed = solution.flow is not None and solution.flow.volume > 0
     return [
         ("surface", size_of(problem.grid)),
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
@@ -59,6 +60,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("depth", quantity("depth", solution.depth, kind)),
         ("stiffness", quantity("stiffness", solution.stiffness, kind)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
+        *(_flow_facts(solution) if flowed else ()),
         ("contact area", quantity("contact_area", solution.contact_area, kind)),
         ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
@@ -66,6 +68,29 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
+
+
+def _flow_facts(solution: Solution) -> list[tuple[str, str]]:
+    """Return what there is to tell of a state that has flowed."""
+    flow, flattened, kind = solution.flow, solution.flattened, solution.problem.geometry
+    assert flow is not None
+    most = float(solution.problem.measure.xp.max(flow.depth))
+    part = solution.problem.measure.total(solution.plastic) / (solution.contact_area or 1.0)
+    words = f"{quantity('flow_volume', flow.volume, kind)}, up to {quantity('flow_depth', most)} deep"
+    facts = [
+        ("volume of flow", words),
+        ("residual depth", quantity("residual_depth", flattened.problem.first_touch)),
+    ]
+    if solution.problem.flow is not None:  # unloaded: nothing flows
+        return facts
+    stiffness = [
+        (words, quantity(name, getattr(flattened, name), kind))
+        for words, name in (
+            ("stiffness on unloading", "stiffness"),
+            ("interfacial one on unloading", "interfacial_stiffness"),
+        )
+    ]
+    return [*stiffness, ("plastic part of the contact", f"{part:.2%}"), *facts]
 
 
 def loop_facts(loop: Loop) -> list[tuple[str, str]]:

@@ -9,14 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.arrays import on_host
+from roughcontact.contact.flow import Flow
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
+from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.maps import height_map
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes, readable_ticks
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 
 __all__ = ["bearing_curves", "depth_loop", "flattened_figure", "loop_figure", "stiffness_loop"]
@@ -100,12 +103,15 @@ def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def bearing_curves(loop: Loop, ax: Axes | None = None) -> Axes:
-    """Draw the bearing (Abbott) curve of the surface before and after the loop: heights above the first mean.
+def bearing_curves(surface: Body, flow: Flow, ax: Axes | None = None) -> Axes:
+    """Draw the bearing (Abbott) curve of a surface before and after it has flowed: heights above the first mean.
 
     Parameters
     ----------
-    loop : Loop
+    surface : Surface or RadialProfile
+        As it was.
+    flow : Flow
+        What has flowed, such as ``solution.flow``.
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -114,7 +120,7 @@ def bearing_curves(loop: Loop, ax: Axes | None = None) -> Axes:
     Axes
     """
     axes = axes_for(ax)
-    curves = {"before": bearing_of(loop.surface), "after": bearing_of(loop.flattened)}
+    curves = {"before": bearing_of(surface), "after": bearing_of(flow.flatten(surface))}
     share, heights = curves["before"]
     mean = float(np.average(heights, weights=np.diff(share, prepend=0.0)))
     z = scale(float(np.abs(heights - mean).max()), VARIABLES["heights"].unit)
@@ -155,12 +161,15 @@ def loop_figure(loop: Loop) -> Figure:
     return figure
 
 
-def flattened_figure(loop: Loop) -> Figure:
+def flattened_figure(surface: Body, flow: Flow) -> Figure:
     """Return the flattened surface beside its bearing curve, before and after.
 
     Parameters
     ----------
-    loop : Loop
+    surface : Surface or RadialProfile
+        As it was.
+    flow : Flow
+        What has flowed, such as ``solution.flow``.
 
     Returns
     -------
@@ -168,22 +177,23 @@ def flattened_figure(loop: Loop) -> Figure:
     """
     figure = Figure(figsize=(9.6, 4.2), layout="constrained")
     heights, bearing = figure.subplots(1, 2, width_ratios=(1.25, 1))
-    if loop.surface.grid.ndim == 2:
-        height_map(loop.flattened, heights)  # type: ignore[arg-type]
+    after = flow.flatten(surface)
+    if isinstance(after, Surface) and after.grid.ndim == 2:
+        height_map(after, heights)
     else:
-        _profiles(loop, heights)
-    heights.set_title(f"flattened by up to {written(float(loop.flow.depth.max()), 'm')}", fontsize=LABEL)
-    bearing_curves(loop, bearing)
+        _profiles(surface, after, heights)
+    heights.set_title(f"flattened by up to {written(float(flow.depth.max()), 'm')}", fontsize=LABEL)
+    bearing_curves(surface, flow, bearing)
     return figure
 
 
-def _profiles(loop: Loop, axes: Axes) -> None:
+def _profiles(before: Body, after: Body, axes: Axes) -> None:
     """Draw a line or rings before and after."""
-    grid = loop.surface.grid
+    grid = before.grid
     [places], x = grid.coordinates, length_scale(grid)
-    z = scale(float(np.nanmax(np.abs(loop.surface.heights))), VARIABLES["heights"].unit)
-    for body, colour, words in ((loop.surface, _BEFORE, "before"), (loop.flattened, _AFTER, "after")):
+    z = scale(float(np.nanmax(np.abs(before.heights))), VARIABLES["heights"].unit)
+    for body, colour, words in ((before, _BEFORE, "before"), (after, _AFTER, "after")):
         axes.plot(places * x.factor, body.heights * z.factor, color=colour, linewidth=1.0, label=words)
     axes.legend(fontsize=TICK, frameon=False)
-    name = loop.loading.geometry.axes[0]
+    name = Geometry.of(grid).axes[0]
     label_axes(axes, f"{name} [{x.unit}]", f"{VARIABLES['heights'].label} [{z.unit}]", grid=True)
