@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "press"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "press": """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
@@ -35,7 +36,8 @@ roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cu
 roughcontact press part.x3p --force 10N --after 100N --materials steel,aluminium --hardness aluminium --out result
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
-"""
+""",
+}
 
 Theory = StrEnum("Theory", ["PERSSON"])
 _THEORY = option(
