@@ -486,6 +486,7 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
         (("--loop",), "--loop is about what flows: give a --hardness"),
         (("--flow", "raised"), "--flow is about what flows: give a --hardness"),
         (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop goes by forces or pressures"),
+        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "leave it out with --flow raised"),
         (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow raised goes by forces"),
     ],
 )

@@ -328,6 +328,9 @@ def test_arrays_of_other_libraries(library, flow):
             np.testing.assert_allclose(library.get(b.pressure), a.pressure, rtol=0, atol=1e-8)
             assert b.depth == pytest.approx(a.depth, rel=1e-8)
             assert b.flow.volume == pytest.approx(a.flow.volume, rel=1e-6)
+            fields = b.to_dataset()
+            np.testing.assert_allclose(fields.flow_depth, a.flow.depth, rtol=0, atol=1e-9)
+            assert float(fields.unloading_stiffness) == pytest.approx(a.flattened.stiffness, rel=1e-6)
 
 
 def test_what_makes_no_sense_is_refused():

@@ -103,7 +103,7 @@ def curve(
         name, loads = given.values(reading.profile)
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), plastic.hardness(elasticity)
-        plastic.check(name)
+        plastic.check(name, errors)
         conductors = materials.conductors()
         if reading.profile is not None:
             part = None if conductors is None else materials.of.value

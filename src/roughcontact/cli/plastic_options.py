@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from roughcontact.cli.error_options import Errors
     from roughcontact.cli.options import Elasticity
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
@@ -79,6 +80,18 @@ class AfterLoad:
             )
         return first
 
+    def check(self, errors: Errors) -> None:
+        """Refuse errors of what no single load is.
+
+        Raises
+        ------
+        UsageError
+            If they are asked for.
+        """
+        if errors.errors and (self.after is not None or self.raises):
+            asked = "--after" if self.after is not None else "--flow raised"
+            raise UsageError(f"--errors presses other maps by the same load alone: leave it out with {asked}")
+
     def last_of(
         self,
         surface: Surface,
@@ -136,14 +149,18 @@ class LoopLoads:
         """
         return _hardness(elasticity, "--loop" if self.loop else None, self.flow)
 
-    def check(self, name: str) -> None:
-        """Refuse loads that no loop has.
+    def check(self, name: str, errors: Errors) -> None:
+        """Refuse loads that no loop has, and errors of a surface that rises.
 
         Raises
         ------
         UsageError
-            If they are depths, and a loop or a rise is asked for.
+            If the loads are depths, and a loop or a rise is asked for; or a rise and errors.
         """
+        if errors.errors and self.flow is FlowChoice.RAISED:
+            raise UsageError(
+                "--errors presses other maps by the same load alone: leave it out with --flow raised"
+            )
         if name == "depths" and (self.loop or self.flow is FlowChoice.RAISED):
             asked = "--loop" if self.loop else "--flow raised"
             raise UsageError(f"{asked} goes by forces or pressures: the depth is what is found")

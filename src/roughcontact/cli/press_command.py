@@ -82,8 +82,7 @@ def press(
             raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
         limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(elasticity)}
         first = plastic.first(given, body)
-        if first is not None and errors.errors:
-            raise UsageError("--errors is about one load: leave it out with --after")
+        plastic.check(errors)
         if body is not None:
             body.require(conducting=None, areal_units=False, hardness=limits["hardness"] is not None)
         modulus = elasticity.reduced_modulus()

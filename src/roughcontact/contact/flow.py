@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, TypeVar
 
-from roughcontact.arrays import is_numpy, namespace
+from roughcontact.arrays import is_numpy, namespace, on_host
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -99,6 +99,17 @@ class Flow:
         if self.rise:
             line += f", raised by {self.rise:.4g} m"
         return replace(surface, heights=heights, provenance=(*surface.provenance, line))
+
+    def on_host(self) -> Flow:
+        """Return the same in NumPy's memory.
+
+        Returns
+        -------
+        Flow
+        """
+        uniform = isinstance(self.hardness, int | float)
+        hardness = self.hardness if uniform else on_host(self.hardness)
+        return replace(self, depth=on_host(self.depth), hardness=hardness)
 
     def __repr__(self) -> str:
         """Say how much flowed, not the field."""

@@ -94,7 +94,7 @@ def _doubts(solution: Solution) -> tuple[str, ...]:
         doubts.append(
             f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus."
         )
-    summit = problem.mean_separation
+    summit = problem.mean_separation - problem.first_touch
     if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
         doubts.append(
             f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "

@@ -240,7 +240,12 @@ class Solution:
         if isinstance(surface, Surface):
             surface = replace(surface, heights=on_host(surface.heights))
         frozen = self._frozen and replace(self._frozen, tangent=on_host(self._frozen.tangent))
-        bodies = replace(problem, separation=on_host(problem.separation), surface=surface)
+        hardness = (
+            problem.hardness if isinstance(problem.hardness, int | float) else on_host(problem.hardness)
+        )
+        flow = problem.flow and problem.flow.on_host()
+        separation = on_host(problem.separation)
+        bodies = replace(problem, separation=separation, surface=surface, hardness=hardness, flow=flow)
         return replace(self, problem=bodies, pressure=on_host(self.pressure), _frozen=frozen)
 
     @property
