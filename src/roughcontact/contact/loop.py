@@ -38,7 +38,7 @@ class Loop:
     Attributes
     ----------
     loading : Curve
-        First loading, up to the largest load; what flows there is `loading.flow`.
+        First loading, up to the largest load; what flows there is ``loading.flow``.
     unloading, reloading : Curve
         From the largest load down to the least, and up again, on the flattened surface: its stiffness is that of all
         cells in contact. Depths count from the first touch of the surface as it was.
