@@ -233,7 +233,6 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
         (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
         (("--theory", "cmy"), "by --hardness"),
-        (("--hardness", "1GPa", "--conductivity", "steel"), "plastic cells conduct"),
     ],
 )
 def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
@@ -452,6 +451,17 @@ def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, sur
     assert rc.read_curve(tmp_path / "out" / "curve.nc").flow is not None
     told = invoke(*words, "--loop").stdout
     assert all(line in told for line in ("residual depth", "stiffness on unloading", "dissipated work"))
+
+
+def test_what_flows_conducts(invoke, rough, surface):
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--hardness", "2GPa", "--json")
+    record = json.loads(invoke(*words, "--conductivity", "50W/m/K,160W/m/K").stdout)
+    *_, last = rc.loading_path(surface, 110e9, forces=record["force"], hardness=2e9)
+    expected = rc.conductance(last, conductivities=(50.0, 160.0))
+    assert last.plastic.any()
+    assert record["thermal_conductance"][-1] == pytest.approx(
+        float(expected["thermal_conductance"]), rel=1e-5
+    )
 
 
 def test_a_loop_takes_the_hardness_of_the_softer_material(invoke, rough):

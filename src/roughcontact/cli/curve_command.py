@@ -16,7 +16,7 @@ from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
@@ -108,11 +108,6 @@ def curve(
         if reading.profile is not None:
             part = None if conductors is None else materials.of.value
             reading.profile.require(conducting=part, areal_units=bool(chosen), hardness=hardness is not None)
-        if conductors is not None and hardness is not None:
-            raise UsageError(
-                "under a --hardness plastic cells conduct, but have no part in the stiffness of a curve: leave out "
-                "--hardness, or take rc.conductance of each solution of rc.loading_path"
-            )
         theories.check()
         errors.check()
         tables.check(out)

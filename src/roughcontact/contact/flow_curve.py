@@ -29,8 +29,8 @@ class FlowCurve:
     flow_energy : array, shape (n,)
         Work of the pressure upon the cells that flow [J].
     unloading_stiffness, unloading_interfacial_stiffness : array, shape (n,)
-        ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact answer
-        [N/m].
+        ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact
+        answer [N/m].
     """
 
     plastic_area: Array
