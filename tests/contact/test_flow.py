@@ -282,6 +282,18 @@ def test_a_hardness_that_is_never_reached(pressed):
     assert plain[0].flattened is plain[0]
 
 
+def test_a_cell_that_is_just_at_the_hardness_answers_on_unloading():
+    """The hardness is the largest pressure of the elastic contact, but for rounding: the cell hardly flows."""
+    surface = plane()
+    elastic = rc.press(surface, MODULUS, force=0.01, **TIGHT)
+    hardness = float(elastic.pressure.max()) * (1 - 1e-12)
+    just = rc.press(surface, MODULUS, force=0.01, hardness=hardness, **TIGHT)
+    assert just.plastic.sum() == 1
+    assert just.flow.volume <= 1e-9 * spread(surface) * surface.grid.area
+    assert just.stiffness < (1 - 1e-6) * elastic.stiffness
+    assert just.flattened.stiffness == pytest.approx(elastic.stiffness, rel=1e-9)
+
+
 def test_a_hardness_of_every_cell_that_is_one_number(pressed):
     body, operator, force, hardness = pressed
     [one] = path(body, operator, hardness, [force])

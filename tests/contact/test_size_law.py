@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from libraries import LIBRARIES
 
 MODULUS = 2.0
 
@@ -62,6 +63,25 @@ def test_a_law_that_is_one_number_is_that_number(pressed):
     one, law = (rc.press(body, MODULUS, hardness=h, **given) for h in (0.15, lambda a: 0.15 + 0 * a))
     assert law.depth == pytest.approx(one.depth, rel=1e-9)
     np.testing.assert_array_equal(law.contact, one.contact)
+
+
+def test_depths_from_the_first_touch_on(pressed):
+    body, operator, _, cell = pressed
+    depths = 0.4 * (body.heights.max() - body.heights.mean()) * np.array([0.0, 1.0, 0.0])
+    law = rc.NixGao(hardness=0.02, radius=0.1)
+    curve = rc.loading_curve(body, MODULUS, depths=depths, operator=operator, hardness=law)
+    assert curve.flow.flow_volume[0] == 0 < curve.flow.flow_volume[1] == curve.flow.flow_volume[2]
+    assert curve.status[0] is curve.status[2] is rc.Status.NO_CONTACT
+    touch = rc.press(body, MODULUS, depth=0.0, operator=operator, hardness=law)
+    np.testing.assert_allclose(touch.problem.hardness, law(np.broadcast_to(cell, body.grid.shape)))
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=lambda kind: kind.__name__)
+def test_spots_elsewhere_than_on_the_host_are_refused(library):
+    ball = rc.shapes.paraboloid(rc.Grid((9, 9), 0.1), radius=3.0)
+    there = rc.Surface(library.put(ball.heights.copy()), ball.grid)
+    with pytest.raises(ValueError, match="labelled on the host"):
+        rc.press(there, MODULUS, force=0.01, hardness=rc.NixGao(0.1, 1.0))
 
 
 def test_large_spots_of_the_law_have_its_hardness():

@@ -10,7 +10,7 @@ from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.spot_hardness import settle
+from roughcontact.contact.spot_hardness import settle, without_spots
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -170,6 +170,8 @@ def solve_state(
     if isinstance(solver, type) or not hasattr(solver, "run"):
         raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
     if isinstance(problem.control, Depth) and problem.control.value <= max(0.0, problem.first_touch):
+        if problem.size_law is not None:
+            problem = without_spots(problem, problem.size_law)
         return problem, *_untouched(problem, problem.control.value)
     with one_blas_thread():
         guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)

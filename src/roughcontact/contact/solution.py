@@ -161,7 +161,7 @@ class Solution:
             return self
         whole = replace(self, problem=self.problem.after(self.flow))
         # Without a plastic cell all in contact answer already.
-        return replace(whole, _frozen=None) if self.flow.volume else whole
+        return replace(whole, _frozen=None) if bool(self._measure.xp.any(self.plastic)) else whole
 
     @property
     def stiffness(self) -> float:

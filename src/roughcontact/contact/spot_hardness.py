@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.problem import ContactProblem
     from roughcontact.contact.size_law import SizeLaw
 
-__all__ = ["settle"]
+__all__ = ["settle", "without_spots"]
 
 ROUNDS = 100  # solves: spots that merge one after the other take one each
 
@@ -36,10 +36,6 @@ def settle(
     subdomains: SubdomainSolver,
 ) -> tuple[ContactProblem, State, Subdomain]:
     """Return the problem under the hardness of its own spots, its last state, and where that lies."""
-    if not problem.measure.on_host:
-        raise ValueError(
-            "spots are labelled on the host: a hardness by their size takes heights in NumPy's memory"
-        )
     contact, steps = np.zeros(problem.grid.shape, dtype=bool), 0
     for _ in range(ROUNDS):
         here = replace(problem, hardness=_hardness_of(contact, problem, law))
@@ -52,8 +48,17 @@ def settle(
     return here, replace(state, steps=steps, status=Status.UNSETTLED, tangent=None), subdomain
 
 
+def without_spots(problem: ContactProblem, law: SizeLaw) -> ContactProblem:
+    """Return the problem under the hardness of single cells, as it is before the first touch."""
+    return replace(problem, hardness=_hardness_of(np.zeros(problem.grid.shape, dtype=bool), problem, law))
+
+
 def _hardness_of(contact: Mask, problem: ContactProblem, law: SizeLaw) -> Array:
     """Return the hardness of each cell by the spot that it belongs to; outside of contact that of a cell alone [Pa]."""
+    if not problem.measure.on_host:
+        raise ValueError(
+            "spots are labelled on the host: a hardness by their size takes heights in NumPy's memory"
+        )
     measure, shape = problem.measure, problem.grid.shape
     areas = measure.on(np.arange(problem.grid.size)).reshape(shape)
     spots = find_spots(contact, np.zeros(shape), problem.grid, measure)
