@@ -16,6 +16,7 @@ import numpy as np
 from roughcontact.contact.spots import find_spots
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.control import Solver, State, Status
+from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.validation import Array, Mask, number
 
@@ -39,8 +40,12 @@ def settle(
     contact, steps = np.zeros(problem.grid.shape, dtype=bool), 0
     for _ in range(ROUNDS):
         here = replace(problem, hardness=_hardness_of(contact, problem, law))
-        state, subdomain = subdomains.solve(solver, here.separation, here.terms, start)
-        steps += state.steps
+        # From the pressure before, of which little changes, by projection: others begin with the elastic contact.
+        for method in (solver,) if not steps else (PolonskyKeer(), solver):
+            state, subdomain = subdomains.solve(method, here.separation, here.terms, start)
+            steps += state.steps
+            if state.status.converged:
+                break
         pressure = prolong(state.pressure, subdomain, problem.grid.shape)
         if np.array_equal(pressure > 0, contact) or not state.status.converged:
             return here, replace(state, steps=steps), subdomain
