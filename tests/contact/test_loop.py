@@ -54,6 +54,14 @@ def test_unloading_and_reloading_are_one_and_the_curve_closes(loop):
     np.testing.assert_array_equal(loop.reloading.flow.flow_volume, loop.flow.volume)
 
 
+def test_the_secant_of_unloading_is_that_of_reloading(loop):
+    up, down = loop.reloading.secant_stiffness, loop.unloading.secant_stiffness[::-1]
+    np.testing.assert_allclose(down, up, rtol=1e-6)
+    # The force is convex in the depth: between the tangents at both ends.
+    assert (loop.reloading.stiffness[:-1] <= up).all()
+    assert (up <= loop.reloading.stiffness[1:]).all()
+
+
 def test_the_residual_state_is_that_of_the_flattened_surface(loop):
     down = loop.surface.heights.max() - loop.flattened.heights.max()
     assert loop.residual_depth == pytest.approx(down, rel=1e-12)

@@ -159,10 +159,11 @@ class Curve:
     def secant_stiffness(self) -> Array:
         """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,).
 
-        Infinite where the depth does not grow, as in the full contact of a periodic surface.
+        Infinite where the depth does not grow with the force, as in the full contact of a periodic surface.
         """
         force, depth = np.diff(self.force), np.diff(self.depth)
-        return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=depth > 0))
+        moves = (depth > 0) | ((depth < 0) & (force < 0))
+        return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=moves))
 
     def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
         """Return the power law k ~ F^alpha through the points of a window of force (thesis, eq. 4.53).
