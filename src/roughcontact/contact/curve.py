@@ -106,7 +106,8 @@ class Curve:
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
         if self.geometry is Geometry.LINE:
             return solved & is_resolved(self.contact_area, self.spacing[0], self.lengths[0])
-        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.full_contact_stiffness)
+        stiffness = self.stiffness if self.flow is None else self.flow.unloading_stiffness
+        return solved & is_resolved(stiffness, self.cell_stiffness, self.full_contact_stiffness)
 
     @property
     def length(self) -> float:

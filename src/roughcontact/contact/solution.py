@@ -285,10 +285,10 @@ class Solution:
 
     @property
     def _size_and_cell(self) -> tuple[float, float]:
-        """What tells a contact from a cell: its stiffness; on a line, where that hardly grows, its width."""
+        """What tells a contact from a cell: the stiffness of all of it; on a line its width, for that hardly grows."""
         if self.problem.geometry is Geometry.LINE:
             return self.contact_area, self.problem.grid.spacing[0]
-        return self.stiffness, cell_stiffness(self.problem.operator)
+        return self.flattened.stiffness, cell_stiffness(self.problem.operator)
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

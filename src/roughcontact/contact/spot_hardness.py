@@ -37,15 +37,17 @@ def settle(
     subdomains: SubdomainSolver,
 ) -> tuple[ContactProblem, State, Subdomain]:
     """Return the problem under the hardness of its own spots, its last state, and where that lies."""
-    contact, steps = np.zeros(problem.grid.shape, dtype=bool), 0
+    contact, steps, last = np.zeros(problem.grid.shape, dtype=bool), 0, 0
     for _ in range(ROUNDS):
         here = replace(problem, hardness=_hardness_of(contact, problem, law))
-        # From the pressure before, of which little changes, by projection: others begin with the elastic contact.
-        for method in (solver,) if not steps else (PolonskyKeer(), solver):
+        # From the pressure before, of which little changes, by projection: others begin with the elastic contact. Where
+        # nearly all is plastic the projection may stagnate: it is given no more products than the round before took.
+        for method in (PolonskyKeer(max_steps=last), solver) if last else (solver,):
             state, subdomain = subdomains.solve(method, here.separation, here.terms, start)
             steps += state.steps
             if state.status.converged:
                 break
+        last = state.steps
         pressure = prolong(state.pressure, subdomain, problem.grid.shape)
         if np.array_equal(pressure > 0, contact) or not state.status.converged:
             return here, replace(state, steps=steps), subdomain
