@@ -1,0 +1,83 @@
+"""Distributions of the pressure in contact and of the gap beside it; `Solution` has them as its methods."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.arrays import on_host
+from roughcontact.validation import Array, Mask, numeric
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["gap_histogram", "pressure_histogram"]
+
+
+@numeric
+def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
+    """Return the distribution of the pressure over the contact area.
+
+    Cells count by their area.
+
+    Parameters
+    ----------
+    solution : Solution
+    bins : int
+        Number of bins of equal width from zero to the largest value.
+
+    Returns
+    -------
+    density : array, shape (bins,)
+        Probability density [1/Pa]; on springs [m/N].
+    edges : array, shape (bins + 1,)
+        Edges of the bins [Pa]; on springs [N/m].
+
+    Raises
+    ------
+    ValueError
+        If there is not a bin.
+    """
+    return _density(solution, solution.pressure, solution.contact, bins)
+
+
+@numeric
+def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
+    """Return the distribution of the gap over the cells that are not in contact.
+
+    Cells count by their area.
+
+    Parameters
+    ----------
+    solution : Solution
+    bins : int
+        Number of bins of equal width from zero to the largest value.
+
+    Returns
+    -------
+    density : array, shape (bins,)
+        Probability density [1/m].
+    edges : array, shape (bins + 1,)
+        Edges of the bins [m].
+
+    Raises
+    ------
+    ValueError
+        If there is not a bin.
+    """
+    return _density(solution, solution.gap, ~solution.contact & solution.problem.measured, bins)
+
+
+def _density(solution: Solution, field: Array, mask: Mask, bins: int) -> tuple[Array, Array]:
+    """Return the density of a field over the area of the cells of a mask, and its edges, on the host."""
+    if bins < 1:
+        raise ValueError(f"a histogram needs at least one bin, not {bins}")
+    chosen = on_host(mask).astype(bool)
+    values, areas = on_host(field)[chosen], solution.problem.measure.on(np.flatnonzero(chosen))
+    values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
+    if not values.size:
+        return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
+    end = float(values.max()) or 1.0
+    density, edges = np.histogram(values, bins=int(bins), range=(0.0, end), weights=areas, density=True)
+    return density, edges
