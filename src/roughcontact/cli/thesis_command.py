@@ -85,7 +85,7 @@ def _compute(name: str, folder: Path, scale: Scale, seed: int | None, workers: i
     facts = [("file", str(folder / f"{name}.png")), ("figure", found.TITLE)]
     facts += [("chosen", line) for line in found.CHOSEN] + more
     for verdict in verdicts(found, data):
-        facts.append((verdict.word, f"{verdict.claim}: thesis {verdict.thesis}, here {verdict.found}"))
+        facts.append((verdict.word, f"{verdict.claim} ({verdict.source}): here {verdict.found}"))
     print_facts(facts)
 
 

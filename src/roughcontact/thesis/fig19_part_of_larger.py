@@ -14,6 +14,7 @@ from scipy.ndimage import uniform_filter
 import roughcontact as rc
 from roughcontact.plot.raster import box
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 from roughcontact.validation import Array
 
@@ -103,18 +104,22 @@ def verdicts(data: Gedankenexperiment) -> Verdicts:
     ratio = float(data.rms[0] / data.rms[PARTS.index(SCALE)])
     halvings = np.log2(data.rms[:-1] / data.rms[1:])
     yield Verdict(
-        "small and large indenter: the same configuration, force and stiffness at one depth (4.25, 4.26)",
-        "F1 = F2, k1 = k2",
+        "a part and the whole have the same contact, force and stiffness at one depth",
+        "all physical quantities remain unchanged, that is to say, all quantities that still have dimensions.",
+        "section 4.4.2, eqs 4.25, 4.26",
         f"{'the same' if same else 'other'} cells in contact; F and k equal within "
         f"{max(abs(force), abs(stiffness), 1e-15):.0e}",
-        same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6),
+        exactly(same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6), "1e-6"),
+        "method",
     )
     yield Verdict(
-        "rms height of the large indenter over that of the small one (4.27)",
-        f"lambda^H = {SCALE**HURST:.3f}",
-        f"{ratio:.3f} on the mean over all places, as the longest wave is the side of the large one; between parts "
-        f"halved again and again the exponent is {series(halvings, '.2f')} instead of {HURST:g}",
-        bool(abs(ratio / SCALE**HURST - 1) < 0.05),
+        "the rms height of a surface grows as lambda^H with its size",
+        "we know that for the rms roughness of both we have h_2 = λ^H h_1.",
+        "section 4.4.2, eq. 4.27",
+        f"{ratio:.3f} in place of {SCALE**HURST:.3f} on the mean over all places, as the longest wave is the side of "
+        f"the large one; between parts halved again and again the exponent is {series(halvings, '.2f')} in place of "
+        f"{HURST:g}",
+        exactly(bool(abs(ratio / SCALE**HURST - 1) < 0.1), "10%", f"{ratio / SCALE**HURST - 1:+.0%}"),
     )
 
 

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis.matrix_view import matrix_view
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
@@ -45,14 +46,18 @@ def verdicts(data: Array) -> Verdicts:
     # Without the constant: the distance is then counted in strips.
     own, next_one = data[0, :2] - 2 * math.log(STRIPS)
     yield Verdict(
-        "B_ij depends on |i - j| only",
-        "between the first and the last column",
+        "the matrix of strips depends on the distance only",
+        "All other values B_ij only depend on the difference |i - j|",
+        "section A.1.1, fig. 43",
         f"in all columns, within {max(spread, 1e-15):.0e}",
-        bool(spread < 1e-12),
+        exactly(bool(spread < 1e-12), "rounding"),
+        "method",
     )
     yield Verdict(
-        "B_ii and B_i,i+1 as eq. A.46 is printed",
+        "B_ii and B_i,i+1 of strips",
         f"-3/2, {-next_one / 2:.4f}",
+        "eq. A.46",
         f"{own:.4f}, {next_one:.4f}: the factor -2 of eq. A.43 is lost",
-        bool(abs(own + 1.5) < 1e-6),
+        exactly(bool(abs(own + 1.5) < 1e-6), "rounding", "a factor of -2"),
+        "misprint",
     )

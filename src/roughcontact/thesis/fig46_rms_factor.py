@@ -12,6 +12,7 @@ from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
 from roughcontact.plot.level import level
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
@@ -58,16 +59,22 @@ def verdicts(data: Array) -> Verdicts:
     lines = (line_spectrum(surface, factor) for factor in (own, own / 2))
     shares = [rc.grid_moments(rc.Grid(points, 1 / points), line).m0 / variance for line in lines]
     yield Verdict(
-        "lambda approaches pi for H = 1 and many grid points, and for no other H",
-        f"{math.pi:.4f} at H = 1",
+        "lambda approaches pi at H = 1 only",
+        "It only approaches π for H = 1 and a large number of grid points N.",
+        "section A.2, fig. 46",
         f"{limit[at[1.0]]:.4f} at H = 1; {limit[at[0.0]]:.4f} at H = 0, where 1024 waves to a side give "
         f"{data[-2, at[0.0]]:.4f}",
-        bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3),
+        exactly(
+            bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3), "0.1%", f"{limit[at[1.0]] / math.pi - 1:+.0%}"
+        ),
+        "misprint",
     )
     yield Verdict(
-        "factor of eq. A.76, H = 1: both have one rms height",
+        "the factor with which line and surface have one rms height, H = 1",
         f"{own / 2:.4f} on {points} points",
+        "eq. A.76",
         f"{own:.4f}; with it the line has {shares[0]:.6f} of the variance of the surface, with the printed one "
         f"{shares[1]:.6f}",
-        bool(abs(shares[1] - 1) < 1e-3),
+        exactly(bool(abs(shares[1] - 1) < 1e-3), "0.1%", "a factor of 2"),
+        "misprint",
     )

@@ -13,7 +13,8 @@ from roughcontact.theory import mindlin, pohrt_popov
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.averaging import RMS
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, spanned
+from roughcontact.thesis.ruling import middle, ruled
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, listed, spanned
 from roughcontact.validation import Array
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -34,6 +35,7 @@ CHOSEN = (
 )
 SIZE = (8.8, 7.2)
 SEED = 14
+FAIR = 0.2  # of what goes by a "fairly good approximation" of zeta
 
 
 def studies(scale: Scale) -> Studies:
@@ -177,33 +179,51 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     laws = {"by_7_5": "tangential", "by_7_6": "slip", "by_7_7": "slip"}
     off = {law: kept[name] / kept[law] - 1 for law, name in laws.items()}
     errors = {law: kept[f"{name}_error"] / kept[law] for law, name in laws.items()}
-    path = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
 
-    def by_law(claim: str, thesis: str, law: str) -> Verdict:
+    def by_law(claim: str, quote: str, source: str, law: str) -> Verdict:
         each = ((spanned(off[law].sel(hurst=h), "+.0%"), h) for h in off[law]["hurst"].values)
         found = ", ".join(f"{spread} from it at H = {h:g}" for spread, h in each)
-        return Verdict(claim, thesis, f"{found}; {told}", judged(off[law], errors[law], 0.15))
+        rule = ruled(middle(off[law]), middle(errors[law]), FAIR)
+        return Verdict(claim, quote, source, f"{found}; {told}", rule)
 
     yield Verdict(
-        "k/k_t = C_m = (2 - nu)/(2(1 - nu)) on rough surfaces (eqs 4.5 and 7.4)",
-        "1",
+        "k/k_t = (2 - nu)/(2(1 - nu)) on rough surfaces",
+        "This relation was originally found for circular contact spots [45] and was later confirmed numerically [14] "
+        "for isotropic self-affine surfaces.",
+        "section 4, eq. 4.5; eq. 7.4",
         f"(k/k_t)/C_m, mean over directions, {ratios}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
         f"{spanned(kept['ratio'], '.4f')} in all; the larger k_t of a sample over the smaller {tilted}; {told}",
-        judged(kept["ratio"] - 1, kept["ratio_error"], 0.02),
+        ruled(kept["ratio"] - 1, kept["ratio_error"], 0.02),
     )
-    yield by_law("k_t by eq. 7.5 with zeta = 1.7/(H + 1)", "eq. 7.5", "by_7_5")
+    yield by_law(
+        "the tangential stiffness follows with zeta = 1.7/(H + 1)",
+        "Using 7.2 we directly find",
+        "eq. 7.5",
+        "by_7_5",
+    )
     yield Verdict(
-        "the largest displacement before gross slip is mu C_m d (behind eq. 7.6)",
-        "1",
+        "the largest displacement before gross slip is mu C_m d",
+        "it is shown how eq. 7.2 can be used to estimate the maximum lateral displacement u_x,max of a rough indenter",
+        "chapter 7, behind eq. 7.6",
         f"u_max/(mu C_m d) = {slipped}, at F = {float(at['force']):.2g} E* h L and H = {SHOWN:g}; "
         f"{spanned(kept['slip_by_depth'], '.3f')} in all; {told}",
-        judged(kept["slip_by_depth"] - 1, kept["slip_by_depth_error"], 0.05),
+        ruled(kept["slip_by_depth"] - 1, kept["slip_by_depth_error"], 0.05),
     )
-    yield by_law("the largest displacement by eq. 7.6, Z from zeta = 1.7/(H + 1)", "eq. 7.6", "by_7_6")
-    yield by_law("the largest displacement by eq. 7.6, Z as printed", "eq. 7.7", "by_7_7")
+    quote = "This simple estimation thus shows that the maximum displacement before macroscopic slip depends on the "
+    quote += "normal force in a power-law fashion"
+    yield by_law("the largest displacement, Z from zeta = 1.7/(H + 1)", quote, "eqs 7.6 and 7.2", "by_7_6")
+    yield by_law("the largest displacement, Z as printed", quote, "eqs 7.6 and 7.7", "by_7_7")
+    way = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
+    # Of the same samples: the error of the ratio is at most the sum of both.
+    spread = (kept["path_error"] / kept["path"] + kept["path_by_depth_error"] / kept["path_by_depth"]).sel(
+        poisson_ratio=0.0
+    )
     yield Verdict(
-        "the way to gross slip follows from the normal loading curve, u = mu C_m [d(F) - d(F - Q/mu)] (behind 7.6)",
-        "exact for nu = 0",
-        f"displacements {spanned(path, '+.1%')} from it at nu = 0, all Hurst exponents, forces and pulls; {told}",
-        bool((np.abs(path.where(np.isfinite(path), 0)) < 0.05).all()),
+        "the way to gross slip follows from the normal loading curve, u = mu C_m [d(F) - d(F - Q/mu)]",
+        "This analogy can be extended from non-slipping contacts to tangentially loaded contacts that are just about "
+        "to start slipping [76][7].",
+        "chapter 7, behind eq. 7.6",
+        f"displacements {spanned(way, '+.1%')} from it at nu = 0, all Hurst exponents, forces and pulls; {told}",
+        ruled(way, spread, 0.05),
+        "theory",
     )
