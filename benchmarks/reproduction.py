@@ -49,7 +49,7 @@ from roughcontact.thesis.verdict import Verdict
 FOLDER = Path(__file__).resolve().parent.parent / "docs" / "reproduction"
 PAGE = FOLDER.with_suffix(".md")
 CHANGES = FOLDER.parent / "reproduction-verdicts.md"
-DPI = 120  # of the pictures
+DPI = 160  # of the pictures
 FEW = 8  # values that are listed one by one
 REDRAWN = "2026-11-23"  # from then on phases are functions of a key and the wave vector
 
@@ -223,8 +223,8 @@ def save(picture: Figure, path: Path) -> int:
     whole = io.BytesIO()
     picture.savefig(whole, format="png", dpi=DPI)
     with Image.open(whole) as image:
-        # Of the ways to choose them this one keeps those of few pixels.
-        few = image.convert("RGB").quantize(method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        # This way to choose them keeps those of many pixels as they are: greys stay grey.
+        few = image.convert("RGB").quantize(method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
         few.save(path, optimize=True)
     return path.stat().st_size
 

@@ -69,7 +69,7 @@ def test_exponents_are_drawn_as_they_were_found(axes):
         assert line.get_label() == rf"rough lines, $N = 2^{{{np.log2(points):.0f}}}$"
         np.testing.assert_array_equal(line.get_xdata(orig=False), HURST)
         np.testing.assert_allclose(line.get_ydata(orig=False), 0.9 * ALPHA, rtol=1e-9)
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    labels = [text.get_text() for text in axes.figure.legends[0].get_texts()]
     assert {*LAWS, "surfaces, 513² cells"} < set(labels)
 
 

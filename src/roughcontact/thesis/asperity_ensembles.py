@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact import statistics
-from roughcontact.plot.ticks import TICK
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
@@ -127,11 +126,13 @@ def draw_realisations(figure: Figure, averages: xarray.Dataset) -> None:
     here = 0.4 * np.exp(np.interp(np.log(middle), np.log(force), np.log(means)))
     x = np.array([low, high])
     axes.plot(x, here * (x / middle) ** alpha, "--", color=_SLOPE, linewidth=2.0, label=f"slope {alpha:.4f}")
-    axes.axvspan(force[0] * aside[0], low, color="0.95", zorder=0)
-    words = f"fewer than {SPOTS:g} summits\nin contact"
-    axes.text(force[0], means[-1], words, fontsize=TICK, color="0.4", va="top")
+    # Up to between the columns of the first force that counts and of the one before.
+    axes.axvspan(force[0] * aside[0], low * np.sqrt(force[0] / force[1]), color="0.93", zorder=0)
+    words = f"fewer than {SPOTS:g} summits in contact"
+    above: Any = {"transform": axes.get_xaxis_transform(), "va": "bottom", "color": "0.3"}
+    axes.text(float(force[0] * aside[0]), 1.0, words, fontsize=drawing.TICK, **above)
     drawing.stiffness_axes(axes, xlim=(force[0] * aside[0], force[-1] * aside[-1]))
-    axes.legend(loc="lower right")
+    drawing.legend_below(axes, 1)
 
 
 def exponent_words(averages: xarray.Dataset, prefix: str = "") -> str:

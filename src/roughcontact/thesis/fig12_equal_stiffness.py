@@ -34,7 +34,7 @@ CHOSEN = (
     "source of the figure",
     f"colours: pressure under a flat punch, from {CELLS[1]} x {CELLS[1]} cells",
 )
-SIZE = (7.4, 2.2)
+SIZE = (drawing.PAGE, 2.2)
 
 # Stiffnesses over 2 E* sqrt(A/pi) in the thesis' source of the figure; the square's stands in eqs 4.7 and 4.14, too.
 _PRINTED = {"square": (1.012, "eqs 4.7, 4.14"), "triangle": (1.034, "source of the figure")}

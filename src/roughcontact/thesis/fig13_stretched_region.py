@@ -29,7 +29,7 @@ CHOSEN = (
     f"the region: contact of a rough square, H = {HURST:g}, {POINTS} x {POINTS} cells, under {PRESSURE:g} E*",
     f"enlarged and stretched by {STRETCH:g}",
 )
-SIZE = (7.0, 3.0)
+SIZE = (drawing.PAGE, 2.9)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,8 +70,9 @@ def draw(figure: Figure, data: Configurations) -> None:
     for letter, axes, (y, x), text in zip("abc", panels, data.stretches, words, strict=False):
         axes.imshow(data.region, cmap=colours, extent=(0, x, y, 0), interpolation="nearest", vmin=0, vmax=1)
         # As high as the largest, so that all have one scale.
-        drawing.frameless(axes, xlim=(0, x), ylim=((STRETCH + y) / 2, (y - STRETCH) / 2))
+        drawing.frameless(axes, xlim=(0, x), ylim=((STRETCH + y) / 2 + 0.25, (y - STRETCH) / 2))
         axes.set_title(f"({letter})  {text}", loc="center")
+        drawing.scale_bar(axes, (0, y + 0.07), 1.0, "$L$")
 
 
 def verdicts(data: Configurations) -> Verdicts:

@@ -21,7 +21,7 @@ TITLE = "cylinders whose radii and heights follow the fractal law, C = 2, H = 0.
 COUNT = 4
 SEED = 0
 CHOSEN = (f"{COUNT} cylinders", "r0 and h0 as units of length and height")
-SIZE = (6.5, 3.6)
+SIZE = (drawing.COLUMN, 2.4)
 
 _BODY, _EDGE, _SMOOTH = "#cfe3f2", "#0072b2", "#d55e00"
 _ROOM = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}  # behind a label that a line would cross

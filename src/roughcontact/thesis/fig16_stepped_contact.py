@@ -26,7 +26,7 @@ CHOSEN = (
     "each state just before the next cylinder touches",
     "the deformation is computed and to scale with the heights of the cylinders",
 )
-SIZE = (6.8, 5.6)
+SIZE = (drawing.PAGE, 5.6)
 
 _LOW, _HIGH = -5.0, 6.5  # heights shown
 

@@ -28,7 +28,7 @@ CHOSEN = (
     "staircase: eq. 4.22 with its factor of two, eq. 4.23 with the steps before the last",
     "beside the staircase the contact of rings, and the smooth indenter z = Q r^H through the rims",
 )
-SIZE = (5.6, 4.2)
+SIZE = (drawing.COLUMN, 3.4)
 
 _MODEL, _COMPUTED, _SMOOTH = "0.45", "#0072b2", "#d55e00"
 
@@ -84,7 +84,7 @@ def draw(figure: Figure, data: Stiffening) -> None:
     axes.plot(curve.force, data.smooth, "--", color=_SMOOTH, label=label)
     words = r"contact stiffness $k\,/\,(E^* r_0)$"
     drawing.label(axes, r"force $F\,/\,(E^* r_0 h_0)$", words, **drawing.LOG)
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes, 1)
 
 
 def verdicts(data: Stiffening) -> Verdicts:

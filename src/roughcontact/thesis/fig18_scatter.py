@@ -24,7 +24,7 @@ CHOSEN = (
     "surfaces of figure 27; lines of 2^13 points",
     "faint where the mean is below the stiffness of 20 cells or springs: there single cells decide",
 )
-SIZE = (8.2, 4.0)
+SIZE = (drawing.PAGE, 3.4)
 CLAIM = 0.3
 NEAR = 0.05
 
@@ -59,7 +59,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         for hurst in averages[f"{prefix}hurst"].to_numpy():
             one, colour = averages.sel({f"{prefix}hurst": hurst}), colours.to_rgba(hurst)
             scatter, resolved = one[f"{prefix}scatter"], one[f"{prefix}resolved"]
-            axes.plot(force, scatter, color=colour, linewidth=0.7, alpha=0.3, zorder=2)
+            axes.plot(force, scatter, color=colour, linewidth=0.7, alpha=0.5, zorder=2)
             axes.plot(force, scatter.where(resolved), color=colour, zorder=3)
         level(axes, CLAIM, "30 %", ha="right")
         axes.set_title(title, loc="center")

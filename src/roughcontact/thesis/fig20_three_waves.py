@@ -31,7 +31,7 @@ CHOSEN = (
     "d1 = h2, on the highest crest; d2 = 2.4 h2, on three crests of the shortest wave; d3 = h1, where it is flat",
     "pressed as in the method of dimensionality reduction: springs touch where the line stands above the level",
 )
-SIZE = (7.2, 3.9)
+SIZE = (drawing.PAGE, 3.6)
 
 _LEVELS = ("#8b1a1a", "#d55e00", "#b07d00")  # of d1, d2, d3
 

@@ -25,7 +25,7 @@ CHOSEN = (
     "H = 0, 0.2, ..., 1: fractal dimensions 3 to 2; forces F/(E* h L) from 1e-4 to 300 in equal ratios",
     "arithmetic means over the samples; open circles below the stiffness of 20 cells",
 )
-SIZE = (6.4, 4.4)
+SIZE = (drawing.COLUMN, 3.2)
 
 
 def studies(scale: Scale) -> Studies:
@@ -49,13 +49,15 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         axes.plot(force, one["stiffness"], "-", color=colour, linewidth=0.9, zorder=2)
         for chosen, fill in ((~shown, "none"), (shown, "full")):
             points = one["stiffness"].where(chosen)
-            axes.plot(force, points, "o", color=colour, markersize=3, fillstyle=fill, zorder=3)
+            fewer = one.assign(stiffness=points)
+            given = {"fmt": "o", "color": colour, "markersize": 3, "fillstyle": fill, "zorder": 3}
+            drawing.with_errors(axes, fewer, "stiffness", **given)
         if hurst in places:
             axes.plot(law, places[hurst] * law ** (1 / (1 + hurst)), "--", color=colour, zorder=2)
     level(axes, SQUARE.value, f"square punch, {SQUARE.value:.4f}", "-")
-    level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)))
+    level(axes, CELLS * float(averages["cell_stiffness"].max()), "20 cells", (0, (6, 3)), ha="right")
     drawing.key(axes, "--", "slopes 1/(H + 1) of H = 0 and 1")
-    axes.legend(loc="lower right")
+    drawing.legend_below(axes)
     lowest = float(averages["stiffness"].min())
     drawing.stiffness_axes(axes, xlim=(force[0] / 1.3, force[-1] * 1.3), ylim=(lowest / 1.5, 2))
     drawing.colour_key(figure, axes, averages["hurst"].to_numpy())

@@ -23,7 +23,7 @@ CHOSEN = (
     "lines by the inverse Fourier transform with exact amplitudes, paired across H",
     "arithmetic means over the lines at each force",
 )
-SIZE = (6.4, 4.4)
+SIZE = (drawing.COLUMN, 3.2)
 
 
 def studies(scale: Scale) -> Studies:
@@ -55,7 +55,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     level(axes, 1.0, "every spring carries load", ":", va="top")
     level(axes, 1 / points, "one spring carries load", ":", va="top")
     drawing.key(axes, "--", "slopes 1/(H + 1) at H = 0 and 2")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85))
+    drawing.legend_below(axes)
     drawing.stiffness_axes(axes, xlim=(force[0], force[-1]), ylim=(0.5 / points, 2))
     drawing.colour_key(figure, axes, averages["hurst"].to_numpy())
 

@@ -24,7 +24,7 @@ CHOSEN = (
     "fits: more than 20 springs, forces up to 0.07, means over the lines by least squares in logarithms",
     f"beside them one window for both, forces from {COMMON[0]:g} to {COMMON[1]:g}",
 )
-SIZE = (6.2, 4.2)
+SIZE = (drawing.COLUMN, 3.6)
 
 _COLOURS = {512: "#0072b2", 2048: "#009e73"}
 
@@ -55,10 +55,10 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         one, words = averages.sel(points=points), rf"$N = 2^{{{points.bit_length() - 1}}}$"
         drawing.band(axes, one, "exponent", color=colour, marker="o", markersize=3.2, zorder=3, label=words)
         axes.plot([hurst[0], -0.05], [float(one["white"][0])] * 2, ":", color=colour, linewidth=2.2, zorder=2)
-    drawing.key(axes, ":", "independent Gaussian heights, same windows", linewidth=2.2)
+    drawing.key(axes, ":", "independent Gaussian heights", linewidth=2.2)
     drawing.exponent_laws(axes, hurst, color="black", zorder=4, linestyle="--")
     drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(0.25, 1.02))
-    axes.legend(loc="upper right")
+    drawing.legend_below(axes)
 
 
 def _two(values: xarray.DataArray | list[float]) -> str:

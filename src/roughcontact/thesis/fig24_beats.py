@@ -33,7 +33,7 @@ CHOSEN = (
     f"beside them adjacent harmonics of one line from {FREQUENCIES[0]} waves on, {PHASES} sets of random phases",
     f"powers between depths of {WINDOW[0]:g} and {WINDOW[1]:g} of the peak's height",
 )
-SIZE = (7.2, 4.2)
+SIZE = (drawing.PAGE, 4.0)
 
 _FEWEST = 30  # heights, below which a count is mostly chance
 _COLOURS = ("black", "#0072b2", "#d55e00", "#009e73")
@@ -134,7 +134,7 @@ def draw(figure: Figure, data: BeatLines) -> None:
     axes = figure.add_subplot(table[:, 1], title="(e)", xlim=(1e-3, 1), ylim=(1e-6, 1.5), **drawing.LOG)
     _distribution(axes, data.heights)
     axes.set(xlabel="depth below the peak / height of the peak", ylabel="part of the line above it")
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 
 def _distribution(axes: Axes, data: tuple[Heights, ...]) -> None:

@@ -24,7 +24,7 @@ CHOSEN = (
     "fits: more than 20 springs or cells, forces up to 0.07; of fewer points nothing is left of this window",
     "surfaces: those of figure 26",
 )
-SIZE = (6.2, 4.2)
+SIZE = (drawing.COLUMN, 3.6)
 
 _LAW, _SIDE, _AREA, _WHITE = "#c8290b", "#009e73", "#8e44ad", "0.45"
 
@@ -68,7 +68,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         drawing.with_intervals(axes, places, averages, name, markersize=5.5, label=words, **style)
     axes.set_xscale("log", base=2)
     drawing.label(axes, "number of points N", drawing.EXPONENT, xlim=(x[0], x[-1]))
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

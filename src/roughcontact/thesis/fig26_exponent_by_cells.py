@@ -30,7 +30,7 @@ CHOSEN = (
     f"open: one window for all, forces from {COMMON[0]:g} to {COMMON[1]:g}",
     "bars: 95 % of resampled ensembles",
 )
-SIZE = (6.2, 4.2)
+SIZE = (drawing.COLUMN, 3.7)
 
 _STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#d55e00", "^"))
 _BOTH = ("exponent", "common_exponent")
@@ -72,9 +72,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     x = np.linspace(-0.02, hurst[-1] + 0.05, 50)
     axes.plot(x, 1 / (x + 1), "--", color="black", label="1/(H + 1)")
     lowest = float(min(averages["exponent_low"].min(), averages["common_exponent_low"].min()))
-    # With room for the legend below.
-    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.16, 1.02))
-    axes.legend(loc="lower left", title="cells, window in force")
+    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.02, 1.02))
+    drawing.legend_below(axes, title="cells, window in force")
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

@@ -22,7 +22,7 @@ CHOSEN = (
     "logarithms; bars and bands: 95 % of resampled ensembles",
     "the same phases for all Hurst exponents: neighbouring values share their errors",
 )
-SIZE = (6.4, 4.4)
+SIZE = (drawing.COLUMN, 3.6)
 NEAR = 0.1  # of an exponent: what counts as agreement with the law
 
 
@@ -46,7 +46,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.both_methods(axes, averages, "exponent")
     drawing.exponent_laws(axes, hurst)
     drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(0.28, 1.02))
-    axes.legend(loc="upper right")
+    drawing.legend_below(axes)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

@@ -29,7 +29,7 @@ CHOSEN = (
     f"{series(FORCES, 'g')}, where the grid resolves them",
     "and those of the same surfaces on half as many cells a side",
 )
-SIZE = (8.6, 4.2)
+SIZE = (drawing.PAGE, 4.2)
 SMOOTH_SURFACE = (6 / (4 * math.pi**2)) ** (1 / 3)  # of two crossed cosines, the limit for large H
 NEAR = 0.1  # of a stiffness: what counts as agreement
 FAIR = 0.2  # the same of a "fairly good approximation", and of what is made of it
@@ -76,10 +76,10 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     left.axhline(SMOOTH_SURFACE, color="0.4", linestyle="-.", linewidth=1.0, label="two crossed waves")
     zeta = r"prefactor $\zeta$ of $k/(E^*L) = \zeta\,(F/(E^*hL))^{\alpha}$"
     drawing.hurst_axes(left, hurst, zeta, ylim=(0, 2.4))
-    left.legend(loc="upper right")
+    left.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
     _stiffnesses(right, averages)
     drawing.hurst_axes(right, hurst, r"mean stiffness $k\,/\,(E^* L)$", yscale="log")
-    right.legend(loc="lower right")
+    right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 
 def _stiffnesses(axes: Axes, averages: xarray.Dataset) -> None:
@@ -92,10 +92,11 @@ def _stiffnesses(axes: Axes, averages: xarray.Dataset) -> None:
         given = {"fmt": mark, "color": drawing.SURFACES, "markersize": 3.5, "zorder": 4, "label": words}
         drawing.with_errors(axes, one, "stiffness", "hurst", **given)
         coarse = one["coarse_stiffness"]
-        axes.plot(hurst, coarse, mark, color="0.55", markersize=5.5, fillstyle="none", zorder=3)
+        axes.plot(hurst, coarse, mark, color="0.45", markersize=5.5, fillstyle="none", zorder=3)
     words = f"{averages.attrs['coarse_cells']}² cells"
-    drawing.key(axes, "o", words, color="0.55", markersize=6, fillstyle="none")
-    drawing.key(axes, "-", "eq. 4.74", color=drawing.LAW)
+    drawing.key(axes, "o", words, color="0.45", markersize=6, fillstyle="none")
+    drawing.key(axes, "-", r"$1.7\,F^{1/(H+1)}/(H+1)$", color=drawing.LAW)
+    drawing.key(axes, "-", drawing.lines_words(int(lines["points"])), color=drawing.LINES)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

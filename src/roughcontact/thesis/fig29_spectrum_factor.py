@@ -28,7 +28,7 @@ CHOSEN = (
     f"one window for both: stiffnesses from 20 cells of the surface up to that at a force of {HIGHEST:g}",
     "lambda_rms, of equal rms heights, for the waves of the surface's grid",
 )
-SIZE = (6.0, 4.2)
+SIZE = (drawing.COLUMN, 3.4)
 
 
 def studies(scale: Scale) -> Studies:
@@ -80,7 +80,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     top = 1.4 * max(SINGLE_WAVE, float(shown["factor_high"].max()))
     words = r"factor $\lambda$ of $C_{\mathrm{1D}} = \lambda\, q\, C_{\mathrm{2D}}$"
     drawing.label(axes, "Hurst exponent H", words, ylim=(0, top))
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes, 1)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

@@ -27,7 +27,7 @@ CHOSEN = (
     f"cells of the surface up to a force of {HIGHEST:g}",
     "the ratio of both beneath",
 )
-SIZE = (6.2, 5.6)
+SIZE = (drawing.COLUMN, 4.6)
 
 
 def studies(scale: Scale) -> Studies:
@@ -69,13 +69,15 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     for hurst, one, colour in drawing.by_hurst(averages):
         surface = one["surface"].where(one["surface"] >= one["resolved"])
         upper.plot(force, one["line"], color=colour, label=f"H = {hurst:g}")
-        upper.plot(force, surface, "x", color=colour, markersize=4.5)
-        lower.plot(force, one["line"] / surface, color=colour)
+        shown = one.assign(surface=surface)
+        drawing.with_errors(upper, shown, "surface", fmt="x", color=colour, markersize=4.5)
+        ratio = one["line"] / surface
+        lower.errorbar(force, ratio, ratio * one["surface_error"] / surface, color=colour, elinewidth=0.8)
     drawing.key(upper, "-", "lines")
     drawing.key(upper, "x", "surfaces", markersize=4.5)
     drawing.stiffness_axes(upper)
     upper.set_xlabel("")
-    upper.legend(loc="lower right", ncols=2)
+    drawing.legend_below(upper, 4)
     lower.axhline(1, color="0.5", linewidth=0.8, zorder=1)
     drawing.label(lower, f"dimensionless {drawing.FORCE}", "lines / surfaces")
 

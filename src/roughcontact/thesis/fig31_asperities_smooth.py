@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 from scipy.integrate import quad
 
-from roughcontact.thesis import asperity_ensembles
+from roughcontact.thesis import asperity_ensembles, drawing
 from roughcontact.thesis.asperity_ensembles import draw_realisations as draw, studies
 from roughcontact.thesis.ruling import exactly, ruled
 from roughcontact.thesis.verdict import Verdict, Verdicts, spanned
@@ -16,7 +16,7 @@ __all__ = ["CHOSEN", "averages", "draw", "studies", "verdicts"]
 TITLE = "asperities with and without interaction, D_f = 2.05"
 HURST = 0.95
 CHOSEN = (*asperity_ensembles.CHOSEN, "25 surfaces, on the small scale 8, all shown")
-SIZE = (5.8, 4.4)
+SIZE = (drawing.COLUMN, 3.7)
 
 
 def averages(asperities: xarray.Dataset) -> xarray.Dataset:

@@ -22,7 +22,7 @@ __all__ = ["averages", "draw", "studies", "verdicts"]
 TITLE = "interacting asperities of surfaces of several fractal dimensions"
 HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
 CHOSEN = (*SHARED, "D_f = 2.1, 2.3, 2.5, 2.7, 2.9; means over 25 surfaces, on the small scale 8")
-SIZE = (7.4, 4.0)
+SIZE = (drawing.PAGE, 3.6)
 
 
 def averages(asperities: xarray.Dataset) -> xarray.Dataset:
@@ -42,7 +42,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     for hurst, one, colour in reversed([*drawing.by_hurst(averages)]):
         stiffness, low = one["stiffness"].to_numpy(), float(one["window_low"])
         seen = force >= low
-        left.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.35)
+        left.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.5)
         words = f"$D_f$ = {3 - hurst:.1f}"
         left.plot(force[seen], stiffness[seen], "o-", color=colour, markersize=3, label=words)
         x = np.array([low, float(one["window_high"])])

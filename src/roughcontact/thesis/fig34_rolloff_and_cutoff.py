@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.ticks import TICK
 from roughcontact.thesis import drawing
 from roughcontact.thesis.ruling import ruled
 from roughcontact.thesis.verdict import Verdict, Verdicts
@@ -30,7 +29,7 @@ CHOSEN = (
     f"roll-off and cut-off at a wavelength of L/{1 / LIMIT:g}",
     "the same phases and the same short waves on every line",
 )
-SIZE = (7.2, 3.6)
+SIZE = (drawing.PAGE, 3.4)
 
 _COLOURS = ("black", "#0072b2", "#d55e00")
 _NAMES = ("unrestricted", "roll-off", "cut-off")
@@ -93,7 +92,7 @@ def _lines(axes: Axes, data: tuple[Roughness, ...]) -> None:
         top = base - 0.03
         base = top - float(heights.max())
         axes.plot(x, heights + base, color=colour, linewidth=0.9)
-        axes.text(0.0, top + 0.004, each.name, fontsize=TICK, color=colour, va="bottom")
+        axes.text(0.0, top + 0.004, each.name, fontsize=drawing.TICK, color=colour, va="bottom")
         base += float(heights.min())
     # The wavelength of the cut, below the line that has it.
     y = base - 0.02

@@ -31,7 +31,7 @@ CHOSEN = (
     f"R = {RADIUS:g} L and rms height {RMS:g} L as in figure 37, zeta = 1.7/(H + 1) = {1.7 / (HURST + 1):g}",
     f"drawn up to r = {SHOWN:g} L, heights enlarged",
 )
-SIZE = (7.2, 2.8)
+SIZE = (drawing.PAGE, 2.6)
 
 
 class Indenters(NamedTuple):

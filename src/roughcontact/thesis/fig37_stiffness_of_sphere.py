@@ -8,7 +8,6 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.plot.ticks import TICK
 from roughcontact.theory import pohrt_popov, rough_sphere
 from roughcontact.theory.hertz import point
 from roughcontact.thesis import drawing
@@ -25,7 +24,7 @@ CHOSEN = (
     "33 forces F/(E* L^2) from 1e-6 to 1e-2; arithmetic means over 50 samples (small: 20)",
     "open circles below the stiffness of 20 cells, which is that of the crossover",
 )
-SIZE = (6.2, 4.6)
+SIZE = (drawing.COLUMN, 3.7)
 LEAST = 0.02  # of a stiffness: what these samples can tell
 NEAR = 0.1  # of a stiffness: what counts as agreement
 
@@ -59,8 +58,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     force = averages["force"].to_numpy()
     for name, style, colour, width, words in (
         ("law", ":", "black", 3.2, "eq. 5.9"),
-        ("hertz", "--", "#0072b2", 1.2, "smooth sphere, slope 1/3"),
-        ("roughness", "-.", "#009e73", 1.2, "roughness alone, slope 1/(H + 1)"),
+        ("hertz", "--", "#0072b2", 1.2, "sphere alone, slope 1/3"),
+        ("roughness", "-.", "#009e73", 1.2, "roughness, slope 1/(H + 1)"),
     ):
         axes.plot(force, averages[name], style, color=colour, linewidth=width, zorder=2, label=words)
     resolved, colour = averages["resolved"], drawing.LINES
@@ -70,10 +69,10 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     crossing = float(rough_sphere.crossover_force(*_BODY.values()))
     axes.axvline(crossing, color="0.5", linewidth=0.9, zorder=1)
     words = rf"crossover, ${1e5 * crossing:.2f} \cdot 10^{{-5}}$"
-    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=TICK, color="0.3")
+    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=drawing.TICK, color="0.3")
     limits = {"xlim": (force[0] / 1.2, force[-1] * 1.2), "ylim": (3e-3, 0.6)}
     drawing.label(axes, r"force $F\,/\,(E^* L^2)$", drawing.STIFFNESS, **drawing.LOG, **limits)
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

@@ -25,7 +25,7 @@ CHOSEN = (
     f"computed: a load on a ring {WIDTH:g} a wide",
     "approximation: eq. A.21, drawn far beyond the vicinity of the ring for which it is meant",
 )
-SIZE = (7.2, 3.2)
+SIZE = (drawing.PAGE, 2.9)
 
 _COMPUTED, _LAW = drawing.COLOURS[:2]
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.thesis import drawing
 from roughcontact.thesis.matrix_view import matrix_view
 from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
@@ -23,7 +24,7 @@ CHOSEN = (
     "row of the displaced ring, column of the loaded one, so that u = D/(pi E*) B p; the thesis has the transpose in "
     "eq. A.36",
 )
-SIZE = (7.4, 3.2)
+SIZE = (drawing.PAGE, 3.0)
 
 
 def case(seed: int = SEED, rings: int = RINGS) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.thesis import drawing
 from roughcontact.thesis.matrix_view import matrix_view
 from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
@@ -23,7 +24,7 @@ CHOSEN = (
     "a smaller first and last column, and the same numbers between",
     "the constant C, which the thesis leaves open: no displacement at a distance of N strips",
 )
-SIZE = (7.4, 3.2)
+SIZE = (drawing.PAGE, 3.0)
 
 
 def case(seed: int = SEED) -> Array:

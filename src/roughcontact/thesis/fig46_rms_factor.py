@@ -26,9 +26,9 @@ CHOSEN = (
     "H from 0 to 2; N = 2, 8, 64, 1024 waves to a side, and the limit of many",
     "eq. A.76 without its factor 1/2; as printed it gives the lowest curve in the limit",
 )
-SIZE = (5.4, 3.8)
+SIZE = (drawing.COLUMN, 3.2)
 
-_COLOURS = ("#cc79a7", "#e69f00", "#009e73", "#56b4e9", "#0072b2")
+_COLOURS = ("#b0508a", "#a67500", "#009e73", "#2f8fcf", "#0072b2")
 
 
 def case(seed: int = SEED) -> Array:
@@ -46,7 +46,7 @@ def draw(figure: Figure, data: Array) -> None:
     level(axes, math.pi, r"$\pi$", ha="right")
     words = r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$"
     drawing.label(axes, "Hurst exponent $H$", words, xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
-    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)
+    drawing.legend_below(axes, 3)
 
 
 def verdicts(data: Array) -> Verdicts:

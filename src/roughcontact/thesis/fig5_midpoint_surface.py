@@ -28,7 +28,7 @@ CHOSEN = (
     "edges on the border: the mean of their three neighbours",
     f"surfaces of {', '.join(f'{2**n + 1}²' for n in LEVELS)} nodes",
 )
-SIZE = (7.2, 5.0)
+SIZE = (drawing.PAGE, 4.8)
 
 
 # Of two squares a side: where the nodes of a half step lie.

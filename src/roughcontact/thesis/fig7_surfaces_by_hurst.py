@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.view import surface_view
+from roughcontact.thesis import drawing
 from roughcontact.thesis.fig6_lines_by_hurst import EXPONENTS, LENGTH
 from roughcontact.thesis.ruling import ruled
 from roughcontact.thesis.verdict import Verdict, Verdicts
@@ -25,7 +26,7 @@ CHOSEN = (
     f"rms height {RMS:g} L for every H; each view is as high as its surface",
     "the same phases for every H",
 )
-SIZE = (7.2, 4.7)
+SIZE = (drawing.PAGE, 4.6)
 
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:

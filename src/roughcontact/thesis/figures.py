@@ -17,9 +17,8 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact.thesis
-from roughcontact.plot.ticks import TICK
 from roughcontact.study.study import Study
-from roughcontact.thesis.drawing import STYLE
+from roughcontact.thesis.drawing import STYLE, TICK
 from roughcontact.thesis.verdict import Verdict
 
 __all__ = [

@@ -34,7 +34,7 @@ CHOSEN = (
     f"and 64 x 64), at least {LEAST} cells a wave; the longer waves of a sample are the same throughout",
     "20 samples (small: 12), compared one by one; forces over E* L and the rms height with all waves",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SEED = 11
 
 

@@ -43,13 +43,13 @@ CHOSEN = (
     "1/lambda of the exponential distribution: the mean height of the upper half of the maxima above their median",
     f"a linear law is looked for from {MANY:g} E* h l on, l the longest wave, up to a contact fraction of {FULL:g}",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.6)
 SEED = 15
 _THEORIES = ("persson", "gw")
 _SHOWN = 8  # L over the longest wave, of the surface beside all laws
-_COLOURS = {1: "black", 2: "#0072b2", 4: "#009e73", 8: "#e69f00", 16: "#d55e00"}  # by L over the longest wave
+_COLOURS = {1: "black", 2: "#0072b2", 4: "#009e73", 8: "#a67500", 16: "#d55e00"}  # by L over the longest wave
 _PERSSON, _GREENWOOD, _CELLS = "#0072b2", "#009e73", "#d55e00"
-_BODIES = ((True, "o", "black"), (False, "s", "0.55"))  # periodic, free
+_BODIES = ((True, "o", "black"), (False, "s", "0.4"))  # periodic, free
 
 
 def studies(scale: Scale) -> Studies:
@@ -189,12 +189,11 @@ def _levels(axes: Axes, averages: xarray.Dataset) -> None:
     for row in range(averages.sizes["row"]):
         one = averages.isel(row=row)
         long = int(one["long"])
-        for values, style, words in (
-            (one["interfacial"].sel(periodic=True), "-", f"L/{long}" if long > 1 else "none"),
-            (one["interfacial"].sel(periodic=False), "--", None),
-            (one["persson"], ":", None),
-        ):
-            axes.plot(force, values / force, style, color=_COLOURS[long], label=words)
+        words = f"L/{long}" if long > 1 else "none"
+        given: Any = {"color": _COLOURS[long], "markersize": 0, "elinewidth": 0.8}
+        _over_force(axes, one.sel(periodic=True), "interfacial", label=words, **given)
+        for values, style in ((one["interfacial"].sel(periodic=False), "--"), (one["persson"], ":")):
+            axes.plot(force, values / force, style, color=_COLOURS[long])
     drawing.key(axes, "--", "free")
     drawing.key(axes, ":", "Persson")
 
@@ -202,7 +201,7 @@ def _levels(axes: Axes, averages: xarray.Dataset) -> None:
 def _over_force(axes: Axes, one: xarray.Dataset, name: str, **style: Any) -> None:
     """Draw a mean over the force, with its errors."""
     force, error = one["force"], one[f"{name}_error"]
-    axes.errorbar(force, one[name] / force, error / force, markersize=3.5, **style)
+    axes.errorbar(force, one[name] / force, error / force, **({"markersize": 3.5} | style))
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:

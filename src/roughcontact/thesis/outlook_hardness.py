@@ -32,10 +32,10 @@ CHOSEN = (
     "as it stands, for the first step back and for what it conducts",
     "10 samples, compared one by one; depths from 0.2 to 2.8 h",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SEED = 12
 _CELLS = 4  # a shortest wave
-_COLOURS = ("black", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00")
+_COLOURS = ("black", "#0072b2", "#2f8fcf", "#009e73", "#a67500", "#d55e00")
 _AREA = "#c8290b"
 _NAMES = ("stiffness", "region_stiffness", "area")
 
@@ -124,8 +124,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     for ceiling, colour in zip(averages["ceiling"].values, _COLOURS, strict=True):
         one = averages.sel(ceiling=ceiling)
         words = f"{ceiling:g} E* g" if np.isfinite(ceiling) else "elastic"
-        first.plot(one["force"], one["area"], color=colour, label=words)
-        second.plot(one["force"], one["stiffness"], color=colour, label=words)
+        drawing.with_errors(first, one, "area", color=colour, label=words)
+        drawing.with_errors(second, one, "stiffness", color=colour, label=words)
         second.plot(one["force"], one["region_stiffness"], "--", color=colour)
     drawing.key(second, "--", "whole region")
     for axes, words in ((first, r"contact area $A\,/\,L^2$"), (second, drawing.STIFFNESS)):

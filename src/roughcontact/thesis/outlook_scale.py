@@ -30,7 +30,7 @@ CHOSEN = (
     "Theta = h L^-H as in eq. 7.1, with the rms height h of all waves; and, beside it, with that of the longest "
     "octave, which does not know the shortest wave",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SHOWN = (0.0, 0.7)
 
 

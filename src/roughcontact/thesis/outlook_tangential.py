@@ -33,7 +33,7 @@ CHOSEN = (
     "pulled along x in 10 steps from rest to mu F under Coulomb's law in every cell, the pressure held; the traction "
     "may turn",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SEED = 14
 FAIR = 0.2  # of what goes by a "fairly good approximation" of zeta
 
@@ -62,7 +62,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``ratio`` k/k_t over that of a disc, C_m, and ``axes`` the larger over the smaller k_t of the two axes;
         ``tangential`` k_t/(E* L) and ``by_7_5`` what eq. 7.5 says with eq. 4.74; ``slip`` the largest displacement
         before gross slip over mu h and ``slip_by_depth`` it over mu C_m d; ``by_7_6`` what eq. 7.6 says over mu h with
-        the constants of 4.74, and ``by_7_7`` with those printed; ``path`` (pull) the displacement over mu C_m d at
+        the constants of 7.3, and ``by_7_7`` with those printed; ``path`` (pull) the displacement over mu C_m d at
         the parts ``pulled`` of mu F, and ``path_by_depth`` what the normal loading curve says. ``force`` F/(E* h L);
         ``resolved`` where k stands above 20 cells.
     """
@@ -131,10 +131,11 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     ratios = {"ratio": "o-", "axes": "--"}
     bare = shown.drop_vars("axes_error")  # errors of both would cover each other
     drawing.family(first, bare, "poisson_ratio", ratios, r"$\nu$ = {:g}", markersize=3.5)
-    drawing.key(first, "--", "larger over smaller axis of $k_t$")
-    drawing.label(first, drawing.FORCE, rf"$(k/k_t)\,/\,C_m$, H = {SHOWN:g}", xscale="log", ylim=(0.96, 1.25))
-    sticking = {"by_7_5": "eqs 7.5 and 4.74"}
-    sliding = {"by_7_6": "eqs 7.6 and 4.74", "by_7_7": "eqs 7.6 and 7.7"}
+    drawing.key(first, "o-", r"$(k/k_t)\,/\,C_m$, mean over directions")
+    drawing.key(first, "--", "larger $k_t$ of a sample over the smaller")
+    drawing.label(first, drawing.FORCE, f"ratio, H = {SHOWN:g}", xscale="log", ylim=(0.96, 1.32))
+    sticking = {"by_7_5": "eqs 7.5 and 7.3"}
+    sliding = {"by_7_6": "eqs 7.6 and 7.3", "by_7_7": "eqs 7.6 and 7.7"}
     for axes, name, laws, words in (
         (second, "tangential", sticking, r"tangential stiffness $k_t\,/\,(E^* L)$"),
         (third, "slip", sliding, r"largest displacement $u_{max}\,/\,(\mu h)$"),
@@ -146,9 +147,10 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         drawing.label(axes, drawing.FORCE, rf"{words}, $\nu$ = 0.3", **drawing.LOG)
         drawing.readable(axes)
     one = shown.isel(load=_load(shown))
-    for nu, colour in zip(one["poisson_ratio"].values, drawing.COLOURS, strict=False):
+    # One within the other, as all lie on one curve.
+    for nu, colour, size in zip(one["poisson_ratio"].values, drawing.COLOURS, (7.5, 5.0, 2.5), strict=False):
         each = one.sel(poisson_ratio=nu)
-        given: Any = {"fmt": "o", "markersize": 3.5, "color": colour, "label": rf"$\nu$ = {nu:g}"}
+        given: Any = {"fmt": "o", "markersize": size, "color": colour, "label": rf"$\nu$ = {nu:g}"}
         fourth.errorbar(each["path"], each["pulled"], xerr=each["path_error"], **given)
     by_depth = one["path_by_depth"].isel(poisson_ratio=0)
     fourth.plot(by_depth, one["pulled"], color="0.4", label=r"$1 - d(F - Q/\mu)/d(F)$")
