@@ -96,7 +96,8 @@ def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -
     facts = [("file", str(folder / picture)), ("figure", found.TITLE)]
     facts += [("chosen", line) for line in found.CHOSEN] + more
     for verdict in verdicts(found, data):
-        facts.append((verdict.word, f"{verdict.claim} ({verdict.source}): here {verdict.found}"))
+        part = f"; in part: {verdict.ruling.part}" if verdict.ruling.part else ""
+        facts.append((verdict.ruling.word, f"{verdict.claim} ({verdict.source}): here {verdict.found}{part}"))
     print_facts(facts)
 
 

@@ -1,7 +1,7 @@
 """Outlook: nominally flat surfaces, cut off or rolled off at ever shorter waves, finite and periodic (section 5.1).
 
 A surface without long waves consists of cells as long as its longest ones. By section 5.1 each is a rough indenter of
-its own under eq. 4.74; if their maxima are distributed exponentially, the stiffness is proportional to the force.
+its own under eq. 5.5; if their maxima are distributed exponentially, the stiffness is proportional to the force.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ CHOSEN = (
     "roll-off at L/4 to L/16",
     "17 forces F/(E* h L) from 1e-3 to 3; 10 samples (small: 16)",
     "stiffness against the mean gap, in which free and periodic bodies can be compared",
-    "cells: squares as long as the longest waves, each with eq. 4.74 from its highest point on, h that of the surface; "
+    "cells: squares as long as the longest waves, each with eq. 5.5 from its highest point on, h that of the surface; "
     "1/lambda of the exponential distribution: the mean height of the upper half of the maxima above their median",
     f"a linear law is looked for from {MANY:g} E* h l on, l the longest wave, up to a contact fraction of {FULL:g}",
 )
@@ -77,7 +77,7 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``stiffness`` k and ``interfacial`` K over E* L, ``area`` A/L^2; ``cells``, what the sum over cells says, and
         ``decay`` (row), lambda h of their maxima; ``persson``, ``gw`` and, with ``_area``, their areas; ``exponent``
         of K over the force in the window, ``level``, the geometric mean of K h/F there, and ``over_decay``, the same
-        of K over lambda F; ``alone``, k over that of one cell that carries all, where the fits of eq. 4.74 end.
+        of K over lambda F; ``alone``, k over that of one cell that carries all, where the fits of eq. 5.5 end.
         ``long`` (row), L over the longest wave, and ``kind``, "cut-off" or "roll-off"; ``force`` F/(E* h L);
         ``window``.
     """
@@ -226,7 +226,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     )
     inside = cut["window"].sel(periodic=True)
     yield Verdict(
-        "each length of the longest wave acts as an indenter of its own under eq. 4.74",
+        "each length of the longest wave acts as an indenter of its own under eq. 5.5",
         "The behavior of an individual spring in this model is now the behavior of on single λcutoff-asperity, as "
         "described by the Pohrt/Popov power law",
         "section 5.1, eq. 5.1",

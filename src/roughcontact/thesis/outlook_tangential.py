@@ -60,17 +60,18 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
     -------
     Dataset
         ``ratio`` k/k_t over that of a disc, C_m, and ``axes`` the larger over the smaller k_t of the two axes;
-        ``tangential`` k_t/(E* L) and ``by_7_5`` what eq. 7.5 says with eq. 4.74; ``slip`` the largest displacement
+        ``tangential`` k_t/(E* L) and ``by_7_5`` what eq. 7.5 says with eq. 7.3; ``slip`` the largest displacement
         before gross slip over mu h and ``slip_by_depth`` it over mu C_m d; ``by_7_6`` what eq. 7.6 says over mu h with
         the constants of 7.3, and ``by_7_7`` with those printed; ``path`` (pull) the displacement over mu C_m d at
-        the parts ``pulled`` of mu F, and ``path_by_depth`` what the normal loading curve says. ``force`` F/(E* h L);
+        the parts ``pulled`` of mu F, ``path_by_depth`` what the normal loading curve says, and ``path_ratio`` the former
+        over the latter, sample by sample. ``force`` F/(E* h L);
         ``resolved`` where k stands above 20 cells.
     """
     given = averaging.without_parameters(averaging.converged(exported))
     disc = given["poisson_ratio"].copy(data=[mindlin.ratio(float(nu)) for nu in given["poisson_ratio"]])
     force, depth = given["dimensionless_force"], given["depth"]
     moved = given["tangential_displacement"] / (FRICTION * disc * depth)
-    principal = given["principal_stiffness"]
+    principal, by_depth = given["principal_stiffness"], _by_depth(given)
     found = averaging.means(
         ratio=given["stiffness"] / given["tangential_stiffness"] / disc,
         axes=principal.isel(principal=1) / principal.isel(principal=0),
@@ -79,7 +80,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         slip=given["tangential_displacement"].isel(pull=-1) / (FRICTION * RMS),
         slip_by_depth=moved.isel(pull=-1),
         path=moved,
-        path_by_depth=_by_depth(given),
+        path_by_depth=by_depth,
+        path_ratio=moved / by_depth,
     )
     shape = ("hurst", "poisson_ratio", "load")
     for name, values in _laws(given["hurst"].values, disc.values, force.values).items():
@@ -215,11 +217,12 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     quote += "normal force in a power-law fashion"
     yield by_law("the largest displacement, Z from zeta = 1.7/(H + 1)", quote, "eqs 7.6 and 7.2", "by_7_6")
     yield by_law("the largest displacement, Z as printed", quote, "eqs 7.6 and 7.7", "by_7_7")
-    way = (kept["path"] / kept["path_by_depth"] - 1).sel(poisson_ratio=0.0)
+    way = kept["path"] / kept["path_by_depth"]
     # Of the same samples: the error of the ratio is at most the sum of both.
-    spread = (kept["path_error"] / kept["path"] + kept["path_by_depth_error"] / kept["path_by_depth"]).sel(
-        poisson_ratio=0.0
-    )
+    spread = kept["path_error"] / kept["path"] + kept["path_by_depth_error"] / kept["path_by_depth"]
+    if "path_ratio" in kept:
+        way, spread = kept["path_ratio"], kept["path_ratio_error"]
+    way, spread = (each.sel(poisson_ratio=0.0) for each in (way - 1, spread))
     yield Verdict(
         "the way to gross slip follows from the normal loading curve, u = mu C_m [d(F) - d(F - Q/mu)]",
         "This analogy can be extended from non-slipping contacts to tangentially loaded contacts that are just about "
