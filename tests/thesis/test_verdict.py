@@ -4,7 +4,7 @@ import numpy as np
 import xarray
 
 from roughcontact.thesis.ruling import in_part
-from roughcontact.thesis.verdict import Verdict, counted, listed, series, signed, spanned
+from roughcontact.thesis.verdict import Verdict, beside, counted, listed, series, signed, spanned
 
 
 def test_a_verdict_has_a_word():
@@ -16,6 +16,8 @@ def test_numbers_are_told_by_their_ends():
     assert spanned([0.1, np.nan, -0.02], "+.1%") == "-2.0% to +10.0%"
     assert spanned([np.nan], ".2g") == "none"
     assert spanned([-0.001, 0.001], "+.0%") == "0% to 0%"
+    assert beside([-0.1, np.nan, 0.15]) == "10% below to 15% above"
+    assert beside([np.nan]) == "nowhere"
     assert (signed(-0.004, ".2f"), signed(-0.006, ".2f")) == ("0.00", "-0.01")
 
 

@@ -89,8 +89,8 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     yield _modes(low, common)
     yield Verdict(
         "alpha = 1/(H + 1) for lines",
-        "We will call this region the Pohrt/Popov-range, because it limits the validity of the Pohrt/Popov-power-law eq. "
-        "4.53 with α = (H + 1)^-1.",
+        "We will call this region the Pohrt/Popov-range, because it limits the validity of the Pohrt/Popov-power-law "
+        "eq. 4.53 with α = (H + 1)^-1.",
         "section 4.5.2",
         f"N = 2^11: {ranged(law, spread, NEAR)}; {said}",
         ruled(middle(law), middle(spread), NEAR),

@@ -121,10 +121,12 @@ def findings(averages: xarray.Dataset) -> str:
     first, last = (low["common_exponent_error"].isel(points=end).to_numpy() for end in (0, -1))
     error = float(np.hypot(first, last).mean())
     mostly = ": it is mostly the window of the fit" if 2 * abs(apart[1]) < abs(apart[0]) else ""
+    grids = averages["points"].to_numpy()
     return (
-        f"Below H = 0 the exponent grows by {apart[0]:.3f} from {_sizes(averages)} cells when each grid is "
-        "fitted down to "
-        f"its 20 cells, and by {apart[1]:.3f} ± {error:.3f} between the same forces{mostly}."
+        f"Below H = 0 no such law is expected; there the fitted exponent grows by {apart[0]:.3f} from {grids[0]}² to "
+        f"{grids[-1]}² cells when each grid is fitted down to its 20 cells, and by {apart[1]:.3f} ± "
+        f"{error:.3f} between "
+        f"the same forces{mostly}."
     )
 
 

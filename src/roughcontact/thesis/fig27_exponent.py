@@ -11,7 +11,7 @@ from roughcontact.thesis.ensembles import laws, square_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_studies
 from roughcontact.thesis.ruling import VICINITY, middle, ranged, ruled
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, spanned
+from roughcontact.thesis.verdict import Verdict, Verdicts, beside, counted, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -92,10 +92,10 @@ def findings(averages: xarray.Dataset) -> str:
     hurst = float(middle(away)["hurst"][worst])
     rule = ruled(middle(away), middle(spread), NEAR)
     return (
-        "The stiffness of rough squares grows as a power of the force, and for Hurst exponents H from 0.25 to 1.75 its "
-        f"exponent is {spanned(middle(away), '+.0%')} from the thesis' 1/(H + 1), most at H = {hurst:.2f} "
-        f"(± {float(middle(spread)[worst]):.0%}), that of rough lines {spanned(middle(line), '+.0%')}: within "
-        f"{NEAR:.0%} the central claim {_WORDS[rule.word]} for surfaces{f' ({rule.part})' if rule.part else ''}."
+        "The stiffness of rough squares grows as a power of the force. For Hurst exponents H from 0.25 to 1.75 its "
+        f"exponent lies {beside(middle(away))} the thesis' 1/(H + 1), farthest off at H = {hurst:.2f} (± "
+        f"{float(middle(spread)[worst]):.0%}), that of rough lines {beside(middle(line))}; that it is 1/(H + 1) to "
+        f"{NEAR:.0%}, the central claim, {_WORDS[rule.word]} for surfaces{f' ({rule.part})' if rule.part else ''}."
     )
 
 

@@ -17,7 +17,7 @@ from roughcontact.thesis.ensembles import coarse_square_study, curve_averages, l
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_averages, line_studies
 from roughcontact.thesis.ruling import middle, ranged, ruled, undecided
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, series, spanned
+from roughcontact.thesis.verdict import Verdict, Verdicts, beside, counted, series, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -148,10 +148,11 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
 def findings(averages: xarray.Dataset) -> str:
     """Return in a sentence how well the law as a whole gives the stiffness."""
     found = averages.dropna("hurst", subset=["prefactor"])
-    spans = [spanned(middle(_off(found, name)[0]), "+.0%") for name in ("law", "slip")]
+    whole, slip = (beside(middle(_off(found, name)[0])) for name in ("law", "slip"))
     return (
-        f"As a whole the law k/(E\\* L) = 1.7/(H + 1) (F/(E\\* h L))^(1/(H + 1)) gives the mean stiffness there to "
-        f"{spans[0]}; the other fit of the thesis, behind eq. 7.7, to {spans[1]}."
+        "The mean stiffness itself lies there, at forces F/(E\\* h L) of "
+        f"{series(found['force'], 'g')}, {whole} the whole law of the thesis, k/(E\\* L) = 1.7/(H + 1) (F/(E\\* h "
+        f"L))^(1/(H + 1)), and {slip} its other fit, behind eq. 7.7."
     )
 
 

@@ -14,7 +14,7 @@ from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import RADIUS, SPHERE_HURST, SPHERE_RMS, curve_averages, sphere_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.ruling import exactly, ruled, undecided
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, spanned
+from roughcontact.thesis.verdict import Verdict, Verdicts, beside, counted, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -123,12 +123,13 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
 
 def findings(averages: xarray.Dataset) -> str:
     """Return in a sentence what is found about the rough sphere."""
-    one, ratio, error = _from_law(averages)
+    _, ratio, error = _from_law(averages)
     hertz = averages["stiffness"] / averages["hertz"] - 1
     return (
-        f"A rough sphere is {spanned(ratio, '+.0%')} (± {float(error.max()):.0%} or less) from the closed form of the "
-        f"thesis, eq. 5.9, at the forces from {spanned(one['force'], '.0e')} E\\* L² that the grid resolves, "
-        f"and {spanned(hertz, '+.0%')} from the smooth sphere over all forces."
+        f"A rough sphere of H = {SPHERE_HURST:g} is {beside(ratio)} (± {float(error.max()):.0%} or less) the "
+        f"stiffness of the thesis' closed form, eq. 5.9, where the grid resolves it, and {beside(hertz)} the "
+        "smooth sphere over all "
+        "forces."
     )
 
 

@@ -63,9 +63,8 @@ def averages(exported: xarray.Dataset) -> xarray.Dataset:
         ``tangential`` k_t/(E* L) and ``by_7_5`` what eq. 7.5 says with eq. 7.3; ``slip`` the largest displacement
         before gross slip over mu h and ``slip_by_depth`` it over mu C_m d; ``by_7_6`` what eq. 7.6 says over mu h with
         the constants of 7.3, and ``by_7_7`` with those printed; ``path`` (pull) the displacement over mu C_m d at
-        the parts ``pulled`` of mu F, ``path_by_depth`` what the normal loading curve says, and ``path_ratio`` the former
-        over the latter, sample by sample. ``force`` F/(E* h L);
-        ``resolved`` where k stands above 20 cells.
+        the parts ``pulled`` of mu F, ``path_by_depth`` what the normal loading curve says, and ``path_ratio`` the
+        former over the latter, sample by sample. ``force`` F/(E* h L); ``resolved`` where k stands above 20 cells.
     """
     given = averaging.without_parameters(averaging.converged(exported))
     disc = given["poisson_ratio"].copy(data=[mindlin.ratio(float(nu)) for nu in given["poisson_ratio"]])

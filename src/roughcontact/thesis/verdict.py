@@ -13,7 +13,18 @@ import xarray
 
 from roughcontact.thesis.ruling import Ruling
 
-__all__ = ["Kind", "Verdict", "Verdicts", "counted", "listed", "plus_minus", "series", "signed", "spanned"]
+__all__ = [
+    "Kind",
+    "Verdict",
+    "Verdicts",
+    "beside",
+    "counted",
+    "listed",
+    "plus_minus",
+    "series",
+    "signed",
+    "spanned",
+]
 
 Kind = Literal["claim", "method", "misprint", "theory", "answer"]
 """A claim about rough contacts; one about definitions and methods; a printed number or formula; a theory of others;
@@ -61,6 +72,17 @@ def spanned(values: npt.ArrayLike, form: str) -> str:
     numbers = np.asarray(values, dtype=np.float64)
     there = numbers[np.isfinite(numbers)]
     return " to ".join(signed(each, form) for each in (there.min(), there.max())) if there.size else "none"
+
+
+def beside(deviations: npt.ArrayLike) -> str:
+    """Return in words how far numbers lie from a law, from parts of it less one: "10% below to 15% above"."""
+    numbers = np.asarray(deviations, dtype=np.float64)
+    there = numbers[np.isfinite(numbers)]
+    if not there.size:
+        return "nowhere"
+    return " to ".join(
+        f"{abs(each):.0%} {'below' if each < 0 else 'above'}" for each in (there.min(), there.max())
+    )
 
 
 def signed(value: float, form: str) -> str:
