@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.statistics.samples import standard_error
 from roughcontact.thesis import drawing
 from roughcontact.thesis.asperity_ensembles import (
     CHOSEN as SHARED,
@@ -30,6 +31,7 @@ def averages(asperities: xarray.Dataset) -> xarray.Dataset:
     found = asperity_averages(asperities.sel(hurst=list(HURST)))
     found["samples"] = found.sizes["sample"]
     # The realisations themselves are shown in figures 31 and 32.
+    found["stiffness_error"] = standard_error(found["stiffness"])
     for name in ("stiffness", "independent"):
         found[name] = found[name].mean("sample", keep_attrs=True)
     return found.drop_vars("sample", errors="ignore")
@@ -44,7 +46,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         seen = force >= low
         left.plot(force, stiffness, color=colour, linewidth=1.0, alpha=0.5)
         words = f"$D_f$ = {3 - hurst:.1f}"
-        left.plot(force[seen], stiffness[seen], "o-", color=colour, markersize=3, label=words)
+        shown = one.isel(load=np.flatnonzero(seen))
+        drawing.with_errors(left, shown, "stiffness", fmt="o-", color=colour, markersize=3, label=words)
         x = np.array([low, float(one["window_high"])])
         law = stiffness[seen][0] * (x / x[0]) ** law_exponent(hurst)
         left.plot(x, law, "--", color=colour, zorder=4)

@@ -264,7 +264,7 @@ def _of_rows(
     tolerance: float,
     form: str,
 ) -> Ruling:
-    """Return the ruling on rows of longest waves; the one with the most of them decides where they differ."""
+    """Return the ruling on rows, each called by its longest wave."""
     named = deviation.rename(row="long").assign_coords(long=("long", averages["long"].values))
     spread = error.rename(row="long").assign_coords(long=("long", averages["long"].values))
     return ruled(named, spread, tolerance, form)
