@@ -230,7 +230,7 @@ def _table(every: Sequence[Entry], kind: str) -> list[str]:
     lines = [
         f"## {title}",
         "",
-        f"{words} Of {len(rows)} {told}. What is found stands in the section of the figure.",
+        f"{words} Of {len(rows)}, {told}. What is found stands in the section of the figure.",
         "",
     ]
     lines += [
