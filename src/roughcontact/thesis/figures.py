@@ -17,9 +17,8 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughcontact.thesis
-from roughcontact.plot.ticks import TICK
 from roughcontact.study.study import Study
-from roughcontact.thesis.drawing import STYLE
+from roughcontact.thesis.drawing import STYLE, TICK
 from roughcontact.thesis.verdict import Verdict
 
 __all__ = [
@@ -31,6 +30,7 @@ __all__ = [
     "Studies",
     "drawn",
     "figure",
+    "findings",
     "is_ensemble",
     "module",
     "verdicts",
@@ -60,7 +60,7 @@ FIGURES = _figures()
 
 
 class FigureModule(Protocol):
-    """What the module of every figure holds. It may also hold `verdicts`, see the function of this name."""
+    """What the module of every figure holds. It may also hold `verdicts` and `findings`, see the functions."""
 
     TITLE: str
     CHOSEN: tuple[str, ...]  # what the thesis leaves open, and what is taken here
@@ -121,6 +121,12 @@ def verdicts(found: FigureModule, data: Any) -> tuple[Verdict, ...]:
     """Return what a figure shows beside what the thesis says; empty where the text holds no number."""
     judge = getattr(found, "verdicts", None)
     return () if judge is None else tuple(judge(data))
+
+
+def findings(found: FigureModule, data: Any) -> str:
+    """Return what a figure says about the whole, in a sentence; empty for most."""
+    said = getattr(found, "findings", None)
+    return "" if said is None else str(said(data))
 
 
 def figure(name: str, seed: int | None = None) -> Figure:
