@@ -27,6 +27,7 @@ ORDER = [
     {"labels"},
     {"solver"},
     {"statistics"},
+    {"adhesion"},
     {"contact"},
     {"friction"},
     {"mdr"},

@@ -27,7 +27,7 @@ from roughcontact.mdr.recovery import spring_energy
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, scalar
 
-__all__ = ["Adhesion", "Control", "PullOff", "jkr"]
+__all__ = ["Control", "JKRContact", "PullOff", "jkr"]
 
 SPAN = (1e-15, 1e6)  # contact radii searched on a body without end [m]
 PER_DECADE = 200
@@ -51,7 +51,7 @@ class PullOff:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Adhesion:
+class JKRContact:
     """The equilibria of a body of revolution that sticks, one for each contact radius; made by `jkr`.
 
     Parameters
@@ -225,12 +225,12 @@ class Control:
 
     Parameters
     ----------
-    adhesion : Adhesion
+    adhesion : JKRContact
     machine_stiffness : float
         c = d + F/stiffness [m] for a positive stiffness, d itself for an infinite one; for 0 c = F [N].
     """
 
-    adhesion: Adhesion
+    adhesion: JKRContact
     machine_stiffness: float
 
     def __post_init__(self) -> None:
@@ -307,7 +307,7 @@ class Control:
         return a, np.concatenate([[0.0], self.level(a[1:])])
 
 
-def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> Adhesion:
+def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> JKRContact:
     """Return the adhesive contact of a body of revolution with short-ranged attraction.
 
     Parameters
@@ -321,7 +321,7 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
 
     Returns
     -------
-    Adhesion
+    JKRContact
 
     Raises
     ------
@@ -344,4 +344,4 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
         raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
-    return Adhesion(checked_profile(profile), as_modulus(modulus), w)
+    return JKRContact(checked_profile(profile), as_modulus(modulus), w)
