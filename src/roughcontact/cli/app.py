@@ -13,6 +13,7 @@ from roughcontact.cli import (
     curve_command as curve,
     prepare_command as prepare,
     press_command as press,
+    serve_command as serve,
     spectrum_command as spectrum,
     study_command as study,
     surface_command as surface,
@@ -63,6 +64,7 @@ _study.command(epilog=_examples(study.ADD_EXAMPLES))(grouped(study.add))
 _study.command(epilog=_examples(averages.AVERAGE_EXAMPLES))(grouped(averages.average))
 _study.command(epilog=_examples(averages.PLOT_EXAMPLES))(grouped(averages.plot))
 _study.command(epilog=_examples(averages.TABLE_EXAMPLES))(grouped(averages.table))
+app.command(epilog=_examples(serve.EXAMPLES))(grouped(serve.serve))
 app.command(epilog=_examples(thesis.EXAMPLES))(grouped(thesis.thesis))
 
 

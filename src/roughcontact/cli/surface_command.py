@@ -58,7 +58,7 @@ def info(
     """
     file = source.file
     with reported(file, out, as_json=json) as beside:
-        from roughcontact.cli.advice import advice
+        from roughcontact.plot.advice import advice
         from roughcontact.files.file_errors import ReadError
 
         ending = picture_ending(format, out)
