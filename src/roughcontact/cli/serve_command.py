@@ -12,11 +12,13 @@ from roughcontact.cli.option_groups import argument, option
 
 __all__ = ["EXAMPLES", "serve"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "serve": """
 roughcontact serve
 roughcontact serve part.x3p
 roughcontact serve part.x3p --port 8765 --no-browser
 """
+}
 
 
 def serve(

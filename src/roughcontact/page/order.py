@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol
 
 from roughcontact.page.recipe import Recipe
@@ -44,6 +45,20 @@ class Order:
         """How the user calls the measured file."""
         name = getattr(self.recipe.source, "file", "")
         return self.files[name].name if name in self.files else "FILE"
+
+    @property
+    def path(self) -> Path:
+        """Where the measured file lies.
+
+        Raises
+        ------
+        ValueError
+            If the server has none of that name.
+        """
+        name = getattr(self.recipe.source, "file", "")
+        if name not in self.files:
+            raise ValueError("the server has no such file any more: drop it again")
+        return self.files[name].path
 
     def whole(self, name: str, usual: int, most: int) -> int:
         """Return a whole number that the page states, between 1 and `most`."""

@@ -93,7 +93,7 @@ def _channels(order: Order) -> list[dict[str, Any]]:
     from roughcontact.files.read import channels
 
     found = []
-    for channel in channels(order.files[order.recipe.source.file].path):
+    for channel in channels(order.path):
         words = asdict(channel)
         found.append({name: plain_values(words[name]) for name in ("name", "shape", "unit", "is_height")})
     return found

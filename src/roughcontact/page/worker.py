@@ -110,16 +110,16 @@ def _warm_up() -> None:
     import numpy as np
 
     import roughcontact as rc
-    from roughcontact.page import curve_jobs, export_job, press_jobs, recipe, surface_jobs
-    from roughcontact.plot import facts
+    from roughcontact.page.recipe import as_recipe
+    from roughcontact.plot.facts import solution_facts
 
-    del curve_jobs, export_job, press_jobs, recipe, surface_jobs, facts
-    for repeats in (False, True):
-        surface = rc.self_affine(
-            rc.Grid((64, 64), 1e-6, periodic=repeats), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1)
-        )
-        for solution in rc.loading_path(surface, 1e11, pressures=[1e6, 1e9]):
-            solution.gap, solution.notes
+    _job("look")
+    as_recipe({"source": {"kind": "file", "file": ""}})
+    for points, repeats in ((512, False), (64, True)):  # 512: large enough for every method of the solvers
+        grid = rc.Grid((points, points), 1e-6, periodic=repeats)
+        surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+        for solution in rc.loading_path(surface.levelled("plane"), 1e11, pressures=[1e5, 1e7]):
+            solution_facts(solution)
 
 
 def _limit_memory() -> None:
