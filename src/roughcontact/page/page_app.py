@@ -65,7 +65,7 @@ class PageServer:
             return JSONResponse({"message": words}, 503)
         key = secrets.token_hex(16)
         files = {} if self.given is None else {_GIVEN: self.given}
-        self.sessions[key] = Session(self.crew, self.folder / key, files)
+        self.sessions[key] = Session.of(self.crew, self.folder / key, files)
         given = None if self.given is None else {"file": _GIVEN, "name": self.given.name}
         return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
 
@@ -109,7 +109,7 @@ class PageServer:
         session = self._session(request)
         if session is None:
             return _no_session()
-        await session.stop(request.query_params.get("key", ""))
+        await session.stop(*(request.query_params.get(name, "") for name in ("lane", "key")))
         return JSONResponse({})
 
     async def end(self, request: Request) -> Response:

@@ -15,6 +15,10 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
     from roughcontact.contact.dataset import solution_record
     from roughcontact.plot.facts import solution_facts
 
+    span = bench.span(order.recipe, order.files)
+    send({"type": "span", **span})
+    if order.recipe.load is None:  # the page does not know yet which loads suit the surface
+        return
     send({"type": "doing", "words": "Pressing"})
     solution = bench.solution(order.recipe, order.files)
     grid = solution.problem.grid

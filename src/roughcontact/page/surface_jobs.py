@@ -29,8 +29,6 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
     """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
     import numpy as np
 
-    import roughcontact as rc
-
     source = order.recipe.source
     if isinstance(source, FileSource):
         send({"type": "channels", "channels": _channels(order)})
@@ -44,9 +42,6 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
             "warned": warned,
-            "rms": surface.rms,
-            "area": surface.grid.area,
-            "slope": rc.surface_moments(surface).rms_slope if min(surface.grid.shape) > 2 else 0.0,
             "missing": surface.missing,
             "command": statement.command,
             "python": statement.python,

@@ -75,6 +75,22 @@ class Workbench:
 
         return self._once("solution", replace(recipe, loads=None), pressed)
 
+    def span(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> dict[str, tuple[float, float, float]]:
+        """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
+        surface = self.surface(recipe, files)
+        slope = self._once("slope", (recipe.source, recipe.preparation), lambda: _slope(surface))
+        stress, height = modulus_of(recipe.bodies) * slope, surface.rms
+        if not (stress > 0 and height > 0):
+            return {}
+        pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)
+        low, high, start = pressures
+        area = surface.grid.area
+        return {
+            "pressure": pressures,
+            "force": (low * area, high * area, start * area),
+            "depth": (1e-3 * height, 10 * height, height),
+        }
+
     def path(self, recipe: Recipe, loads: Array, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
         """Return the states of rising loads, each of which is computed when it is asked for."""
         import roughcontact as rc
@@ -165,6 +181,16 @@ def hardness_of(bodies: Bodies) -> float | None:
     if bodies.hardness[:1].isalpha():
         return rc.handbook(bodies.hardness).hardness
     return _stiff(bodies.hardness, "the hardness")
+
+
+def _slope(surface: Surface) -> float:
+    """Return the rms slope; 0 where no two neighbours are measured."""
+    import roughcontact as rc
+
+    try:
+        return float(rc.surface_moments(surface).rms_slope)
+    except ValueError:
+        return 0.0
 
 
 def _stiff(text: str, what: str) -> float:
