@@ -34,7 +34,9 @@ def serve(
         except ImportError as error:
             if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):
                 raise
-            raise UsageError("the page needs Starlette and uvicorn: pip install 'roughcontact[page]'") from error
+            raise UsageError(
+                "the page needs Starlette and uvicorn: pip install 'roughcontact[page]'"
+            ) from error
         if file is not None and not file.is_file():
             raise UsageError(f"{file}: there is no such file")
         if not 0 <= port < 2**16:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from dataclasses import dataclass, field
 
-from roughcontact.page.worker_process import WorkerEnded, WorkerProcess
+from roughcontact.page.worker_process import WorkerEndedError, WorkerProcess
 
 __all__ = ["Crew"]
 
@@ -31,7 +31,7 @@ class Crew:
 
         Raises
         ------
-        WorkerEnded
+        WorkerEndedError
             If none can be started.
         """
         self.prepare()
@@ -39,7 +39,7 @@ class Crew:
         if self.soon is None:
             self.soon = asyncio.get_running_loop().call_later(_BREATH, self.prepare)
         if reserve is None:
-            raise WorkerEnded
+            raise WorkerEndedError
         taken = await reserve
         # It may have been killed while it waited.
         return taken if taken.alive else await self._started()

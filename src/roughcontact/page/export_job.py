@@ -67,7 +67,11 @@ def _everything(order: Order, bench: Workbench, statement: Statement, folder: Pa
     (folder / "commands.sh").write_text(statement.command + "\n", encoding="utf-8")
     (folder / "same.py").write_text(statement.python, encoding="utf-8")
     pressed = {} if not written else {"modulus": modulus_of(recipe.bodies)}
-    write_json({"file": order.file}, folder / "provenance.json", provenance(surface, **pressed, command=statement.command))
+    write_json(
+        {"file": order.file},
+        folder / "provenance.json",
+        provenance(surface, **pressed, command=statement.command),
+    )
 
 
 def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[str, Callable[[Path], None]]:
@@ -99,9 +103,7 @@ def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[
     }
 
 
-def _curve_files(
-    order: Order, bench: Workbench, statement: Statement
-) -> dict[str, Callable[[Path], None]]:
+def _curve_files(order: Order, bench: Workbench, statement: Statement) -> dict[str, Callable[[Path], None]]:
     """Return how the files of a curve are written, by their names."""
     from roughcontact.contact.dataset import curve_dataset, curve_record
     from roughcontact.files.provenance import provenance
@@ -111,7 +113,9 @@ def _curve_files(
     curve, surface = whole_curve(order, bench), bench.surface(order.recipe, order.files)
     loads = order.recipe.loads
     control = f"{len(curve)} {'force' if loads is None else loads.control}s"
-    source = provenance(surface, modulus=curve.modulus, control=control, tolerance=1e-8, command=statement.command)
+    source = provenance(
+        surface, modulus=curve.modulus, control=control, tolerance=1e-8, command=statement.command
+    )
 
     def picture(path: Path) -> None:
         try:

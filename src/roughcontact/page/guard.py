@@ -59,7 +59,9 @@ class Guard:
         """The names under which the server may be spoken to: another one points at it from elsewhere."""
         return (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
 
-    def check(self, method: str, path: str, query: str, headers: Iterable[tuple[bytes, bytes]]) -> Refused | None:
+    def check(
+        self, method: str, path: str, query: str, headers: Iterable[tuple[bytes, bytes]]
+    ) -> Refused | None:
         """Return why a request is refused; None where it is answered."""
         given: dict[str, list[str]] = {}
         for name, value in headers:
@@ -76,7 +78,9 @@ class Guard:
             return Refused(403, "Another site asked for this.")
         if (entered and self.entered(query)) or self._has_cookie(given.get("cookie", [])):
             return None
-        return Refused(403, "Open the address that roughcontact serve has printed: it holds the key to this page.")
+        return Refused(
+            403, "Open the address that roughcontact serve has printed: it holds the key to this page."
+        )
 
     def entered(self, query: str) -> bool:
         """Return whether the address holds the token."""

@@ -9,12 +9,14 @@ from typing import Any
 
 from roughcontact.page.crew import Crew
 from roughcontact.page.frames import packed
-from roughcontact.page.worker_process import WorkerEnded, WorkerProcess
+from roughcontact.page.worker_process import WorkerEndedError, WorkerProcess
 
 __all__ = ["Lane"]
 
 _GRACE = 0.15  # seconds in which an order may leave by itself; then its process is ended
-_DIED = "The process that computes was ended from outside, or ran out of memory. A new one takes over: ask again."
+_DIED = (
+    "The process that computes was ended from outside, or ran out of memory. A new one takes over: ask again."
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -54,7 +56,7 @@ class Lane:
                     if ended:
                         self.running = None
                     yield message.raw
-            except WorkerEnded:
+            except WorkerEndedError:
                 self.worker, ended = None, True
                 how = {"how": "stopped"} if key in self.unwanted else {"how": "died", "message": _DIED}
                 yield packed({"type": "end", **how})
@@ -73,7 +75,7 @@ class Lane:
         running, worker = self.running, self.worker
         try:
             await worker.stop(running[0])
-        except WorkerEnded:
+        except WorkerEndedError:
             return
         await asyncio.sleep(_GRACE)
         if self.running == running:
@@ -98,6 +100,6 @@ class Lane:
         try:
             await worker.stop(number)
             await asyncio.wait_for(worker.finish(), _GRACE)
-        except (TimeoutError, WorkerEnded):
+        except (TimeoutError, WorkerEndedError):
             await self.crew.dismiss(worker)
             self.worker = None

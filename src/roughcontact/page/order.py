@@ -77,5 +77,12 @@ def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = F
     seen = np.ascontiguousarray(as_seen(field, factor, lowest=lowest), dtype="<f4")
     known = seen[~np.isnan(seen)]
     ends = [float(known.min()), float(known.max())] if known.size else [0.0, 0.0]
-    header = {"type": "map", "map": name, "shape": seen.shape, "cells": field.shape, "factor": factor, "ends": ends}
+    header = {
+        "type": "map",
+        "map": name,
+        "shape": seen.shape,
+        "cells": field.shape,
+        "factor": factor,
+        "ends": ends,
+    }
     send({**header, **more}, seen.tobytes())

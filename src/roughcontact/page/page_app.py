@@ -22,9 +22,9 @@ from roughcontact.page.crew import Crew
 from roughcontact.page.frames import packed
 from roughcontact.page.guard import HEADERS, Guard
 from roughcontact.page.session import Session
-from roughcontact.page.uploads import LARGEST, TooLarge, store
+from roughcontact.page.uploads import LARGEST, TooLargeError, store
 from roughcontact.page.workbench import UploadedFile
-from roughcontact.page.worker_process import WorkerEnded
+from roughcontact.page.worker_process import WorkerEndedError
 
 __all__ = ["PageServer", "application"]
 
@@ -79,7 +79,7 @@ class PageServer:
         try:
             size = int(stated) if stated.isascii() and stated.isdigit() else None
             key, file = await store(session.folder, name, size, request.stream())
-        except TooLarge as error:
+        except TooLargeError as error:
             return JSONResponse({"message": str(error)}, 413, {"Connection": "close"})
         except ClientDisconnect:
             return Response(status_code=400)
@@ -141,7 +141,9 @@ def application(server: PageServer) -> ASGIApp:
         if server.guard.entered(request.url.query):
             # The token leaves the address line, where it would be read over a shoulder.
             response: Response = RedirectResponse("/", 303)
-            response.set_cookie(server.guard.cookie, server.guard.token, httponly=True, samesite="strict", path="/")
+            response.set_cookie(
+                server.guard.cookie, server.guard.token, httponly=True, samesite="strict", path="/"
+            )
             return response
         return Response(entry, media_type=_TYPES[".html"])
 
@@ -219,7 +221,7 @@ class _Streamed:
             try:
                 async for message in messages:
                     await send({"type": "http.response.body", "body": message, "more_body": True})
-            except WorkerEnded as error:
+            except WorkerEndedError as error:
                 end = packed({"type": "end", "how": "died", "message": str(error)})
                 await send({"type": "http.response.body", "body": end, "more_body": True})
         await send({"type": "http.response.body", "body": b"", "more_body": False})

@@ -22,7 +22,10 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
     send({"type": "doing", "words": "Pressing"})
     solution = bench.solution(order.recipe, order.files)
     grid = solution.problem.grid
-    most, place = order.whole("pixels", 1024, 4096), {"lengths": grid.lengths, "periodic": list(grid.periodic)}
+    most, place = (
+        order.whole("pixels", 1024, 4096),
+        {"lengths": grid.lengths, "periodic": list(grid.periodic)},
+    )
     send_map(send, "pressure", solution.pressure, most, unit="Pa", **place)
     send_map(send, "gap", solution.gap, most, lowest=True, unit="m", **place)
     send(
@@ -70,9 +73,10 @@ def cut(order: Order, bench: Workbench, send: Send) -> None:
             "place": at,
             "x": [step * (k + 0.5) for k in range(len(gap))],
             # The flat lies at 0, in both.
-            "before": plain_values(np.where(problem.measured[line], solution.depth - problem.separation[line], np.nan)),
+            "before": plain_values(
+                np.where(problem.measured[line], solution.depth - problem.separation[line], np.nan)
+            ),
             "under": plain_values(-gap),
             "pressure": plain_values(solution.pressure[line]),
         }
     )
-

@@ -36,7 +36,9 @@ class FileSource:
         """Side lengths [m] as `roughcontact.read` takes them."""
         if self.width is None:
             if self.height is not None:
-                raise ValueError("the height of the map is given and its width is not: give both, or the width alone")
+                raise ValueError(
+                    "the height of the map is given and its width is not: give both, or the width alone"
+                )
             return None
         width = parse(self.width, LENGTH)
         return width if self.height is None else (parse(self.height, LENGTH), width)
@@ -131,7 +133,9 @@ class Loads:
         if self.start is None and self.end is None:
             return None
         if self.start is None or self.end is None:
-            raise ValueError("give both ends of the loads, or neither: then loads that suit the surface are found")
+            raise ValueError(
+                "give both ends of the loads, or neither: then loads that suit the surface are found"
+            )
         if not 2 <= self.count <= 1000:
             raise ValueError(f"a curve has 2 to 1000 loads, not {self.count}")
         low, high = parse(self.start, _KINDS[self.control]), parse(self.end, _KINDS[self.control])

@@ -22,7 +22,12 @@ def refusal(error: Exception) -> dict[str, Any]:
             remedy = f"Give {' and '.join(_FIELDS[name] for name in lacking)}."
         elif "read_line" in remedy:
             remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
-        return {"how": "refused", "message": _sentence(error.problem), "remedy": _sentence(remedy), "lacking": lacking}
+        return {
+            "how": "refused",
+            "message": _sentence(error.problem),
+            "remedy": _sentence(remedy),
+            "lacking": lacking,
+        }
     if isinstance(error, ValueError | OSError):
         return {"how": "refused", "message": _sentence(str(error))}
     words = f"{type(error).__name__}: {error}"

@@ -72,7 +72,16 @@ def _line(*parts: str) -> str:
 
 
 def _made_options(source: MadeSource) -> list[str]:
-    options = ["--hurst", source.hurst, "--rms", source.rms, "--size", source.size, "--points", str(source.points)]
+    options = [
+        "--hurst",
+        source.hurst,
+        "--rms",
+        source.rms,
+        "--size",
+        source.size,
+        "--points",
+        str(source.points),
+    ]
     options += ["--seed", str(source.seed)]
     options += [] if source.rolloff is None else ["--rolloff", source.rolloff]
     return [*options, "--periodic"] if source.periodic else options
@@ -171,7 +180,9 @@ def _hardness(bodies: Bodies) -> str:
     text = bodies.hardness
     if text is None:
         return ""
-    value = f"rc.handbook({written_value(text)}).hardness" if text[:1].isalpha() else repr(parse(text, PRESSURE))
+    value = (
+        f"rc.handbook({written_value(text)}).hardness" if text[:1].isalpha() else repr(parse(text, PRESSURE))
+    )
     return f", hardness={value}"
 
 

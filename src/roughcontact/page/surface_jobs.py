@@ -109,7 +109,9 @@ def _roughness(surface: Surface) -> list[tuple[str, str]]:
     facts.append(("rms slope", f"{moments.rms_slope:.4g}"))
     facts.append(("Nayak's parameter", f"{moments.nayak:.4g}"))
     try:
-        facts.append(("Hurst exponent", f"{rc.hurst_exponent(surface.filled()).hurst:.3g}, fitted to the spectrum"))
+        facts.append(
+            ("Hurst exponent", f"{rc.hurst_exponent(surface.filled()).hurst:.3g}, fitted to the spectrum")
+        )
     except ValueError as error:
         facts.append(("Hurst exponent", f"none: {error}"))
     return facts

@@ -9,26 +9,28 @@ from pathlib import Path
 
 from roughcontact.page.workbench import UploadedFile
 
-__all__ = ["LARGEST", "TooLarge", "safe_name", "store"]
+__all__ = ["LARGEST", "TooLargeError", "safe_name", "store"]
 
 LARGEST = 512 * 2**20  # bytes: a map of 8000 x 8000 cells in double precision
 _LONGEST = 120  # letters of a name
 
 
-class TooLarge(ValueError):
+class TooLargeError(ValueError):
     """A file beyond `LARGEST`."""
 
 
-async def store(folder: Path, name: str, stated: int | None, parts: AsyncIterator[bytes]) -> tuple[str, UploadedFile]:
+async def store(
+    folder: Path, name: str, stated: int | None, parts: AsyncIterator[bytes]
+) -> tuple[str, UploadedFile]:
     """Write a file that comes in parts; return what the page calls it, and where it lies.
 
     Raises
     ------
-    TooLarge
+    TooLargeError
         If it is, or says that it will be, larger than `LARGEST`; nothing is left of it.
     """
     if stated is not None and stated > LARGEST:
-        raise TooLarge(_words())
+        raise TooLargeError(_words())
     key = secrets.token_hex(8)
     place = folder / key
     place.mkdir(parents=True)
@@ -39,7 +41,7 @@ async def store(folder: Path, name: str, stated: int | None, parts: AsyncIterato
             async for part in parts:
                 size += len(part)
                 if size > LARGEST:
-                    raise TooLarge(_words())
+                    raise TooLargeError(_words())
                 out.write(part)
     except BaseException:
         file.unlink(missing_ok=True)

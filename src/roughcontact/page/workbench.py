@@ -41,7 +41,9 @@ class Workbench:
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
 
-    def read(self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) -> tuple[Surface, list[str]]:
+    def read(
+        self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
+    ) -> tuple[Surface, list[str]]:
         """Return the surface as the file holds it, or as it is made, and what the reader warns of."""
         return self._once("read", source, lambda: _read(source, files))
 
@@ -75,7 +77,9 @@ class Workbench:
 
         return self._once("solution", replace(recipe, loads=None), pressed)
 
-    def span(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> dict[str, tuple[float, float, float]]:
+    def span(
+        self, recipe: Recipe, files: Mapping[str, UploadedFile]
+    ) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
         surface = self.surface(recipe, files)
         slope = self._once("slope", (recipe.source, recipe.preparation), lambda: _slope(surface))
@@ -163,7 +167,9 @@ def modulus_of(bodies: Bodies) -> float:
     if bodies.modulus is not None:
         return _stiff(bodies.modulus, "the reduced modulus")
     if bodies.young is None or bodies.poisson is None:
-        raise ValueError("give two materials, a reduced modulus, or Young's modulus and Poisson's ratio of a body")
+        raise ValueError(
+            "give two materials, a reduced modulus, or Young's modulus and Poisson's ratio of a body"
+        )
     first = rc.Solid(_stiff(bodies.young, "Young's modulus"), parse_number(bodies.poisson, "0.3"))
     if bodies.young2 is None or bodies.poisson2 is None:
         return rc.reduced_modulus(first)

@@ -64,7 +64,10 @@ def perform(given: Mapping[str, Any], bench: Workbench, send: Send, stopping: St
         end["how"] = "stopped"
     except MemoryError:
         bench.kept.clear()
-        end |= {"how": "refused", "message": "The memory does not suffice for that many points: crop or subsample."}
+        end |= {
+            "how": "refused",
+            "message": "The memory does not suffice for that many points: crop or subsample.",
+        }
     except Exception as error:
         from roughcontact.page.refusal import refusal
 
@@ -89,7 +92,9 @@ def _job(name: str) -> Job:
     from roughcontact.page.press_jobs import cut, press
     from roughcontact.page.surface_jobs import look, study
 
-    jobs: dict[str, Job] = {each.__name__: each for each in (look, study, press, cut, curve, theories, export)}
+    jobs: dict[str, Job] = {
+        each.__name__: each for each in (look, study, press, cut, curve, theories, export)
+    }
     if name not in jobs:
         raise ValueError(f"there is no job {name!r}")
     return jobs[name]

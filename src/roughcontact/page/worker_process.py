@@ -12,7 +12,7 @@ from typing import Any
 from roughcontact.page import worker
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
 
-__all__ = ["Message", "WorkerEnded", "WorkerProcess"]
+__all__ = ["Message", "WorkerEndedError", "WorkerProcess"]
 
 _BUFFER = 2**22
 
@@ -25,7 +25,7 @@ class Message:
     raw: bytes
 
 
-class WorkerEnded(RuntimeError):
+class WorkerEndedError(RuntimeError):
     """The process is gone: it was killed, or ran out of memory."""
 
 
@@ -54,7 +54,9 @@ class WorkerProcess:
     async def ready(self) -> WorkerProcess:
         """Wait until it can take an order."""
         if await self.messages.get() is None:
-            raise WorkerEnded("the process that computes did not start: see what it wrote where the server runs")
+            raise WorkerEndedError(
+                "the process that computes did not start: see what it wrote where the server runs"
+            )
         return self
 
     @property
@@ -67,14 +69,14 @@ class WorkerProcess:
 
         Raises
         ------
-        WorkerEnded
+        WorkerEndedError
             If the process ended before.
         """
         await self._tell(order)
         while True:
             message = await self.messages.get()
             if message is None:
-                raise WorkerEnded
+                raise WorkerEndedError
             yield message
             if message.header["type"] == "end":
                 return
@@ -102,12 +104,12 @@ class WorkerProcess:
     async def _tell(self, words: Mapping[str, Any]) -> None:
         stdin = self.process.stdin
         if stdin is None or not self.alive:
-            raise WorkerEnded
+            raise WorkerEndedError
         try:
             stdin.write(packed(words))
             await stdin.drain()
         except (BrokenPipeError, ConnectionResetError) as error:
-            raise WorkerEnded from error
+            raise WorkerEndedError from error
 
     async def _listen(self) -> None:
         out = self.process.stdout
