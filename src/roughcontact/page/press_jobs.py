@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.order import Order, Send, send_map
 from roughcontact.page.statement import stated
@@ -22,10 +24,8 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
     send({"type": "doing", "words": "Pressing"})
     solution = bench.solution(order.recipe, order.files)
     grid = solution.problem.grid
-    most, place = (
-        order.whole("pixels", 1024, 4096),
-        {"lengths": grid.lengths, "periodic": list(grid.periodic)},
-    )
+    most = order.whole("pixels", 1024, 4096)
+    place: dict[str, Any] = {"lengths": grid.lengths, "periodic": list(grid.periodic)}
     send_map(send, "pressure", solution.pressure, most, unit="Pa", **place)
     send_map(send, "gap", solution.gap, most, lowest=True, unit="m", **place)
     send(

@@ -67,7 +67,8 @@ class Workbench:
             raise ValueError("no load is given")
 
         def pressed() -> Solution:
-            surface, given = self.surface(recipe, files), {load.control: load.value}
+            surface = self.surface(recipe, files)
+            given: dict[str, Any] = {load.control: load.value}
             try:
                 return rc.press(
                     surface, modulus_of(recipe.bodies), **given, hardness=hardness_of(recipe.bodies)
