@@ -66,12 +66,9 @@ def _everything(order: Order, bench: Workbench, statement: Statement, folder: Pa
         write(folder / file)
     (folder / "commands.sh").write_text(statement.command + "\n", encoding="utf-8")
     (folder / "same.py").write_text(statement.python, encoding="utf-8")
-    pressed = {} if not written else {"modulus": modulus_of(recipe.bodies)}
-    write_json(
-        {"file": order.file},
-        folder / "provenance.json",
-        provenance(surface, **pressed, command=statement.command),
-    )
+    modulus = modulus_of(recipe.bodies) if written else None
+    source = provenance(surface, modulus=modulus, command=statement.command)
+    write_json({"file": order.file}, folder / "provenance.json", source)
 
 
 def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[str, Callable[[Path], None]]:
