@@ -51,7 +51,6 @@ PAGE = FOLDER.with_suffix(".md")
 CHANGES = FOLDER.parent / "reproduction-verdicts.md"
 DPI = 160  # of the pictures
 FEW = 8  # values that are listed one by one
-REDRAWN = "2026-11-23"  # from then on phases are functions of a key and the wave vector
 
 
 # What is there
@@ -114,9 +113,7 @@ def _covers(study: Study, named: Study) -> bool:
 
 
 def _told(studies: tuple[Study, ...], averages: xarray.Dataset) -> tuple[str, ...]:
-    """Return a line a study: what was varied, how often, how much of it is there, and whether it is of old draws."""
-    old = averages.attrs.get("date_created", REDRAWN) < REDRAWN
-    draws = f", surfaces as they were drawn before {REDRAWN}" if old else ""
+    """Return a line a study: what was varied, how often, and how much of it is there."""
     done, failed, missing, seconds = (
         np.atleast_1d(averages.attrs[f"cases_{name}"]).tolist()
         for name in ("done", "failed", "missing", "seconds")
@@ -124,7 +121,7 @@ def _told(studies: tuple[Study, ...], averages: xarray.Dataset) -> tuple[str, ..
     return tuple(
         f"study `{study.name}`: {_table(study)}{study.samples} samples{' of each' if study.table else ''}, case "
         f"`{study.case.split(':')[0].split('.')[-1]}`, seed {study.seed}; {_parameters(study)}. "
-        f"{_cases(done[n], failed[n], missing[n])}, {_time(seconds[n])}{draws}"
+        f"{_cases(done[n], failed[n], missing[n])}, {_time(seconds[n])}"
         for n, study in enumerate(studies)
     )
 

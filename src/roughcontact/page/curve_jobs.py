@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.labels.labelled import plain_values
 from roughcontact.labels.variables import CURVE_POINTS
 from roughcontact.page.order import Order, Send
-from roughcontact.page.recipe import Loads
+from roughcontact.page.recipe import PageLoads
 from roughcontact.page.statement import stated
 from roughcontact.page.stopping import Stopped
 from roughcontact.page.workbench import Workbench, hardness_of, modulus_of
@@ -23,7 +23,7 @@ __all__ = ["curve", "theories", "whole_curve"]
 
 def curve(order: Order, bench: Workbench, send: Send) -> None:
     """Send the loads, every point when it is there, and what the curve says as a whole."""
-    recipe = replace(order.recipe, load=None, loads=order.recipe.loads or Loads())
+    recipe = replace(order.recipe, load=None, loads=order.recipe.loads or PageLoads())
     if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
         send({"type": "doing", "words": "Looking for the loads that suit this surface"})
     loads, notes = bench.loads(recipe, order.files)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from roughcontact.page.recipe import Recipe
+from roughcontact.page.recipe import PageRecipe
 from roughcontact.page.reduced import as_seen, factor_for
 from roughcontact.page.workbench import UploadedFile, Workbench
 from roughcontact.validation import Array
@@ -29,14 +29,14 @@ class Order:
 
     Parameters
     ----------
-    recipe : Recipe
+    recipe : PageRecipe
     files : mapping of str to UploadedFile
         By the names under which the server keeps them.
     more : mapping
         What else the job needs to know.
     """
 
-    recipe: Recipe
+    recipe: PageRecipe
     files: Mapping[str, UploadedFile]
     more: Mapping[str, Any]
 

@@ -14,7 +14,16 @@ from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse, pa
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
 
-__all__ = ["Bodies", "FileSource", "Load", "Loads", "MadeSource", "Preparation", "Recipe", "as_recipe"]
+__all__ = [
+    "Bodies",
+    "FileSource",
+    "MadeSource",
+    "PageLoad",
+    "PageLoads",
+    "PagePreparation",
+    "PageRecipe",
+    "as_recipe",
+]
 
 _KINDS: dict[str, Kind] = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
 
@@ -67,7 +76,7 @@ class MadeSource:
 
 
 @dataclass(frozen=True, slots=True)
-class Preparation:
+class PagePreparation:
     """What is done with the heights, in the order of ``roughcontact surface prepare``.
 
     Parameters
@@ -100,7 +109,7 @@ class Bodies:
 
 
 @dataclass(frozen=True, slots=True)
-class Load:
+class PageLoad:
     """One load: what is prescribed, and its value with a unit."""
 
     control: Literal["force", "pressure", "depth"]
@@ -118,7 +127,7 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True)
-class Loads:
+class PageLoads:
     """The loads of a curve: from, to and how many, evenly spaced in the logarithm; or each by its number in SI."""
 
     control: Literal["force", "pressure", "depth"] = "force"
@@ -145,17 +154,17 @@ class Loads:
 
 
 @dataclass(frozen=True, slots=True)
-class Recipe:
+class PageRecipe:
     """All that an answer follows from."""
 
     source: FileSource | MadeSource
-    preparation: Preparation = Preparation()
+    preparation: PagePreparation = PagePreparation()
     bodies: Bodies = Bodies(modulus="100GPa")
-    load: Load | None = None
-    loads: Loads | None = None
+    load: PageLoad | None = None
+    loads: PageLoads | None = None
 
 
-def as_recipe(plain: Any) -> Recipe:
+def as_recipe(plain: Any) -> PageRecipe:
     """Return the recipe that plain values from the page state.
 
     Raises
@@ -179,7 +188,7 @@ def number(text: str, example: str) -> float:
 
 
 @cache
-def _adapter() -> TypeAdapter[Recipe]:
+def _adapter() -> TypeAdapter[PageRecipe]:
     from pydantic import TypeAdapter
 
-    return TypeAdapter(Recipe)
+    return TypeAdapter(PageRecipe)

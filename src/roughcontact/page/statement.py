@@ -7,8 +7,8 @@ import shlex
 from dataclasses import dataclass
 
 from roughcontact.files.quantity import LENGTH, PRESSURE, parse, parse_number
-from roughcontact.page.calls import calls_of, written_value
-from roughcontact.page.recipe import Bodies, FileSource, Load, Loads, MadeSource, Recipe
+from roughcontact.page.preparation_calls import calls_of, written_value
+from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoad, PageLoads, PageRecipe
 
 __all__ = ["Statement", "stated"]
 
@@ -24,19 +24,19 @@ class Statement:
     python: str
 
 
-def stated(recipe: Recipe, file: str) -> Statement:
+def stated(recipe: PageRecipe, file: str) -> Statement:
     """Return the recipe of a surface, a load or a curve as commands and as Python.
 
     Parameters
     ----------
-    recipe : Recipe
+    recipe : PageRecipe
     file : str
         How the user calls the measured file.
     """
     return Statement("\n".join(_commands(recipe, file)), "\n".join(_python(recipe, file)) + "\n")
 
 
-def _commands(recipe: Recipe, file: str) -> list[str]:
+def _commands(recipe: PageRecipe, file: str) -> list[str]:
     source, lines = recipe.source, []
     steps = [part for call in calls_of(recipe.preparation) for part in call.options]
     reading: list[str] = []
@@ -108,7 +108,7 @@ def _body_options(bodies: Bodies) -> list[str]:
     return options
 
 
-def _loads_options(loads: Loads) -> list[str]:
+def _loads_options(loads: PageLoads) -> list[str]:
     if loads.values is not None:
         return [f"--{loads.control}s", ",".join(repr(value) for value in loads.values)]
     if loads.ends is None:
@@ -116,7 +116,7 @@ def _loads_options(loads: Loads) -> list[str]:
     return [f"--{loads.control}s", f"{loads.start}:{loads.end}:{loads.count}"]
 
 
-def _python(recipe: Recipe, file: str) -> list[str]:
+def _python(recipe: PageRecipe, file: str) -> list[str]:
     source = recipe.source
     spaced = recipe.loads is not None and recipe.loads.values is None and recipe.loads.ends is not None
     lines = ["import numpy as np", ""] if spaced or isinstance(source, MadeSource) else []
@@ -186,11 +186,11 @@ def _hardness(bodies: Bodies) -> str:
     return f", hardness={value}"
 
 
-def _load(load: Load) -> str:
+def _load(load: PageLoad) -> str:
     return f"{load.control}={load.value!r}"
 
 
-def _loads(loads: Loads) -> str:
+def _loads(loads: PageLoads) -> str:
     if loads.values is not None:
         return f", {loads.control}s=[{', '.join(repr(value) for value in loads.values)}]"
     if loads.ends is None:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.quantity import LENGTH, PRESSURE, has_unit, parse, parse_number
-from roughcontact.page.calls import calls_of
-from roughcontact.page.recipe import Bodies, FileSource, Loads, MadeSource, Recipe
+from roughcontact.page.preparation_calls import calls_of
+from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoads, PageRecipe
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
@@ -47,7 +47,7 @@ class Workbench:
         """Return the surface as the file holds it, or as it is made, and what the reader warns of."""
         return self._once("read", source, lambda: _read(source, files))
 
-    def surface(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> Surface:
+    def surface(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Surface:
         """Return the surface after its preparation."""
 
         def prepared() -> Surface:
@@ -58,7 +58,7 @@ class Workbench:
 
         return self._once("surface", (recipe.source, recipe.preparation), prepared)
 
-    def solution(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> Solution:
+    def solution(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""
         import roughcontact as rc
 
@@ -79,7 +79,7 @@ class Workbench:
         return self._once("solution", replace(recipe, loads=None), pressed)
 
     def span(
-        self, recipe: Recipe, files: Mapping[str, UploadedFile]
+        self, recipe: PageRecipe, files: Mapping[str, UploadedFile]
     ) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
         surface = self.surface(recipe, files)
@@ -96,7 +96,7 @@ class Workbench:
             "depth": (1e-3 * height, 10 * height, height),
         }
 
-    def path(self, recipe: Recipe, loads: Array, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
+    def path(self, recipe: PageRecipe, loads: Array, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
         """Return the states of rising loads, each of which is computed when it is asked for."""
         import roughcontact as rc
 
@@ -104,13 +104,13 @@ class Workbench:
         given: dict[str, Any] = {f"{control}s": loads, "hardness": hardness_of(recipe.bodies)}
         return rc.loading_path(self.surface(recipe, files), modulus_of(recipe.bodies), **given)
 
-    def loads(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> tuple[Array, tuple[str, ...]]:
+    def loads(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> tuple[Array, tuple[str, ...]]:
         """Return the loads of a curve in SI, found where they are not given, and what a reader should know of them."""
         import numpy as np
 
         import roughcontact as rc
 
-        wanted = recipe.loads or Loads()
+        wanted = recipe.loads or PageLoads()
         if wanted.values is not None:
             return np.array(wanted.values), ()
         if wanted.ends is not None:
@@ -124,11 +124,11 @@ class Workbench:
 
         return self._once("loads", without_loads(recipe), found)
 
-    def keep_curve(self, recipe: Recipe, loads: Array, curve: Curve) -> None:
+    def keep_curve(self, recipe: PageRecipe, loads: Array, curve: Curve) -> None:
         """Keep a curve, for what is asked of it next."""
         self._keep("curve", _curve_key(recipe, loads), curve)
 
-    def curve(self, recipe: Recipe, loads: Array) -> Curve | None:
+    def curve(self, recipe: PageRecipe, loads: Array) -> Curve | None:
         """Return the curve of a surface, its bodies and loads, if it is kept."""
         return self.kept.get("curve", {}).get(_curve_key(recipe, loads))
 
@@ -147,12 +147,12 @@ class Workbench:
             del shelf[next(iter(shelf))]
 
 
-def without_loads(recipe: Recipe) -> Recipe:
+def without_loads(recipe: PageRecipe) -> PageRecipe:
     """Return what a curve follows from but for its loads."""
     return replace(recipe, load=None, loads=None)
 
 
-def _curve_key(recipe: Recipe, loads: Array) -> Hashable:
+def _curve_key(recipe: PageRecipe, loads: Array) -> Hashable:
     control = "force" if recipe.loads is None else recipe.loads.control
     return without_loads(recipe), control, tuple(loads)
 

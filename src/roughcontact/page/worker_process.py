@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from roughcontact.page import worker
+from roughcontact.page import page_worker
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
 
 __all__ = ["Message", "WorkerEndedError", "WorkerProcess"]
@@ -41,7 +41,7 @@ class WorkerProcess:
     async def start(cls) -> WorkerProcess:
         """Start one; it is of use when it is `ready`."""
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", worker.__name__),
+            *(sys.executable, "-m", page_worker.__name__),
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             limit=_BUFFER,

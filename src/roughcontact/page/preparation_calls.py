@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.files.quantity import LENGTH, parse
 
 if TYPE_CHECKING:
-    from roughcontact.page.recipe import Preparation
+    from roughcontact.page.recipe import PagePreparation
     from roughcontact.surface.surface import Surface
 
 __all__ = ["Call", "calls_of", "written_value"]
@@ -48,7 +48,7 @@ class Call:
         return f"surface = surface.{self.method}({', '.join(arguments)})"
 
 
-def calls_of(wanted: Preparation) -> list[Call]:
+def calls_of(wanted: PagePreparation) -> list[Call]:
     """Return the steps in their order."""
     found: list[Call] = []
     if wanted.crop is not None:
