@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, on_host
 from roughcontact.cached import cached_property
+from roughcontact.contact.histograms import gap_histogram, pressure_histogram
 from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
@@ -32,7 +33,7 @@ from roughcontact.solver.optimality import UNITS
 from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
@@ -58,6 +59,17 @@ class Solution:
         the exact operator with this pressure.
     steps : int
         Products with the operator that the solve took on its finest grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> f"{solution.stiffness:.0f} N/m on {solution.contact_area * 1e12:.0f} um^2", solution.residual < 1e-8
+    ('8493 N/m on 60 um^2', True)
+    >>> solution.on_host().spots.count, solution.to_record()["units"]["force"]
+    (1, 'N')
+    >>> solution.to_dataset()["gap"].attrs["units"]
+    'm'
     """
 
     problem: ContactProblem
@@ -265,56 +277,6 @@ class Solution:
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
-    @numeric
-    def pressure_histogram(self, bins: int = 50) -> tuple[Array, Array]:
-        """Return the distribution of the pressure over the contact area.
-
-        Cells count by their area.
-
-        Parameters
-        ----------
-        bins : int
-            Number of bins of equal width from zero to the largest value.
-
-        Returns
-        -------
-        density : array, shape (bins,)
-            Probability density [1/Pa]; on springs [m/N].
-        edges : array, shape (bins + 1,)
-            Edges of the bins [Pa]; on springs [N/m].
-
-        Raises
-        ------
-        ValueError
-            If there is not a bin.
-        """
-        return _density(*self._of_cells(self.pressure, self.contact), bins)
-
-    @numeric
-    def gap_histogram(self, bins: int = 50) -> tuple[Array, Array]:
-        """Return the distribution of the gap over the cells that are not in contact.
-
-        Cells count by their area.
-
-        Parameters
-        ----------
-        bins : int
-            Number of bins of equal width from zero to the largest value.
-
-        Returns
-        -------
-        density : array, shape (bins,)
-            Probability density [1/m].
-        edges : array, shape (bins + 1,)
-            Edges of the bins [m].
-
-        Raises
-        ------
-        ValueError
-            If there is not a bin.
-        """
-        return _density(*self._of_cells(self.gap, ~self.contact & self.problem.measured), bins)
-
     def to_dataset(self) -> xarray.Dataset:
         """Return fields and numbers as an `xarray.Dataset` with units and long names.
 
@@ -339,13 +301,10 @@ class Solution:
 
         return solution_record(self.on_host())
 
+    pressure_histogram = pressure_histogram
+    gap_histogram = gap_histogram
     plot = plot_solution
     _repr_html_ = solution_html
-
-    def _of_cells(self, field: Array, mask: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
-        """Return a field on the cells of a mask and their areas, on the host."""
-        chosen = on_host(mask).astype(bool)
-        return on_host(field)[chosen], self._measure.on(np.flatnonzero(chosen))
 
     @cached_property
     def _cells(self) -> npt.NDArray[np.intp]:
@@ -387,14 +346,3 @@ class Solution:
         cells = self._cells
         force = self._measure.on(cells) * pressure.ravel()[cells]
         return float(force @ self.problem.mean_response.ravel()[cells])
-
-
-def _density(values: Array, areas: Array, bins: int) -> tuple[Array, Array]:
-    if bins < 1:
-        raise ValueError(f"a histogram needs at least one bin, not {bins}")
-    values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
-    if not values.size:
-        return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
-    end = float(values.max()) or 1.0
-    density, edges = np.histogram(values, bins=int(bins), range=(0.0, end), weights=areas, density=True)
-    return density, edges

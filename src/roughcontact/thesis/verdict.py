@@ -27,6 +27,12 @@ class Verdict:
         The number found here, with its error and what it was found from.
     holds : bool or None
         None where the text states too little to say so.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.thesis.Verdict("the stiffness saturates", "1.1419", "1.1518", False).word
+    'does not hold'
     """
 
     claim: str

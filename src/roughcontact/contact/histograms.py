@@ -1,0 +1,99 @@
+"""How the pressure is distributed over the contact, and the gap over the rest."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.arrays import on_host
+from roughcontact.validation import Array, Mask, numeric
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["gap_histogram", "pressure_histogram"]
+
+
+@numeric
+def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
+    """Return the distribution of the pressure over the contact area.
+
+    Cells count by their area.
+
+    Parameters
+    ----------
+    solution : Solution
+    bins : int
+        Number of bins of equal width from zero to the largest value.
+
+    Returns
+    -------
+    density : array, shape (bins,)
+        Probability density [1/Pa]; on springs [m/N].
+    edges : array, shape (bins + 1,)
+        Edges of the bins [Pa]; on springs [N/m].
+
+    Raises
+    ------
+    ValueError
+        If there is not a bin.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> density, edges = solution.pressure_histogram(bins=4)  # of Hertz' pressures the large ones are frequent
+    >>> (density * edges[1]).round(2)
+    array([0.13, 0.13, 0.33, 0.4 ])
+    """
+    return _density(solution, solution.pressure, solution.contact, bins)
+
+
+@numeric
+def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
+    """Return the distribution of the gap over the cells that are not in contact.
+
+    Cells count by their area.
+
+    Parameters
+    ----------
+    solution : Solution
+    bins : int
+        Number of bins of equal width from zero to the largest value.
+
+    Returns
+    -------
+    density : array, shape (bins,)
+        Probability density [1/m].
+    edges : array, shape (bins + 1,)
+        Edges of the bins [m].
+
+    Raises
+    ------
+    ValueError
+        If there is not a bin.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> density, edges = solution.gap_histogram(bins=4)  # of the open cells
+    >>> (density * edges[1]).round(2)
+    array([0.39, 0.38, 0.18, 0.05])
+    """
+    return _density(solution, solution.gap, ~solution.contact & solution.problem.measured, bins)
+
+
+def _density(solution: Solution, field: Array, mask: Mask, bins: int) -> tuple[Array, Array]:
+    """Return the density of a field over the cells of a mask, by their area, and the edges of its bins."""
+    if bins < 1:
+        raise ValueError(f"a histogram needs at least one bin, not {bins}")
+    chosen = on_host(mask).astype(bool)
+    values = np.maximum(on_host(field)[chosen], 0.0)  # a gap that is but rounding may be below
+    if not values.size:
+        return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
+    areas = solution.problem.measure.on(np.flatnonzero(chosen))
+    end = float(values.max()) or 1.0
+    density, edges = np.histogram(values, bins=int(bins), range=(0.0, end), weights=areas, density=True)
+    return density, edges
