@@ -176,8 +176,26 @@ def test_ctrl_c_ends_a_run(rough, tmp_path):
 
 def test_help_waits_for_no_library_of_numerics():
     code = (
-        "import sys; import roughcontact.cli.app; "
-        "print({'scipy', 'matplotlib', 'xarray', 'pandas', 'pydantic'} & set(sys.modules))"
+        "import sys; from roughcontact.cli.main import run; sys.argv[1:] = ['--help']\n"
+        "try: run()\n"
+        "except SystemExit: print({'numpy', 'scipy', 'matplotlib', 'pydantic'} & set(sys.modules))"
     )
     answer = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
-    assert answer.stdout == "set()\n"
+    assert answer.stdout.endswith("set()\n")
+
+
+@pytest.mark.parametrize("group", [[], ["surface"], ["study"]])
+def test_help_of_a_group_holds_the_first_words_of_its_commands(group, invoke):
+    told = invoke(*group, "--help").stdout
+    lines = [line.strip("│|* ") for line in told.partition("Commands")[2].splitlines()[1:]]
+    names = [line.split()[0] for line in lines if line and line[0].isalpha() and "  " in line]
+    assert len(names) >= 4
+    for name in set(names) - {"surface", "study"}:
+        summary = next(line for line in lines if line.startswith(f"{name} ")).removeprefix(name).strip()
+        assert summary[:40] in invoke(*group, name, "--help").stdout
+
+
+def test_help_of_a_program_whose_text_is_not_there_is_the_same(monkeypatch, invoke):
+    told = invoke("study", "--help").stdout
+    monkeypatch.setattr("roughcontact.cli.late_group.find_spec", lambda name: None)
+    assert invoke("study", "--help").stdout == told

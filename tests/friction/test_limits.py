@@ -35,6 +35,7 @@ def solution():
         ({"force": "10N"}, "SI units, not '10N'"),
         ({"force": None}, "exactly one"),
         ({"displacement": 1.0}, "exactly one"),
+        ({"force": None, "displacement": 1e300}, "at most 1e\\+50"),
         ({"tolerance": 0.0}, "tolerance must lie"),
         ({"bodies": 1.0}, "E\\* alone does not say"),
         ({"bodies": rc.Solid(2.0, 0.3)}, "press and pull the same"),

@@ -104,3 +104,10 @@ def test_an_executor_goes_on_after_a_miss(start):
     with ProcessPoolExecutor(1, multiprocessing.get_context(start)) as pool:
         found = [pool.submit(work) for work in WORK]
         check([partial(answer.result, PATIENCE) for answer in found])
+
+
+@pytest.mark.parametrize("settings", [rc.PolonskyKeer, rc.ActiveSet])
+@pytest.mark.parametrize("steps", [0, -3, 2.5, "many"])
+def test_a_limit_of_products_is_a_whole_number_of_them(settings, steps):
+    with pytest.raises(ValueError, match="max_steps must be"):
+        settings(max_steps=steps)

@@ -22,21 +22,23 @@ if TYPE_CHECKING:
 
     from roughcontact.statistics.fit_window import Window
 
-__all__ = ["AVERAGE_EXAMPLES", "PLOT_EXAMPLES", "TABLE_EXAMPLES", "average", "plot", "table"]
+__all__ = ["EXAMPLES", "average", "plot", "table"]
 
-AVERAGE_EXAMPLES = """
+EXAMPLES = {
+    "average": """
 roughcontact study average results --out averages.csv
 roughcontact study average results --out averages.nc --window 1e-3:0.07
-"""
-PLOT_EXAMPLES = """
+""",
+    "plot": """
 roughcontact study plot results --out hurst.png
 roughcontact study plot results --out area.pdf --quantity contact_area
 roughcontact study plot results --out slope.svg --quantity rms_slope --along hurst
-"""
-TABLE_EXAMPLES = """
+""",
+    "table": """
 roughcontact study table results
 roughcontact study table results --quantity stiffness,contact_area --at 0.01
-"""
+""",
+}
 
 FILE = option("File to write: .nc or .csv.", "FILE", default=...)
 PICTURE = option("Picture to write: .png, .pdf or .svg.", "FILE", default=...)

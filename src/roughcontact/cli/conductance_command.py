@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "Materials", "conductance", "conduction_facts", "shown_columns"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "conductance": """
 roughcontact curve part.x3p --modulus 110GPa --out result
 roughcontact conductance result/curve.nc --resistivity 17nohm*m
 roughcontact conductance result --conductivity steel,aluminium
 roughcontact conductance result --resistivity 17nohm*m,100nohm*m --conductivity 400W/m/K,50W/m/K --out result
 roughcontact conductance result --resistivity 17nohm*m --of total
-"""
+""",
+}
 
 _CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
 

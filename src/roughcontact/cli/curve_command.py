@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "curve"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "curve": """
 roughcontact curve part.x3p --modulus 110GPa
 roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
@@ -47,7 +48,8 @@ roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
-"""
+""",
+}
 
 _FEWEST = 3  # resolved loads that a power law takes
 

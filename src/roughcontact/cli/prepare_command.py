@@ -13,12 +13,14 @@ from roughcontact.cli.steps import Wishes, steps
 
 __all__ = ["EXAMPLES", "prepare"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "prepare": """
 roughcontact surface prepare part.x3p flat.npz --level plane --long-cutoff 0.8mm
 roughcontact surface prepare part.x3p small.x3p --crop 100:612,0:512 --fill --downsample 2
 roughcontact surface prepare part.x3p clean.npz --despike filled --mask above=20um
 roughcontact surface prepare rough.npz seen.npz --tip 2um --average 4
-"""
+""",
+}
 _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the work of a filter
 
 

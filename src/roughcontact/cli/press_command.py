@@ -26,14 +26,16 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "press"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "press": """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
-"""
+""",
+}
 
 Theory = StrEnum("Theory", ["PERSSON"])
 _THEORY = option(

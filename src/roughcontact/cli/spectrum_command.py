@@ -29,11 +29,13 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "spectrum"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "spectrum": """
 roughcontact surface spectrum part.x3p --out result
 roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
 roughcontact surface spectrum scan.csv --out result
-"""
+""",
+}
 _FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
 _COARSE = 20.0  # of the table and the moments
 _FILTERED = re.compile(r"Gaussian filter: waves (below|above) (\S+) m removed")

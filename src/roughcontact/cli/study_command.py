@@ -28,11 +28,8 @@ if TYPE_CHECKING:
     from roughcontact.study.task import Summary
 
 __all__ = [
-    "ADD_EXAMPLES",
-    "EXPORT_EXAMPLES",
+    "EXAMPLES",
     "FOLDER",
-    "RUN_EXAMPLES",
-    "STATUS_EXAMPLES",
     "add",
     "export",
     "own_cases",
@@ -41,21 +38,23 @@ __all__ = [
     "status",
 ]
 
-RUN_EXAMPLES = """
+EXAMPLES = {
+    "run": """
 roughcontact study run hurst.toml
 roughcontact study run hurst.toml --out results --workers 4
 roughcontact study run results --retry
-"""
-STATUS_EXAMPLES = """
+""",
+    "status": """
 roughcontact study status results --failed
-"""
-EXPORT_EXAMPLES = """
+""",
+    "export": """
 roughcontact study export results --out hurst.nc
 roughcontact study export results --out hurst.csv
-"""
-ADD_EXAMPLES = """
+""",
+    "add": """
 roughcontact study add results --samples 100
-"""
+""",
+}
 
 SOURCE = argument("A study, or the folder that one was run in.", "STUDY.toml|DIR")
 OUT = option("Folder for the results (default: named like the study).", "DIR")

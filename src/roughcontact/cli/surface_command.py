@@ -29,17 +29,19 @@ if TYPE_CHECKING:
     from roughcontact.surface.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
-__all__ = ["INFO_EXAMPLES", "MAKE_EXAMPLES", "info", "make"]
+__all__ = ["EXAMPLES", "info", "make"]
 
-INFO_EXAMPLES = """
+EXAMPLES = {
+    "info": """
 roughcontact surface info part.x3p --out result --format svg
 roughcontact surface info heights.csv --unit nm --size 1mm --json
 roughcontact surface info scan.csv
-"""
-MAKE_EXAMPLES = """
+""",
+    "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
-"""
+""",
+}
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
 _BYTES_PER_POINT = 90  # of the synthesis: heights, waves, wavenumbers, amplitudes and the work on them
 
@@ -80,7 +82,8 @@ def info(
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
         with output(out) as folder:
             if folder is not None:
-                _draw(surface, spikes, folder / f"surface.{ending}")
+                with doing("Drawing"):
+                    _draw(surface, spikes, folder / f"surface.{ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
         if folder is not None:
             note(f"surface.{ending} is in {folder}")

@@ -22,12 +22,14 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLES", "thesis"]
 
-EXAMPLES = """
+EXAMPLES = {
+    "thesis": """
 roughcontact thesis list
 roughcontact thesis fig6 --out figures --seed 2
 roughcontact thesis fig27 --out figures --workers 2
 roughcontact thesis all --scale thesis --out figures
-"""
+""",
+}
 
 _SCALES = ("small", "thesis")
 _NAME = argument("A figure, such as fig6; all; or list.", "NAME")

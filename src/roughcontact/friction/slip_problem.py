@@ -16,7 +16,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
 from roughcontact.material import Bodies, pair_of, reduced_modulus
 from roughcontact.solver.control import checked_tolerance
-from roughcontact.validation import Array, exactly_one, number, positive_scalar, require
+from roughcontact.validation import LARGEST, Array, exactly_one, number, positive_scalar, require
 
 __all__ = [
     "Load",
@@ -110,6 +110,8 @@ class SlipProblem:
             raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
         load = (Pull if name == "force" else Shift)(*value.tolist())
         size = math.hypot(load.x, load.y)
+        if size > LARGEST:
+            raise ValueError(f"a tangential load must be at most {LARGEST:g} in SI units, not {given}")
         if self.along is not None:
             ex, ey = self.along
             if abs(load.x * ey - load.y * ex) > PARALLEL * size:

@@ -31,7 +31,7 @@ from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import elastic_control, feasible_start, project
 from roughcontact.solver.subdomain import prolong
-from roughcontact.validation import Array, Mask, require_numbers
+from roughcontact.validation import Array, Mask, require_numbers, whole
 
 __all__ = ["ActiveSet"]
 
@@ -67,6 +67,7 @@ class ActiveSet:
 
     def __post_init__(self) -> None:
         require_numbers(self)
+        whole(self.max_steps, "max_steps")
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure.

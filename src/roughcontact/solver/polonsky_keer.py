@@ -13,7 +13,7 @@ from roughcontact.solver import tuning
 from roughcontact.solver.control import State, Status, Terms
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.projection import feasible_start, force_multiplier, project
-from roughcontact.validation import Array, require_numbers
+from roughcontact.validation import Array, require_numbers, whole
 
 __all__ = ["PolonskyKeer"]
 
@@ -42,6 +42,7 @@ class PolonskyKeer:
 
     def __post_init__(self) -> None:
         require_numbers(self)
+        whole(self.max_steps, "max_steps")
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure.

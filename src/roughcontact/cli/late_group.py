@@ -1,0 +1,70 @@
+"""Groups of commands that are imported when they are called: the help of a group waits for none of them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from importlib import import_module
+from importlib.util import find_spec
+from inspect import cleandoc
+from typing import Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from roughcontact.cli.option_groups import grouped
+
+__all__ = ["late_group"]
+
+
+def late_group(commands: Mapping[str, str]) -> type[TyperGroup]:
+    """Return the class of a group of commands: functions of these names, in these modules of this room.
+
+    Their examples stand in the module's ``EXAMPLES``, by the name of the command.
+    """
+
+    class LateGroup(TyperGroup):
+        def __init__(self, **given: Any) -> None:
+            super().__init__(**given)
+            # Their names are listed, and proposed to whoever misspells one.
+            self.commands = {name: TyperCommand(name) for name in commands} | dict(self.commands)
+
+        def get_command(self, ctx: Any, cmd_name: str) -> Any:
+            if cmd_name in commands:
+                return _imported(commands[cmd_name], cmd_name)
+            return super().get_command(ctx, cmd_name)
+
+        def format_help(self, ctx: Any, formatter: Any) -> None:
+            # The same group of commands that have but a summary.
+            summaries = {name: TyperCommand(name, help=_summary(commands[name], name)) for name in commands}
+            TyperGroup(
+                name=self.name,
+                commands={**self.commands, **summaries},
+                params=self.params,
+                help=self.help,
+                epilog=self.epilog,
+                rich_markup_mode=self.rich_markup_mode,
+            ).format_help(ctx, formatter)
+
+    return LateGroup
+
+
+def _imported(module: str, name: str) -> Any:
+    members = vars(import_module(f"roughcontact.cli.{module}"))
+    lines = members["EXAMPLES"][name].strip().split("\n")
+    epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
+    alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
+    alone.command(name, epilog=epilog)(grouped(members[name]))
+    return typer.main.get_command(alone)
+
+
+def _summary(module: str, name: str) -> str:
+    """Return the first paragraph of a command's docstring, from the text of its module."""
+    spec = find_spec(f"roughcontact.cli.{module}")
+    source = getattr(spec and spec.loader, "get_source", lambda name: None)(spec and spec.name)
+    if source is None:  # a bundle of the program holds no text
+        return _imported(module, name).help or ""
+    function = next(
+        node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef) and node.name == name
+    )
+    return cleandoc(ast.get_docstring(function) or "").partition("\n\n")[0]
