@@ -1,12 +1,13 @@
 """What of the thesis holds: its figures computed again, beside its text, as a page of the documentation.
 
-    python benchmarks/reproduction.py                   # draws all figures and writes docs/reproduction.md
+    python benchmarks/reproduction.py                   # draws all figures and writes the pages
     python benchmarks/reproduction.py --collect DIR     # takes over the averages DIR/figN.nc before
     python benchmarks/reproduction.py fig6 fig27        # draws some of them anew, and writes the page
 
 The page says what is found in docs/reproduction: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
 figN --scale thesis --out DIR``), what the figures found that are computed here in seconds (``simple.json``), what is
-seen in each (``captions.toml``), and the pictures. What is not there is said to be missing.
+seen in each (``captions.toml``), and the pictures. What is not there is said to be missing. A second page,
+docs/reproduction-verdicts.md, lays former verdicts (``former.toml``) beside those of now.
 """
 
 from __future__ import annotations
@@ -16,16 +17,16 @@ import io
 import json
 import sys
 import tomllib
-from collections import Counter
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+import reproduction_page
 import xarray
 from matplotlib.figure import Figure
 from PIL import Image
+from reproduction_page import Entry, command
 
 from roughcontact.files.write import write_netcdf
 from roughcontact.study.ranges import Range
@@ -37,63 +38,20 @@ from roughcontact.thesis.figures import (
     Scale,
     SimpleFigure,
     drawn,
+    findings,
     is_ensemble,
     module,
     verdicts,
 )
+from roughcontact.thesis.ruling import Ruling
 from roughcontact.thesis.verdict import Verdict
 
 FOLDER = Path(__file__).resolve().parent.parent / "docs" / "reproduction"
 PAGE = FOLDER.with_suffix(".md")
-DPI = 120  # of the pictures
+CHANGES = FOLDER.parent / "reproduction-verdicts.md"
+DPI = 160  # of the pictures
 FEW = 8  # values that are listed one by one
 REDRAWN = "2026-11-23"  # from then on phases are functions of a key and the wave vector
-
-
-@dataclass(frozen=True)
-class Entry:
-    """What the page says about a figure.
-
-    Parameters
-    ----------
-    name : str
-        Such as ``fig27``.
-    title, caption : str
-        What it is, and what is seen in it.
-    chosen : tuple of str
-        What the thesis leaves open, and what is taken here.
-    computed : tuple of str
-        How it was computed, a line each; none where it was not.
-    scale : str or None
-        Of an ensemble: ``thesis``, ``small``, or ``other`` where it is neither; None without an ensemble.
-    whole : bool
-        Whether no case failed or is missing.
-    verdicts : tuple of Verdict
-    """
-
-    name: str
-    title: str
-    caption: str
-    chosen: tuple[str, ...]
-    computed: tuple[str, ...]
-    scale: str | None
-    whole: bool
-    verdicts: tuple[Verdict, ...]
-
-    @property
-    def short(self) -> str:
-        """The number of the figure, or the word of a question of the outlook."""
-        return self.name.removeprefix("fig").removeprefix("outlook-")
-
-    @property
-    def heading(self) -> str:
-        """What its section is called."""
-        return f"{'Figure' if self.name.startswith('fig') else 'Outlook,'} {self.short}"
-
-    @property
-    def anchor(self) -> str:
-        """Where links to its section go."""
-        return self.heading.lower().replace(",", "").replace(" ", "-")
 
 
 # What is there
@@ -113,7 +71,7 @@ def read_simple(folder: Path) -> dict[str, Any]:
 
 
 def _entry(name: str, caption: str, simple: dict[str, Any] | None, folder: Path) -> Entry:
-    found, scale, whole, computed, said = module(name), None, True, (), ()
+    found, scale, whole, computed, said, finding = module(name), None, True, (), (), ""
     if is_ensemble(found):
         path = folder / f"{name}.nc"
         if path.is_file():
@@ -121,12 +79,13 @@ def _entry(name: str, caption: str, simple: dict[str, Any] | None, folder: Path)
             studies = studies_of(averages)
             scale = scale_of(found, studies)
             whole = not sum(np.sum(averages.attrs[f"cases_{each}"]) for each in ("failed", "missing"))
-            computed = (*_told(studies, averages), _command(name, scale))
-            said = verdicts(found, averages)
+            computed = (*_told(studies, averages), command(name, scale))
+            said, finding = verdicts(found, averages), findings(found, averages)
     elif simple is not None:
-        computed = (f"seed {simple['seed']}", _command(name, None))
-        said = tuple(Verdict(**each) for each in simple["verdicts"])
-    return Entry(name, found.TITLE, " ".join(caption.split()), found.CHOSEN, computed, scale, whole, said)
+        computed = (f"seed {simple['seed']}", command(name, None))
+        said = tuple(Verdict(**each | {"ruling": Ruling(**each["ruling"])}) for each in simple["verdicts"])
+    words = " ".join(caption.split())
+    return Entry(name, found.TITLE, words, found.CHOSEN, computed, scale, whole, said, finding)
 
 
 def read(path: Path) -> xarray.Dataset:
@@ -202,128 +161,19 @@ def _time(seconds: float) -> str:
     return f"{seconds:.0f} seconds of computing in all"
 
 
-def _command(name: str, scale: str | None) -> str:
-    return (
-        f"`roughcontact thesis {name}{f' --scale {scale}' if scale in ('thesis', 'small') else ''} --out DIR`"
-    )
-
-
-# The page
-
-HEAD = """# The thesis, computed again
-
-The figures of R. Pohrt, *Normal Stiffness of Multiscale Rough Surfaces in Elastic Contact* (TU Berlin, 2013), computed
-anew with this package, and what is found beside what its text says in numbers: also where the thesis does not hold. Its
-other figures are sketches. At the end stand questions of its outlook, put to ensembles. Equations that are wrong as
-printed stand in [errata.md](errata.md).
-
-This page is written by `python benchmarks/reproduction.py` from what lies in [reproduction/](reproduction): averages of
-ensembles, NetCDF files that also hold the studies they are averages of, and the findings of figures that take seconds.
-The single solutions are not kept; the command in each section makes them again, and all of them at once
-
-    roughcontact thesis all --scale thesis --out DIR         # days; stopped at any time it goes on where it was
-    python benchmarks/reproduction.py --collect DIR
-"""
-
-WORDS = """## Words and symbols
-
-* E\\*: reduced modulus, 1/E\\* = (1 - nu1²)/E1 + (1 - nu2²)/E2. L: side of the square surface, or length of the line.
-  h: rms height of its roughness. F, d, k: normal force, depth of indentation, contact stiffness dF/dd.
-* F/(E\\* h L) and k/(E\\* L): force and stiffness without dimension. "A force of 0.07" is the former.
-* H, D_f: Hurst exponent, and fractal dimension 3 - H. alpha, zeta: exponent and prefactor of the power law
-  k/(E\\* L) = zeta (F/(E\\* h L))^alpha. q, C2D, C1D: wavenumber, power spectrum of a surface and of a line.
-* Surfaces: rough squares, free at their edges, pressed into a half-space by boundary elements, square cells of constant
-  pressure. Rough lines: N points pressed into a row of independent springs, the method of dimensionality reduction.
-* 20 cells, 20 springs: twenty times the stiffness of a single one. Below, single ones decide, and nothing is fitted.
-* Case: one solution, or one curve over all forces. Sample: one draw of the random phases, the same for all parameters.
-  Sizes, rms heights and moduli of studies are bare numbers: what is found does not depend on them.
-* Holds: within the tolerance that the module of the figure, `roughcontact.thesis.figN_...`, states. Does not hold:
-  outside, for averages by more than three standard errors. Open: outside by less, or the text is no number to judge by.
-"""
+# The pages
 
 
 def page(folder: Path = FOLDER) -> str:
     """Return the page that `folder` makes."""
-    every = entries(folder)
-    sections = (line for each in every for line in _section(each, folder))
-    return "\n".join([HEAD, *_overview(every), WORDS, *sections])
+    unjudged = tomllib.loads((folder / "unjudged.toml").read_text(encoding="utf-8"))
+    return reproduction_page.page(entries(folder), unjudged, folder.name)
 
 
-def _overview(every: Sequence[Entry]) -> list[str]:
-    words = Counter(verdict.word for each in every for verdict in each.verdicts)
-    lines = [
-        "## What holds and what does not",
-        "",
-        f"Of {words.total()} claims {words['holds']} hold, {words['does not hold']} do not, and {words['open']} are "
-        "open. What is found is shortened here; the whole stands in the section of the figure.",
-        "",
-    ]
-    for said, chosen in (
-        ("**Missing**, not computed yet: {}.", [each for each in every if not each.computed]),
-        (
-            "On the small scale as yet, fewer samples on smaller grids than the thesis': {}. What these say is "
-            "provisional.",
-            [each for each in every if each.scale == "small"],
-        ),
-        (
-            "With counts that are neither the thesis' nor small: {}.",
-            [each for each in every if each.scale == "other"],
-        ),
-        ("Cases failed or are missing: {}.", [each for each in every if not each.whole]),
-    ):
-        if chosen:
-            names = ", ".join(f"[{each.short}](#{each.anchor})" for each in chosen)
-            lines += [said.format(f"figure{'s' if len(chosen) > 1 else ''} {names}"), ""]
-    lines += ["| figure | claim | thesis | found | verdict |", "|---|---|---|---|---|"]
-    for each in every:
-        mark = {"small": ", small scale", "other": ", other counts"}.get(each.scale or "", "")
-        for verdict in each.verdicts:
-            word = f"**{verdict.word}**" if verdict.holds is False else verdict.word
-            cells = (verdict.claim, verdict.thesis, verdict.found.split("; ")[0])
-            lines.append(
-                f"| [{each.short}](#{each.anchor}){mark} | {' | '.join(map(_plain, cells))} | {word} |"
-            )
-    return [*lines, ""]
-
-
-_SCALES = {
-    "thesis": "On the scale of the thesis, with its counts where it states them:",
-    "small": "**On the small scale**, fewer samples on smaller grids than the thesis':",
-    "other": "**With counts that are not those of the figure now**:",
-    None: "Computed in seconds:",
-}
-
-
-def _section(entry: Entry, folder: Path) -> list[str]:
-    lines = [f"## {entry.heading}", "", f"**{_plain(entry.title[0].upper() + entry.title[1:])}**", ""]
-    if not entry.computed:
-        return [*lines, f"**Missing:** not computed yet; {_command(entry.name, 'thesis')} does it.", ""]
-    lines += [f"![{entry.title}]({folder.name}/{entry.name}.png)", "", _plain(entry.caption), ""]
-    if entry.verdicts:
-        lines += [
-            f"* **{verdict.word.capitalize()}:** {_plain(verdict.claim)}. *Thesis:* {_plain(verdict.thesis)}. "
-            f"*Here:* {_plain(verdict.found)}."
-            for verdict in entry.verdicts
-        ]
-    else:
-        lines.append("The text makes no claim in numbers about it.")
-    lines += [
-        "",
-        "Chosen where the thesis leaves it open:",
-        "",
-        *(f"* {_plain(each)}" for each in entry.chosen),
-    ]
-    lines += ["", _SCALES[entry.scale], "", *(f"* {each}" for each in entry.computed)]
-    if entry.scale is not None:
-        lines.append(f"* averages: [{entry.name}.nc]({folder.name}/{entry.name}.nc)")
-    return [*lines, ""]
-
-
-def _plain(words: str) -> str:
-    """Return words as they are, whatever Markdown makes of their signs."""
-    for sign in "\\|*":
-        words = words.replace(sign, f"\\{sign}")
-    return words
+def changes(folder: Path = FOLDER) -> str:
+    """Return the page about what became of former verdicts."""
+    former = tomllib.loads((folder / "former.toml").read_text(encoding="utf-8"))
+    return reproduction_page.changes_page(entries(folder), former["row"])
 
 
 # What makes it
@@ -345,7 +195,7 @@ def collect(source: Path, folder: Path = FOLDER) -> None:
         # A command line names folders of one machine.
         averages.attrs.pop("history", None)
         scale = scale_of(found, studies_of(averages))
-        write_netcdf(averages, folder / f"{name}.nc", {"command": _command(name, scale).strip("`")})
+        write_netcdf(averages, folder / f"{name}.nc", {"command": command(name, scale).strip("`")})
         print(f"{name}: {scale} scale, {(folder / f'{name}.nc').stat().st_size / 1e3:.0f} kB")
 
 
@@ -373,8 +223,8 @@ def save(picture: Figure, path: Path) -> int:
     whole = io.BytesIO()
     picture.savefig(whole, format="png", dpi=DPI)
     with Image.open(whole) as image:
-        # Of the ways to choose them this one keeps those of few pixels.
-        few = image.convert("RGB").quantize(method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        # This way to choose them keeps those of many pixels as they are: greys stay grey.
+        few = image.convert("RGB").quantize(method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
         few.save(path, optimize=True)
     return path.stat().st_size
 
@@ -398,6 +248,7 @@ def main() -> None:
     for name in options.figures or FIGURES:
         draw(name)
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    CHANGES.write_text(changes(), encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

@@ -144,6 +144,11 @@ def curve(body, **given):
     return Task(lambda operator: rc.loading_curve(surface, 1.0, operator=operator, **given), operator)
 
 
+def loop(body, **given):
+    surface, operator = body
+    return Task(lambda operator: rc.loading_loop(surface, 1.0, operator=operator, **given), operator)
+
+
 def full(body):
     """Return the depth at which all cells of a periodic surface are in contact."""
     return -float(body[0].heights.mean())
@@ -196,6 +201,7 @@ CASES = {
     "curve by depths iterated": lambda: curve(plane(64), depths=DEPTHS, **ITERATED),
     "curve by depths projected": lambda: curve(plane(64), depths=DEPTHS, **PROJECTED),
     "curve under a hardness": lambda: curve(plane(64), forces=64 * LOADS, hardness=0.1),
+    "loop": lambda: loop(plane(64), forces=64 * LOADS, hardness=0.1),
     "periodic curve by pressures": lambda: curve(plane(128, periodic=True), pressures=LOADS / 20),
     "periodic curve by depths": lambda: curve(
         whole := plane(128, periodic=True), depths=np.linspace(0.25, 0.95, 10) * full(whole)

@@ -109,7 +109,7 @@ def spoilable():
         parameters = inspect.signature(call).parameters
         for name in good:
             kind = str(parameters[name].annotation)
-            if kind.removesuffix(" | None") in NUMBERS | WHOLE or name == "modulus":
+            if kind.removesuffix(" | None") in NUMBERS | WHOLE or name in ("modulus", "hardness"):
                 yield pytest.param(call, name, "None" in kind, id=f"{call.__qualname__}-{name}")
 
 

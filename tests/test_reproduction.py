@@ -4,6 +4,7 @@ import importlib.util
 import re
 import shutil
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -21,12 +22,14 @@ SIMPLE = [name for name in FIGURES if name not in ENSEMBLES]
 @pytest.fixture(scope="module")
 def script():
     """Return the script that writes the page, as a module."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))  # it takes the words of the script beside it
     spec = importlib.util.spec_from_file_location("reproduction", ROOT / "benchmarks" / "reproduction.py")
     found = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = found  # where data classes look for it
     spec.loader.exec_module(found)
     yield found
-    del sys.modules[spec.name]
+    del sys.modules[spec.name], sys.modules["reproduction_page"]
+    sys.path.remove(str(ROOT / "benchmarks"))
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +40,7 @@ def page():
 @pytest.fixture
 def bare(tmp_path):
     """Return a folder without averages."""
-    for name in ("captions.toml", "simple.json"):
+    for name in ("captions.toml", "former.toml", "simple.json", "unjudged.toml"):
         shutil.copy(FOLDER / name, tmp_path)
     return tmp_path
 
@@ -51,8 +54,46 @@ def heading(name):
     return f"Figure {name[3:]}" if name.startswith("fig") else f"Outlook, {name.removeprefix('outlook-')}"
 
 
-def test_the_page_is_what_the_script_writes(script, page):
+def test_the_pages_are_what_the_script_writes(script, page):
     assert script.page() == page
+    assert script.changes() == script.CHANGES.read_text(encoding="utf-8")
+
+
+def test_the_page_begins_with_its_findings(script, page):
+    findings = page.split("## What is found\n")[1].split("\n## ")[0]
+    assert re.findall(r"^(\d)\. ", findings, re.M) == list("12345")
+    assert findings.count("![") == 1
+    assert page.index("## What is found") < page.index("## Claims") < page.index("## Figure 4")
+
+
+def test_every_claim_is_quoted_and_says_what_decided(script):
+    every = [(each.name, verdict) for each in script.entries() for verdict in each.verdicts]
+    claims = [(name, verdict.claim) for name, verdict in every]
+    assert len(set(claims)) == len(claims)
+    for _, verdict in every:
+        assert verdict.quote
+        assert verdict.source
+        assert verdict.ruling.tolerance or verdict.kind == "answer"
+        if verdict.kind == "claim":
+            assert verdict.ruling.trigger
+
+
+def test_every_change_of_a_verdict_is_explained(script):
+    now = {(each.name, verdict.claim): verdict for each in script.entries() for verdict in each.verdicts}
+    former = tomllib.loads((FOLDER / "former.toml").read_text(encoding="utf-8"))["row"]
+    assert len(former) == 107
+    for row in former:
+        found = [now[row.get("judged", row["figure"]), claim] for claim in row["now"]]
+        words = {verdict.ruling.word for verdict in found}
+        before = row["word"].replace("open", "not decided")
+        assert row["why"] or words == {before}, row["claim"]
+
+
+def test_every_figure_of_the_thesis_has_a_section_or_a_reason(script):
+    told = tomllib.loads((FOLDER / "unjudged.toml").read_text(encoding="utf-8"))["figures"]
+    without = [int(number) for each in told for number in each["figure"].split(", ")]
+    drawn = [int(name[3:]) for name in FIGURES if name.startswith("fig")]
+    assert sorted(without + drawn) == list(range(1, 49))
 
 
 def test_every_figure_has_a_section_and_every_link_leads_somewhere(page):
@@ -89,6 +130,7 @@ def test_a_scale_is_that_of_the_studies_and_not_of_fewer_samples(script):
 def test_averages_are_taken_over_with_what_they_are_and_without_a_place(script, bare, tmp_path, monkeypatch):
     [study] = module("fig37").studies("small")
     monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.verdicts", lambda data: ())
+    monkeypatch.setattr("roughcontact.thesis.fig37_stiffness_of_sphere.findings", lambda data: "")
     attrs = {"studies": [study.to_toml()], "history": "now: roughcontact thesis fig37 --out /some/where"}
     counts = {"cases_done": [17], "cases_failed": [1], "cases_missing": [2], "cases_seconds": [1e4]}
     source = tmp_path / "averages"
@@ -126,5 +168,5 @@ def test_figures_without_an_ensemble_are_those_that_are_kept(script):
 def test_what_is_kept_of_a_quick_figure_is_what_it_finds(script, name):
     # What is found may end in a rounding error, which is another on another machine.
     found, kept = module(name), script.read_simple(FOLDER)[name]["verdicts"]
-    now = [(each.claim, each.thesis, each.holds) for each in verdicts(found, found.case(found.SEED))]
-    assert now == [(each["claim"], each["thesis"], each["holds"]) for each in kept]
+    now = [(each.claim, each.quote, each.ruling.word) for each in verdicts(found, found.case(found.SEED))]
+    assert now == [(each["claim"], each["quote"], each["ruling"]["word"]) for each in kept]

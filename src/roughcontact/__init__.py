@@ -30,14 +30,18 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
     from roughcontact.contact.error_sources import error_budget as error_budget
+    from roughcontact.contact.flow import Flow as Flow
+    from roughcontact.contact.flow_curve import FlowCurve as FlowCurve
     from roughcontact.contact.interface_table import (
         InterfaceTable as InterfaceTable,
         interface_table as interface_table,
     )
     from roughcontact.contact.load_range import load_range as load_range
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
+    from roughcontact.contact.loop import Loop as Loop, loading_loop as loading_loop
     from roughcontact.contact.press import press as press
     from roughcontact.contact.problem import ContactProblem as ContactProblem
+    from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
     from roughcontact.contact.theories import loading_laws as loading_laws

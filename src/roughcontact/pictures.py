@@ -1,6 +1,7 @@
 """How values are drawn: the door from what is computed to the room that draws.
 
-`Surface`, `Solution` and `Curve` have these functions as their methods. What draws is imported when they are called.
+`Surface`, `Solution`, `Curve` and `Loop` have these functions as their methods. What draws is imported when they are
+called.
 """
 
 from __future__ import annotations
@@ -14,12 +15,16 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
+    from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
-__all__ = ["curve_html", "plot_curve", "plot_solution", "plot_surface", "solution_html", "surface_html"]
+__all__ = [
+    *("curve_html", "loop_html", "solution_html", "surface_html"),
+    *("plot_curve", "plot_loop", "plot_solution", "plot_surface"),
+]
 
 
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
@@ -147,6 +152,47 @@ def plot_curve(
     return curves.areal_curve(curve, ax, quantity=quantity, law=law, theories=theories)
 
 
+def plot_loop(
+    loop: Loop, ax: Axes | None = None, *, quantity: Literal["depth", "stiffness", "bearing"] = "depth"
+) -> Axes:
+    """Draw the three branches of a loop, or the surface before and after it.
+
+    Parameters
+    ----------
+    loop : Loop
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+    quantity : {"depth", "stiffness", "bearing"}
+        Force against depth; the stiffness per area K/A0 against nominal pressure, both logarithmic; or the bearing
+        (Abbott) curve before and after.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the quantity is another.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> [loop.plot(quantity=each).get_xlabel() for each in ("depth", "stiffness", "bearing")]
+    ['depth [nm]', 'nominal pressure [MPa]', 'area above the height [%]']
+    """
+    from roughcontact.plot import loops
+
+    if quantity == "bearing":
+        return loops.bearing_curves(loop.surface, loop.flow, ax)
+    draw = {"depth": loops.depth_loop, "stiffness": loops.stiffness_loop}
+    if quantity not in draw:
+        raise ValueError(f"quantity must be one of {', '.join((*draw, 'bearing'))}, not {quantity!r}")
+    return draw[quantity](loop, ax)
+
+
 def surface_html(surface: Surface) -> str | None:
     """Return a surface as a notebook shows it."""
     from roughcontact.plot import notebook
@@ -166,3 +212,10 @@ def curve_html(curve: Curve) -> str:
     from roughcontact.plot import notebook
 
     return notebook.of_curve(curve)
+
+
+def loop_html(loop: Loop) -> str:
+    """Return a loop as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_loop(loop)

@@ -233,7 +233,6 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
         (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
         (("--theory", "cmy"), "by --hardness"),
-        (("--hardness", "1GPa", "--conductivity", "steel"), "plastic cells conduct"),
     ],
 )
 def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
@@ -433,3 +432,75 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     assert "stopped: 2 of 4 loads are kept; for the others: --forces 4e-06,8e-06" in answer.stderr
     kept = rc.read_curve(tmp_path / "out" / "curve.nc")
     np.testing.assert_allclose(kept.force, [1e-6, 2e-6])
+
+
+def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, surface, tmp_path):
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--hardness", "2GPa")
+    answer = invoke(*words, "--loop", "--flow", "raised", "--json", "--out", tmp_path / "out")
+    assert answer.exit_code == 0
+    record = json.loads(answer.stdout)
+    loop = rc.loading_loop(surface, 110e9, hardness=2e9, forces=record["force"], flow="raised")
+    assert record["loop"]["residual_depth"] == pytest.approx(loop.residual_depth, rel=1e-6)
+    np.testing.assert_allclose(record["loop"]["unloading"]["stiffness"], loop.unloading.stiffness, rtol=1e-5)
+    np.testing.assert_allclose(record["depth"], loop.loading.depth, rtol=1e-6)
+    names = {each.name for each in (tmp_path / "out").iterdir()}
+    assert {"curve.nc", "loop.nc", "loop.csv", "loop.png", "flattened.png", "flattened.npz"} <= names
+    flat = rc.read(tmp_path / "out" / "flattened.npz")
+    np.testing.assert_allclose(flat.heights, loop.flattened.heights, rtol=0, atol=1e-15)
+    assert "raised by" in flat.provenance[-2] + flat.provenance[-1]
+    assert rc.read_curve(tmp_path / "out" / "curve.nc").flow is not None
+    told = invoke(*words, "--loop").stdout
+    assert all(line in told for line in ("residual depth", "stiffness on unloading", "dissipated work"))
+
+
+def test_what_flows_conducts(invoke, rough, surface):
+    words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--hardness", "2GPa", "--json")
+    record = json.loads(invoke(*words, "--conductivity", "50W/m/K,160W/m/K").stdout)
+    *_, last = rc.loading_path(surface, 110e9, forces=record["force"], hardness=2e9)
+    expected = rc.conductance(last, conductivities=(50.0, 160.0))
+    assert last.plastic.any()
+    assert record["thermal_conductance"][-1] == pytest.approx(
+        float(expected["thermal_conductance"]), rel=1e-5
+    )
+
+
+def test_a_loop_takes_the_hardness_of_the_softer_material(invoke, rough):
+    words = ("curve", rough, *FORCES, "--materials", "steel,aluminium", "--loop", "--json")
+    answer = invoke(*words)
+    assert answer.exit_code == 0
+    assert "Note: the hardness is that of aluminium: 1.049 GPa" in answer.stderr
+    assert json.loads(answer.stdout)["loop"]["flow_volume"] > 0
+
+
+def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, tmp_path):
+    whole = rc.loading_path
+
+    def interrupted(*arguments, **named):
+        path = whole(*arguments, **named)
+        for _ in range(6):
+            yield next(path)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc, "loading_path", interrupted)
+    words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--hardness", "20MPa")
+    answer = invoke(*words, "--loop", "--out", tmp_path / "out")
+    assert answer.exit_code == 130
+    assert "the loop is not closed" in answer.stderr
+    assert len(rc.read_curve(tmp_path / "out" / "curve.nc")) == 4
+    assert not (tmp_path / "out" / "loop.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("--loop",), "--loop is about what flows: give a --hardness"),
+        (("--flow", "raised"), "--flow is about what flows: give a --hardness"),
+        (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop goes by forces or pressures"),
+        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "leave it out with --flow raised"),
+        (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow raised goes by forces"),
+    ],
+)
+def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):
+    answer = invoke("curve", rough, *MODULUS, *given)
+    assert answer.exit_code == 2
+    assert says in " ".join(answer.stderr.split())

@@ -357,3 +357,38 @@ def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):
         assert answer.exit_code == 2
         assert message in answer.stderr
         assert answer.stdout == ""
+
+
+def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, tmp_path):
+    words = ("press", rough, "--force", "0.2N", "--after", "1N", "--modulus", "110GPa", "--level", "none")
+    answer = invoke(*words, "--hardness", "5GPa", "--json", "--out", tmp_path / "out")
+    assert answer.exit_code == 0
+    record = json.loads(answer.stdout)
+    *_, last = rc.loading_path(surface, 110e9, forces=[1.0, 0.2], hardness=5e9)
+    assert last.flow.volume > 0
+    assert record["depth"] == pytest.approx(last.depth, rel=1e-6)
+    assert record["flow_volume"] == pytest.approx(last.flow.volume, rel=1e-6)
+    assert record["units"]["flow_volume"] == "m3"
+    assert record["surface"][-1].startswith("flattened by up to")
+    assert (tmp_path / "out" / "flattened.png").stat().st_size > 10_000
+    assert "flattened.png" in answer.stderr
+    told = invoke(*words, "--hardness", "5GPa", "--flow", "raised").stdout
+    assert "residual depth" in told
+    first = invoke(*words[:3], "1N", *words[6:], "--hardness", "5GPa").stdout
+    assert "stiffness on unloading" in first
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("--after", "2N"), "--after is about what flows: give a --hardness"),
+        (("--flow", "raised"), "--flow is about what flows: give a --hardness"),
+        (("--after", "1N", "--hardness", "1GPa"), "--after 1N is not larger than the force"),
+        (("--after", "1MPa", "--hardness", "1GPa"), "--after"),
+        (("--after", "2N", "--hardness", "1GPa", "--errors"), "leave it out with --after"),
+    ],
+)
+def test_a_load_before_that_makes_no_sense_is_refused(invoke, rough, given, says):
+    answer = invoke("press", rough, "--force", "1N", "--modulus", "110GPa", *given)
+    assert answer.exit_code == 2
+    assert says in " ".join(answer.stderr.split())

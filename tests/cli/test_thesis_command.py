@@ -37,6 +37,14 @@ def test_it_writes_a_figure_and_says_what_was_chosen(invoke, tmp_path):
     assert answer.stdout.rstrip().endswith("5")
 
 
+@pytest.mark.parametrize(("ending", "first"), [("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_pictures_for_print(invoke, tmp_path, ending, first):
+    answer = invoke("thesis", "fig15", "--out", tmp_path, "--format", ending)
+    assert answer.exit_code == 0, answer.stderr
+    assert (tmp_path / f"fig15.{ending}").read_bytes().startswith(first)
+    assert [each.name for each in tmp_path.iterdir()] == [f"fig15.{ending}"]
+
+
 def test_an_ensemble_leaves_picture_averages_and_a_store_that_goes_on(invoke, tmp_path, few):
     answer = invoke("thesis", "fig37", "--out", tmp_path, "--workers", "1")
     assert answer.exit_code == 0, answer.stderr

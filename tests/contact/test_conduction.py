@@ -137,11 +137,33 @@ def test_what_gives_way_conducts_too():
     assert interface["electrical_conductance"] > found
 
 
-def test_a_curve_under_a_hardness_does_not_know():
+def test_a_curve_under_a_hardness_conducts_as_its_solutions_do():
+    from roughcontact.contact.conduction import Conductors, with_conductance
+
+    grid = rc.Grid((32, 32), 1e-6)
+    rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
+    given = {"forces": [3e-2, 1e-1], "hardness": 5e8}
+    curve, path = rc.loading_curve(rough, MODULUS, **given), list(rc.loading_path(rough, MODULUS, **given))
+    for of in ("interface", "total"):
+        expected = [
+            float(rc.conductance(each, resistivities=(1e-8, 1e-8), of=of)["electrical_conductance"])
+            for each in path
+        ]
+        found = rc.conductance(curve, resistivities=(1e-8, 1e-8), of=of)["electrical_conductance"]
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+        dataset = with_conductance(curve.to_dataset(), Conductors((1e-8, 1e-8)), of)
+        np.testing.assert_array_equal(dataset.electrical_conductance, found)
+
+
+def test_a_curve_that_leaves_out_its_plastic_cells_does_not_know():
+    """As one that was written before curves held the stiffness of unloading."""
+    from dataclasses import replace
+
     from roughcontact.contact.conduction import Conductors, with_conductance
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)
+    curve = replace(curve, flow=None)
     with pytest.raises(ValueError, match="the plastic cells conduct"):
         rc.conductance(curve, resistivities=(1e-8, 1e-8))
     dataset = curve.to_dataset()

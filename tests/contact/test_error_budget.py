@@ -190,6 +190,11 @@ def test_what_has_no_errors_is_refused():
     solution = rc.press(line, MODULUS, force=1.0, operator=rc.line(grid, MODULUS))
     with pytest.raises(ValueError, match="not of a line"):
         rc.error_budget(solution)
+    flowed = rc.loading_path(rough(), MODULUS, pressures=[PRESSURE, PRESSURE / 2], hardness=2e7)
+    by_cell = rc.press(rough(), MODULUS, pressure=PRESSURE, hardness=np.full((48, 48), 2e7))
+    for each in (list(flowed)[1], by_cell):
+        with pytest.raises(ValueError, match="pressed again on other maps"):
+            rc.error_budget(each)
     with pytest.raises(ValueError, match="give the Solution that press returned"):
         rc.error_budget([])
     flat = pressed(rough())

@@ -52,6 +52,9 @@ def test_every_curve_comes_back_to_the_last_bit(tmp_path, name):
         if isinstance(went, np.ndarray):
             assert came.dtype == went.dtype, field.name
             assert came.tobytes() == went.tobytes(), field.name
+        elif dataclasses.is_dataclass(went):
+            pairs = zip(dataclasses.astuple(went), dataclasses.astuple(came), strict=True)
+            assert all(a.tobytes() == b.tobytes() for a, b in pairs)
         else:
             assert came == went, field.name
     assert back.to_record() == curve.to_record()

@@ -8,14 +8,18 @@ import pytest
 import roughcontact as rc
 from roughcontact.theory import (
     bush_gibson_thomas,
+    chang_etsion_bogy,
     finite_size,
     greenwood_williamson,
     hertz,
     interaction,
     joint,
+    kogut_etsion,
     laws,
     persson,
+    persson_plastic,
     pohrt_popov,
+    pullen_williamson,
     rough_sphere,
 )
 
@@ -41,6 +45,10 @@ DIRECT = {
     "cgp": interaction.law(MOMENTS, MODULUS, AREA),
     "mikic": joint.mikic(MOMENTS, MODULUS, AREA),
     "cmy": joint.cooper_mikic_yovanovich(MOMENTS, 2e9, MODULUS, AREA),
+    "ceb": chang_etsion_bogy.law(MOMENTS, 2e9, MODULUS, AREA),
+    "kogut-etsion": kogut_etsion.law(MOMENTS, 2e9, MODULUS, AREA),
+    "persson-plastic": persson_plastic.law(SPECTRUM, 2e9, MODULUS, AREA),
+    "pullen-williamson": pullen_williamson.law(2e9, AREA),
     "power-law": pohrt_popov.law(0.8, 1e-6, LENGTH, MODULUS),
     "hertz": hertz.law(0.5, MODULUS),
     "rough-sphere": rough_sphere.law(0.5, 0.8, 1e-6, LENGTH, MODULUS),

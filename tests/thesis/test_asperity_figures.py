@@ -69,9 +69,9 @@ def test_figures_31_and_32_show_all_realisations(module, asperities):
     data = module.averages(asperities)
     assert data["stiffness"].sizes == {"sample": 3, "load": 13}
     assert float(data["hurst"]) == module.HURST
-    slope, linear = verdicts(module, data)
-    assert f"{law_exponent(module.HURST):.4f}" in slope.thesis
-    assert linear.holds
+    slope, linear, *_ = verdicts(module, data)
+    assert f"the law {law_exponent(module.HURST):.3f}" in slope.found
+    assert linear.word == "holds"
     picture = drawn(module, data)
     FigureCanvasAgg(picture).draw()
     spots = [line for line in picture.axes[0].lines if line.get_marker() == "." and len(line.get_xdata())]
@@ -81,6 +81,7 @@ def test_figures_31_and_32_show_all_realisations(module, asperities):
 def test_figure_33_compares_five_dimensions(asperities):
     data = fig33.averages(asperities)
     assert "sample" not in data.dims
-    [verdict] = verdicts(fig33, data)
-    assert verdict.thesis.endswith("D_f = 2.9, 2.7, 2.5, 2.3, 2.1")
+    interacting, alone = verdicts(fig33, data)
+    assert "D_f = 2.9, 2.7, 2.5, 2.3, 2.1" in interacting.found
+    assert alone.kind == "theory"
     FigureCanvasAgg(drawn(fig33, data)).draw()

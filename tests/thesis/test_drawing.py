@@ -9,9 +9,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from roughcontact.plot.level import level
-from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.thesis import drawing
-from roughcontact.thesis.figures import drawn
+from roughcontact.thesis.figures import FIGURES, drawn, module
 
 FORCE = np.array([0.1, 0.2, 0.4])
 
@@ -84,6 +83,26 @@ def test_a_style_in_the_legend_draws_nothing(axes):
     assert not len(axes.lines[0].get_xdata())
 
 
+def test_a_legend_below_covers_nothing(axes):
+    axes.figure.set_layout_engine("constrained")
+    axes.plot([1, 2], [1, 2], label="a line")
+    drawing.legend_below(axes)
+    axes.figure.draw_without_rendering()
+    (legend,) = axes.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["a line"]
+    assert legend.get_window_extent().y1 <= axes.get_tightbbox().y0
+
+
+def test_a_bar_on_a_map_has_its_length(axes):
+    drawing.scale_bar(axes, (0.25, -0.1), 0.5, "L")
+    np.testing.assert_array_equal(axes.lines[0].get_data(), [[0.25, 0.75], [-0.1, -0.1]])
+    assert [text.get_text() for text in axes.texts] == ["L"]
+
+
+def test_every_figure_is_as_wide_as_a_column_or_a_page():
+    assert {module(name).SIZE[0] for name in FIGURES} == {drawing.COLUMN, drawing.PAGE}
+
+
 def test_settings_reach_every_figure_and_end_with_it():
     def draw(figure, data):
         for axes in drawing.panels(figure, 1, 2):
@@ -94,7 +113,7 @@ def test_settings_reach_every_figure_and_end_with_it():
     assert [axes.get_title("left") for axes in picture.axes] == ["(a)", "(b)"]
     for axes in picture.axes:
         assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_xscale()) == ("x", "y", "log")
-        assert axes.xaxis.label.get_fontsize() == LABEL
-        assert {text.get_fontsize() for text in axes.get_xticklabels(which="both")} == {TICK}
+        assert axes.xaxis.label.get_fontsize() == drawing.LABEL
+        assert {text.get_fontsize() for text in axes.get_xticklabels(which="both")} == {drawing.TICK}
         assert axes.lines[0].get_linewidth() == drawing.STYLE["lines.linewidth"]
-    assert Figure().subplots().xaxis.label.get_fontsize() != LABEL
+    assert Figure().subplots().xaxis.label.get_fontsize() != drawing.LABEL

@@ -31,4 +31,4 @@ def test_it_is_drawn_and_judged():
     shape = fig15.case()
     FigureCanvasAgg(drawn(fig15, shape)).draw()
     (verdict,) = verdicts(fig15, shape)
-    assert verdict.holds
+    assert verdict.word == "holds"

@@ -71,4 +71,4 @@ def test_rings_converge(states):
 
 def test_it_is_drawn_and_judged(states):
     FigureCanvasAgg(drawn(fig16, states)).draw()
-    assert [verdict.holds for verdict in verdicts(fig16, states)] == [True, False]
+    assert [each.word for each in verdicts(fig16, states)] == ["holds"]

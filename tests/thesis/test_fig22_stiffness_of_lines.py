@@ -32,9 +32,11 @@ def test_stiffness_rises_with_the_force_and_the_hurst_exponent(data):
 
 
 def test_verdicts_and_picture(data):
-    plateaus, law, seconds = verdicts(fig22, data)
-    assert plateaus.holds
-    assert law.holds
-    assert seconds.holds is None  # fewer lines than the thesis has
-    assert len(verdicts(fig22, data.drop_vars("seconds"))) == 2
+    plateaus, law = verdicts(fig22, data)
+    # A hundred lines say no more of the law.
+    assert [each.word for each in (plateaus, law)] == ["holds", "not decided"]
+    sure = data.assign(stiffness_error=0.01 * data["stiffness_error"])
+    assert [each.word for each in verdicts(fig22, sure)] == ["holds"] * 2
+    bent = sure.assign(misfit=sure["misfit"] + 0.05)
+    assert [each.word for each in verdicts(fig22, bent)] == ["holds", "does not hold"]
     FigureCanvasAgg(drawn(fig22, data)).draw()

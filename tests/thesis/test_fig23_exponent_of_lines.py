@@ -31,12 +31,11 @@ def test_exponents_are_those_of_the_reference_runs(data):
 
 
 def test_verdicts_say_what_grows_with_the_number_of_points(data):
-    constant, resolution, modes, law, hertz = verdicts(fig23, data)
-    assert constant.holds
-    assert resolution.holds
-    assert law.holds
-    assert hertz.holds
-    assert not modes.holds
+    constant, modes, law, ends, hertz = verdicts(fig23, data)
+    assert [each.word for each in (law, ends, hertz)] == ["holds"] * 3
+    assert constant.word != "does not hold"
+    # Fits grow with the number of points, the stiffness at given forces does not.
+    assert modes.ruling.word != "holds"
 
 
 def test_the_picture_has_both_resolutions(data):

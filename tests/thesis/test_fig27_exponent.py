@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.thesis import fig27_exponent as fig27
-from roughcontact.thesis.figures import drawn, verdicts
+from roughcontact.thesis.figures import drawn, findings, verdicts
 from thesis.synthetic import curves, lines
 
 HURST = np.array([-0.5, -0.05, 0.4, 1.0, 2.0, 2.5, 2.95])
@@ -20,15 +20,23 @@ def data(alpha=ALPHA, scatter=0.2, reduced=ALPHA):
 
 def test_what_the_thesis_says_would_hold_if_it_were_so():
     found = verdicts(fig27, data())
-    assert [each.holds for each in found] == [True] * 4
-    assert "for 0.40 <= H <= 2.00" in found[0].found
+    assert [each.word for each in found] == ["holds"] * 3
+    assert found[0].ruling.span == "0.40 <= H <= 1.00"
+    assert "the central claim, holds for surfaces" in findings(fig27, data())
 
 
-@pytest.mark.parametrize(("place", "which"), [(3, 0), (5, 1), (2, 2), (0, 3)])
+@pytest.mark.parametrize(("place", "which"), [(3, 0), (5, 1), (2, 2)])
 def test_an_exponent_that_is_off_is_told(place, which):
     alpha = ALPHA.copy()
     alpha[place] += 0.15
-    assert verdicts(fig27, data(alpha))[which].holds is False
+    assert verdicts(fig27, data(alpha))[which].ruling.word == "holds in part"
+
+
+def test_what_the_thesis_expects_at_the_limits_does_not_count():
+    alpha = ALPHA.copy()
+    alpha[[0, 1, 4]] += 0.3
+    assert verdicts(fig27, data(alpha))[0].word == "holds"
+    assert verdicts(fig27, data(1.3 * ALPHA))[0].word == "does not hold"
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +69,7 @@ def test_exponents_are_drawn_as_they_were_found(axes):
         assert line.get_label() == rf"rough lines, $N = 2^{{{np.log2(points):.0f}}}$"
         np.testing.assert_array_equal(line.get_xdata(orig=False), HURST)
         np.testing.assert_allclose(line.get_ydata(orig=False), 0.9 * ALPHA, rtol=1e-9)
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    labels = [text.get_text() for text in axes.figure.legends[0].get_texts()]
     assert {*LAWS, "surfaces, 513² cells"} < set(labels)
 
 

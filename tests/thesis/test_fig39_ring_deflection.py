@@ -42,4 +42,4 @@ def test_the_logarithm_is_off_by_half_the_distance_less_what_the_elliptic_integr
 
 def test_it_is_drawn_and_judged(data):
     FigureCanvasAgg(drawn(fig39, data)).draw()
-    assert [verdict.holds for verdict in verdicts(fig39, data)] == [True, True]
+    assert [each.word for each in verdicts(fig39, data)] == ["holds"]

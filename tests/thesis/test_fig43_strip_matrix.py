@@ -40,4 +40,4 @@ def test_all_columns_are_one_shifted():
 def test_it_is_drawn_and_judged():
     matrix = fig43.case()
     FigureCanvasAgg(drawn(fig43, matrix)).draw()
-    assert [verdict.holds for verdict in verdicts(fig43, matrix)] == [True, False]
+    assert [each.word for each in verdicts(fig43, matrix)] == ["holds", "does not hold"]

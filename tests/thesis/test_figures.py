@@ -107,7 +107,7 @@ def test_the_instruments_of_figure_14_find_one_spectrum_where_they_are_to_be_rel
     drawn = Figure(figsize=fig14.SIZE, layout="constrained")
     fig14.draw(drawn, data)
     FigureCanvasAgg(drawn).draw()
-    labels = [text.get_text() for text in drawn.axes[0].get_legend().get_texts()]
+    labels = [text.get_text() for text in drawn.legends[0].get_texts()]
     assert len(labels) == 5
     assert labels[3].startswith("merged: H = ")
 

@@ -76,18 +76,19 @@ def test_of_power_laws_figure_29_is_their_closed_form(lines, surfaces):
         error = 2 * (1 + min(hurst, 2)) * stiffness * expected
         assert float(one["factor_error"]) == pytest.approx(error, rel=0.5)
     assert float(found["window_low"].min()) == pytest.approx(20 * 0.0017)
-    assert verdicts(fig29, found)[-1].holds
+    assert verdicts(fig29, found)[-1].word == "holds"
     FigureCanvasAgg(drawn(fig29, found)).draw()
 
 
 def test_a_surface_of_another_shape_is_told(lines, surfaces):
     bent = surfaces.copy()
     bent["dimensionless_stiffness"] = surfaces["dimensionless_stiffness"] * (
-        1 + 0.1 * np.sin(3 * np.log(surfaces["dimensionless_force"]))
+        1 + 0.6 * np.sin(3 * np.log(surfaces["dimensionless_force"]))
     )
     found = fig29.averages(lines, bent)
-    assert 0.05 < float(found["mismatch"].min()) < 0.25
-    assert not verdicts(fig29, found)[-1].holds
+    # Half of the swing either way, of which no factor of the force takes much.
+    assert float(found["mismatch"].min()) > 0.3
+    assert verdicts(fig29, found)[-1].word == "does not hold"
 
 
 def test_figure_30_moves_lines_to_surfaces_and_shows_what_is_left(lines):
@@ -116,7 +117,8 @@ def test_figure_30_moves_lines_to_surfaces_and_shows_what_is_left(lines):
     apart = found.isel(load=int(np.flatnonzero(~low)[0]))
     alpha = [1 / (1 + min(h, 2)) for h in HURST]
     np.testing.assert_allclose(apart["line"] / apart["surface"], 0.5 ** np.array(alpha), rtol=1e-9)
-    assert verdicts(fig30, found)[0].holds
+    # Five surfaces do not tell whether by an amount that depends on H.
+    assert verdicts(fig30, found)[0].word == "holds in part (they deviate)"
     FigureCanvasAgg(drawn(fig30, found)).draw()
 
 

@@ -58,7 +58,7 @@ def test_a_contact_whose_energy_is_known_obeys_both_equations():
     np.testing.assert_allclose(found["length"].isel(load=0), 0.4 * 1e-3 ** (2 / 3) / 0.01, rtol=1e-12)
     np.testing.assert_allclose(found["area_length"] / found["length"], 1e4, rtol=1e-12)
     exact, wrong, small, *_ = verdicts(outlook_energy, found)
-    assert (exact.holds, wrong.holds, small.holds) == (True, False, True)
+    assert [each.ruling.word for each in (exact, wrong, small)] == ["holds", "holds in part", "holds"]
 
 
 def test_a_body_that_sinks_in_does_not_obey_that_of_the_gap():
@@ -73,7 +73,7 @@ def test_a_body_that_sinks_in_does_not_obey_that_of_the_gap():
     )
     np.testing.assert_allclose(found["by_gap_interfacial"].sel(periodic=False), 0.75 / 0.8, rtol=1e-4)
     exact, wrong, small, *_ = verdicts(outlook_energy, found)
-    assert (exact.holds, wrong.holds, small.holds) == (True, False, False)
+    assert [each.ruling.word for each in (exact, wrong, small)] == ["holds", "holds in part", "does not hold"]
 
 
 @pytest.fixture(scope="module")

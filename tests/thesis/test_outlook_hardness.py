@@ -72,4 +72,4 @@ def test_waves_with_and_without_a_ceiling_end_in_the_same_rows(found):
 
 def test_it_is_drawn_and_judged(found):
     FigureCanvasAgg(drawn(outlook_hardness, found)).draw()
-    assert len(verdicts(outlook_hardness, found)) == 4
+    assert len(verdicts(outlook_hardness, found)) == 2

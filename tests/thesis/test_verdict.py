@@ -1,29 +1,24 @@
-"""What is said about a claim, and when nothing can be said."""
+"""What is said about a claim, in words."""
 
 import numpy as np
 import xarray
 
-from roughcontact.thesis.verdict import Verdict, counted, judged, listed, series, spanned
+from roughcontact.thesis.ruling import in_part
+from roughcontact.thesis.verdict import Verdict, beside, counted, listed, series, signed, spanned
 
 
 def test_a_verdict_has_a_word():
-    words = [Verdict("a claim", "1", "2", holds).word for holds in (True, False, None)]
-    assert words == ["holds", "does not hold", "open"]
-
-
-def test_deviations_are_judged_by_their_errors():
-    assert judged([0.05, -0.09], 0.2, 0.1) is True
-    assert judged([0.05, -0.2], [0.01, 0.03], 0.1) is False
-    assert judged([0.05, -0.2], [0.01, 0.04], 0.1) is None
-    # What was not computed says nothing; without an error a deviation counts as it is.
-    assert judged([np.nan, 0.0], np.nan, 0.1) is True
-    assert judged([0.11], np.nan, 0.1) is False
-    assert judged([], [], 0.1) is judged([np.nan], 0.0, 0.1) is None
+    verdict = Verdict("a claim", "its words", "eq. 1", "2", in_part("here", "1%"))
+    assert verdict.word == "holds in part (here)"
 
 
 def test_numbers_are_told_by_their_ends():
     assert spanned([0.1, np.nan, -0.02], "+.1%") == "-2.0% to +10.0%"
     assert spanned([np.nan], ".2g") == "none"
+    assert spanned([-0.001, 0.001], "+.0%") == "0% to 0%"
+    assert beside([-0.1, np.nan, 0.15]) == "10% below to 15% above"
+    assert beside([np.nan]) == "nowhere"
+    assert (signed(-0.004, ".2f"), signed(-0.006, ".2f")) == ("0.00", "-0.01")
 
 
 def test_averages_in_words():

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from roughcontact import __version__
 from roughcontact.cli.late_group import late_group
+
+if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
+    from roughcontact.cli import (
+        averages_command as averages_command,
+        conductance_command as conductance_command,
+        curve_command as curve_command,
+        prepare_command as prepare_command,
+        press_command as press_command,
+        spectrum_command as spectrum_command,
+        study_command as study_command,
+        surface_command as surface_command,
+        thesis_command as thesis_command,
+    )
 
 __all__ = ["app"]
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.conduction import Conductors
     from roughcontact.contact.curve import Curve
+    from roughcontact.contact.loop import Loop
     from roughcontact.plot.engineering_units import Scale
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
@@ -175,30 +176,35 @@ class CurveAnswer:
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
 
-    def write(self, folder: Path, control: str, ending: str) -> None:
-        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
+    def source(self, control: str) -> dict[str, Any]:
+        """Return what files say of where they come from."""
         from roughcontact.files.provenance import provenance
-        from roughcontact.files.write import write_csv, write_json, write_netcdf
-        from roughcontact.plot.canvas import save
 
-        source = provenance(
+        return provenance(
             self.surface,
             modulus=self.curve.modulus,
             control=control,
             tolerance=self.tolerance,
             command=command_line(),
         )
+
+    def write(self, folder: Path, control: str, ending: str) -> None:
+        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
+        from roughcontact.files.write import write_csv, write_json, write_netcdf
+        from roughcontact.plot.canvas import save
+
+        source = self.source(control)
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)
             save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
-    def tell(self, json: bool) -> None:
+    def tell(self, json: bool, loop: Loop | None = None) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
         curve = self.curve
         if json:
-            report.emit(self.record)
+            report.emit(self.record | ({} if loop is None else {"loop": loop.to_record()}))
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
@@ -210,6 +216,8 @@ class CurveAnswer:
             report.print_facts([*_fit_facts(self.fit, curve), *local, *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
+            if loop is not None:
+                report.print_facts(report.loop_facts(loop))
             for each in self.errors:
                 each.tell(self.units, patch=not self.per_area, joint=self.per_area)
         missed = sum(not status.converged for status in curve.status)

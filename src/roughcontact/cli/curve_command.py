@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass
+from itertools import islice
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import typer
@@ -14,9 +16,10 @@ from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
+from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
@@ -31,6 +34,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from roughcontact.contact.curve import Curve
+    from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.surface.surface import Surface
@@ -47,6 +51,7 @@ roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pr
 roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
+roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
@@ -81,6 +86,7 @@ def curve(
     *,
     given: Loads,
     elasticity: options.Elasticity,
+    plastic: LoopLoads,
     materials: Materials,
     theories: Theories,
     errors: Errors,
@@ -96,16 +102,12 @@ def curve(
     with reported(file, out, as_json=asked.json):
         name, loads = given.values(reading.profile)
         chosen = units.chosen()
-        modulus, hardness = elasticity.reduced_modulus(), elasticity.yield_pressure()
+        modulus, hardness = elasticity.reduced_modulus(), plastic.hardness(elasticity)
+        plastic.check(name, errors)
         conductors = materials.conductors()
         if reading.profile is not None:
             part = None if conductors is None else materials.of.value
             reading.profile.require(conducting=part, areal_units=bool(chosen), hardness=hardness is not None)
-        if conductors is not None and hardness is not None:
-            raise UsageError(
-                "under a --hardness plastic cells conduct, but have no part in the stiffness of a curve: leave out "
-                "--hardness, or take rc.conductance of each solution of rc.loading_path"
-            )
         theories.check()
         errors.check()
         tables.check(out)
@@ -121,8 +123,14 @@ def curve(
                 loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
             elif name != "depths":
                 _look_ahead(surface, modulus, name, loads, operator)
-            path = {name: loads, "tolerance": tolerance, "hardness": hardness, "operator": operator}
-            computed, notes, outer = _load(surface, modulus, path, loads.size)
+            path = {
+                "tolerance": tolerance,
+                "hardness": hardness,
+                "operator": operator,
+                "flow": plastic.reading,
+            }
+            path[name] = plastic.up_and_down(loads)
+            computed, notes, outer, loop = _load(surface, modulus, path, loads.size)
             left = loads[len(computed) :]
             if left.size:
                 rest = ",".join(f"{load:.12g}" for load in left)
@@ -132,6 +140,8 @@ def curve(
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
                 note("no errors: no load is resolved")
+            if plastic.loop and loop is None:
+                note("stopped: the loop is not closed, only what was computed of first loading is kept")
             joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if folder is not None:
@@ -140,10 +150,12 @@ def curve(
                 with doing("Writing files"):
                     answer.write(folder, f"{name} {ends}", ending)
                     more = tables.write(folder, computed, surface, conductors)
-        answer.tell(asked.json)
+                    if loop is not None:
+                        more += write_loop(loop, folder, answer.source(f"{name} {ends}"), ending)
+        answer.tell(asked.json, loop)
         if folder is not None:
             note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
-        if left.size:
+        if left.size or (plastic.loop and loop is None):
             raise typer.Exit(INTERRUPTED)
         if not answer.converged:
             raise typer.Exit(MISSED)
@@ -195,22 +207,26 @@ def _look_ahead(
 
 def _load(
     surface: Surface, modulus: float, given: dict[str, Any], count: int
-) -> tuple[Curve, tuple[str, ...], list[Solution]]:
-    """Return the curve, the notes on its last load, and the first and last load that are resolved.
+) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
+    """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
-    A bar on standard error moves on at every load. Ctrl-C ends the curve with the loads that are done.
+    There is a loop where more loads are given than the `count` of the curve. A bar on standard error moves on at every
+    load. Ctrl-C ends the curve with the loads that are done.
     """
     import roughcontact as rc
     from roughcontact.contact.curve import collect
+    from roughcontact.contact.loop import closed_loop
 
     path = rc.loading_path(surface, modulus, **given)
+    total = max(len(loads) for name, loads in given.items() if name in ("forces", "depths", "pressures"))
     notes: list[tuple[str, ...]] = []
     ends: list[Solution] = []
+    turn: list[Solution] = []
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         try:
-            for solution in path:
-                notes[:] = [solution.notes]
+            for solution in islice(path, count):
+                notes[:], turn[:] = [solution.notes], [solution]
                 if solution.resolved and solution.status.converged:
                     ends[1 if ends else 0 :] = [solution]
                 yield solution
@@ -225,5 +241,16 @@ def _load(
         TimeRemainingColumn(elapsed_when_finished=True),
     )
     with Progress(*columns, console=screen()) as progress:
-        curve = collect(progress.track(watched(path), total=count))
-    return curve, notes[0], ends
+        task = progress.add_task("Pressing", total=total)
+
+        def moving(path: Iterator[Solution]) -> Iterator[Solution]:
+            for solution in path:
+                progress.advance(task)
+                yield solution
+
+        curve = collect(moving(watched(path)))
+        loop = None
+        if len(curve) == count < total:
+            with suppress(KeyboardInterrupt):
+                loop = closed_loop(curve, turn[0], moving(path))
+    return curve, notes[0], ends, loop

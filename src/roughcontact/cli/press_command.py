@@ -15,6 +15,7 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.plastic_options import AfterLoad
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
@@ -32,6 +33,7 @@ roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
+roughcontact press part.x3p --force 10N --after 100N --materials steel,aluminium --hardness aluminium --out result
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """,
@@ -64,6 +66,7 @@ def press(
     *,
     load: Load,
     elasticity: options.Elasticity,
+    plastic: AfterLoad,
     theory: Theory | None = _THEORY,
     errors: Errors,
     answer: options.Answer,
@@ -77,15 +80,22 @@ def press(
             raise UsageError("--theory draws a picture: say where by --out")
         if theory is not None and body is not None:
             raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
-        limits = {"tolerance": answer.residual, "hardness": elasticity.yield_pressure()}
+        limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(elasticity)}
+        first = plastic.first(given, body)
+        plastic.check(errors)
         if body is not None:
             body.require(conducting=None, areal_units=False, hardness=limits["hardness"] is not None)
         modulus = elasticity.reduced_modulus()
+        drawn: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
             errors.check_for(surface)
             pressed = Pressed.of(surface, modulus, elasticity.softer())
-            solution = _solve(surface, modulus, operator=reading.body(surface, modulus), **given, **limits)
+            limits["operator"] = reading.body(surface, modulus)
+            if first is None and not plastic.raises:
+                solution = _solve(surface, modulus, **given, **limits)
+            else:
+                solution = plastic.last_of(surface, modulus, given, first, limits)
             found = errors.of([solution])
             budget = {"errors": found[0].to_record() if found else None}
             with doing("Stiffness, spots and files"):
@@ -93,10 +103,12 @@ def press(
                 if folder is not None:
                     [(name, value)] = given.items()
                     control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
+                    control += "" if first is None else f" after {first!r}"
                     _write(solution, record, folder, control, theory, ending)
+                    drawn = plastic.draw(surface, solution, folder, ending)
         per_area = "pressure" in given or all(surface.grid.periodic)
         _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
-        pictures = ("pressure",) if theory is None else ("distribution", "pressure")
+        pictures = (*(() if theory is None else ("distribution",)), "pressure", *drawn)
         note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
             raise typer.Exit(MISSED)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.picture_options import PictureFormat, picture_ending
 from roughcontact.cli.report import doing, print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.cli.unit_options import parse_seed
@@ -27,6 +28,7 @@ EXAMPLES = {
 roughcontact thesis list
 roughcontact thesis fig6 --out figures --seed 2
 roughcontact thesis fig27 --out figures --workers 2
+roughcontact thesis fig27 --out figures --as-is --format pdf
 roughcontact thesis all --scale thesis --out figures
 """,
 }
@@ -44,6 +46,14 @@ class Wanted:
     seed: str | None = option("Seed of the random numbers (default: the figure's own).", "1")
     workers: int | None = option("Processes for an ensemble (default: one a core).", "N", min=1)
     as_is: bool = option("Compute nothing: average what the stores hold so far.", default=False)
+    format: PictureFormat | None = option(
+        "Format of the pictures, as wide as a journal's column or page (default: png)."
+    )
+
+    @property
+    def ending(self) -> str:
+        """How the names of pictures end."""
+        return picture_ending(self.format, self.out)
 
 
 def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
@@ -65,36 +75,38 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
         workers = None if wanted.as_is else wanted.workers or 0
         with output(wanted.out):
             for each in FIGURES if name == "all" else (name,):
-                _compute(each, wanted.out, cast("Scale", wanted.scale), chosen, workers)
+                _compute(each, wanted, chosen, workers)
 
 
-def _compute(name: str, folder: Path, scale: Scale, seed: int | None, workers: int | None) -> None:
+def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -> None:
     """Compute and draw a figure, and print what is to be said about it; `workers` is 0 for one a core."""
     from roughcontact.thesis.figures import is_ensemble, module, verdicts
 
-    found = module(name)
+    found, folder = module(name), wanted.out
     if is_ensemble(found):
-        data, more = _ensemble(name, found, folder, (scale, seed, workers))
+        data, more = _ensemble(name, found, folder, (cast("Scale", wanted.scale), seed, workers))
     else:
         simple = cast("SimpleFigure", found)
         first = simple.SEED if seed is None else seed
         with doing(f"Computing {name}"):
             data = simple.case(first)
         more = [("seed", str(first))]
-    _draw(name, found, data, folder)
-    facts = [("file", str(folder / f"{name}.png")), ("figure", found.TITLE)]
+    picture = f"{name}.{wanted.ending}"
+    _draw(picture, found, data, folder)
+    facts = [("file", str(folder / picture)), ("figure", found.TITLE)]
     facts += [("chosen", line) for line in found.CHOSEN] + more
     for verdict in verdicts(found, data):
-        facts.append((verdict.word, f"{verdict.claim}: thesis {verdict.thesis}, here {verdict.found}"))
+        part = f"; in part: {verdict.ruling.part}" if verdict.ruling.part else ""
+        facts.append((verdict.ruling.word, f"{verdict.claim} ({verdict.source}): here {verdict.found}{part}"))
     print_facts(facts)
 
 
-def _draw(name: str, found: FigureModule, data: Any, folder: Path) -> None:
+def _draw(picture: str, found: FigureModule, data: Any, folder: Path) -> None:
     from roughcontact.plot.canvas import save
     from roughcontact.thesis.figures import drawn
 
-    with doing(f"Drawing {name}"), all_or_none(folder) as aside:
-        save(drawn(found, data), aside / f"{name}.png")
+    with doing(f"Drawing {picture}"), all_or_none(folder) as aside:
+        save(drawn(found, data), aside / picture)
 
 
 def _ensemble(

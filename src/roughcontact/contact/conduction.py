@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
 from roughcontact.contact.curve import Curve
+from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
-from roughcontact.solver.control import Depth
 from roughcontact.theory import conductance as theory
 from roughcontact.validation import Array, number
 
@@ -103,8 +103,9 @@ def conductance(
     Parameters
     ----------
     contact : Curve, Solution or Dataset
-        Of a surface, of rings, or of a Winkler foundation. Of a solution under a hardness the cells that give
-        way conduct like the others. A dataset is that of a curve, ``curve.to_dataset()`` or as it was read from a file.
+        Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that give way conduct like the
+        others: the stiffness is that of unloading. A dataset is that of a curve, ``curve.to_dataset()`` or as it was
+        read from a file.
     resistivities, conductivities : tuple of float
         At least one of the two, see ``Conductors``.
     of : {"interface", "total"}
@@ -126,7 +127,7 @@ def conductance(
     ------
     ValueError
         If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
-        reference length, if it is a curve under a hardness, whose stiffness leaves out cells that conduct, or if the
+        reference length, if it is a curve under a hardness that does not hold the stiffness of unloading, or if the
         interface is asked for of a Winkler foundation, which has none.
 
     Examples
@@ -146,14 +147,16 @@ def conductance(
                 f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
             )
         return with_conductance(contact, materials, of)
-    if isinstance(contact, Solution) and contact.problem.hardness < math.inf:
-        # Plastic cells conduct as well: the stiffness of the whole region, as if it were elastic.
-        elastic = replace(contact.problem, control=Depth(0.0), hardness=math.inf)
-        contact = replace(contact, problem=elastic, _frozen=None)
+    if isinstance(contact, Solution):
+        contact = contact.flattened  # plastic cells conduct as well
     scales = contact.problem if isinstance(contact, Solution) else contact
     area = scales.nominal_area if isinstance(scales, Curve) else scales.grid.area
-    _require_conducting(scales.geometry, scales.hardness < math.inf, of)
-    stiffness = np.asarray(getattr(contact, _PARTS[of]), dtype=np.float64)
+    name = _PARTS[of]
+    known: Curve | Solution | FlowCurve | None = contact
+    if isinstance(contact, Curve) and contact.hardness < math.inf:
+        name, known = f"unloading_{name}", contact.flow
+    _require_conducting(scales.geometry, known is None, of)
+    stiffness = np.asarray(getattr(known, name), dtype=np.float64)
     return _of_part(materials.of(stiffness, scales.modulus), area, of)
 
 
@@ -174,15 +177,16 @@ def with_conductance(
     Raises
     ------
     ValueError
-        If the dataset is not that of a curve, or that of a line contact or of a plastic body, or if the interface is
-        asked for of a Winkler foundation.
+        If the dataset is not that of a curve, or that of a line contact, or of a plastic body without its stiffness of
+        unloading, or if the interface is asked for of a Winkler foundation.
     """
     _require_part(of)
-    stiffness = _PARTS[of]
+    plastic, stiffness = "hardness" in dataset, _PARTS[of]
     missing = [name for name in ("force", stiffness, "modulus", "nominal_area") if name not in dataset]
     if missing or dataset[stiffness].dims != ("load",):
         raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
-    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), "hardness" in dataset, of)
+    stiffness = f"unloading_{stiffness}" if plastic else stiffness
+    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), stiffness not in dataset, of)
     found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
     columns, words = {}, part_words(dataset, of)
     for name, values in _of_part(found, float(dataset["nominal_area"]), of).items():
@@ -222,16 +226,16 @@ def _require_part(of: str) -> None:
         )
 
 
-def _require_conducting(geometry: Geometry, yielding: bool, of: str) -> None:
-    """Refuse a curve that does not say what its contact conducts: that of a line, or of a plastic body."""
+def _require_conducting(geometry: Geometry, hidden: bool, of: str) -> None:
+    """Refuse a curve that does not say what its contact conducts: of a line, or without the stiffness of all cells."""
     if geometry is Geometry.LINE:
         raise ValueError(
             "a line contact has no conductance of its own: it depends on how far away the bodies end"
         )
     if geometry is Geometry.FOUNDATION and of == "interface":
         raise ValueError("a Winkler foundation has a total conductance only: take of='total'")
-    if yielding:
+    if hidden:
         raise ValueError(
-            "under a hardness the plastic cells conduct, but the stiffness of a curve leaves them out: take "
-            "the conductance of each solution of loading_path"
+            "under a hardness the plastic cells conduct, but the stiffness of this curve leaves them out: compute it "
+            "anew, with the stiffness of unloading"
         )

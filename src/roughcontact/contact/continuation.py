@@ -12,32 +12,45 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
 from roughcontact.solver.control import Control, Force, Solver, Tangent
-from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict
+from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict, restrict_hardness
 from roughcontact.validation import Array
 
 __all__ = ["follow"]
 
 
-def follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> Iterator[Solution]:
+def follow(
+    problem: ContactProblem,
+    controls: list[Control],
+    solver: Solver,
+    *,
+    start: Solution | None = None,
+    subdomains: SubdomainSolver | None = None,
+) -> Iterator[Solution]:
     """Yield the solution of the same bodies under one control after the other.
 
     Parameters
     ----------
     problem : ContactProblem
     controls : list of Force or Depth
-        Rising.
+        Rising, or falling.
     solver : Solver
+    start : Solution, optional
+        Of the same bodies, to predict the first load from.
+    subdomains : SubdomainSolver, optional
+        Of the operator; it keeps restricted operators.
     """
-    subdomains = SubdomainSolver(problem.operator)
+    subdomains = subdomains or SubdomainSolver(problem.operator)
     guess: tuple[Array, float] | None = None
     last: Tangent | None = None
+    if start is not None:
+        guess = _predicted(start, controls[0])
+        last = Tangent(start.frozen.tangent, math.inf) if start.stiffness < math.inf else None
     for control, following in zip(controls, [*controls[1:], None], strict=True):
-        here = problem.under(control)
-        state, subdomain = solve_state(here, solver, guess, subdomains)
+        here, state, subdomain = solve_state(problem.under(control), solver, guess, subdomains)
         shape = problem.grid.shape
         frozen = frozen_contact(
             subdomains.operator_on(subdomain),
-            elastic_contact(state.pressure, problem.hardness),
+            elastic_contact(state.pressure, restrict_hardness(here.hardness, subdomain)),
             tangent=state.tangent or (last and Tangent(restrict(last.pressure, subdomain), math.inf)),
         )
         pressure = prolong(state.pressure, subdomain, shape)
@@ -63,6 +76,15 @@ def follow(problem: ContactProblem, controls: list[Control], solver: Solver) -> 
             else:  # on the window alone: the plane is large
                 moved = state.pressure + advance * frozen.tangent
                 guess = prolong(moved, subdomain, shape), state.depth + advance
+
+
+def _predicted(start: Solution, control: Control) -> tuple[Array, float] | None:
+    """Return the pressure [Pa] and the depth [m] that the tangent of a solution predicts under another control."""
+    advance = _advance(start, control)
+    if advance is None:
+        return None
+    pressure = start.pressure + advance * start.frozen.tangent if advance else start.pressure
+    return pressure, start.depth + advance
 
 
 def _advance(solution: Solution, following: Control) -> float | None:

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
 from roughcontact.contact.dataset import curve_dataframe, curve_dataset, curve_record
+from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
@@ -67,6 +68,8 @@ class Curve:
         What the cells are. On a line forces, stiffness, areas and energy are per unit length.
     hardness : float
         Pressure that no cell exceeds [Pa]; cells that reach it have no part in the stiffness.
+    flow : FlowCurve, optional
+        What flows along the curve, and the stiffness of unloading; where there is a hardness.
 
     Examples
     --------
@@ -101,6 +104,7 @@ class Curve:
     nominal_area: float
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
+    flow: FlowCurve | None = None
 
     def __len__(self) -> int:
         return len(self.force)
@@ -111,7 +115,8 @@ class Curve:
         solved = np.array([status is Status.CONVERGED for status in self.status], dtype=bool)
         if self.geometry is Geometry.LINE:
             return solved & is_resolved(self.contact_area, self.spacing[0], self.lengths[0])
-        return solved & is_resolved(self.stiffness, self.cell_stiffness, self.full_contact_stiffness)
+        stiffness = self.stiffness if self.flow is None else self.flow.unloading_stiffness
+        return solved & is_resolved(stiffness, self.cell_stiffness, self.full_contact_stiffness)
 
     @property
     def length(self) -> float:
@@ -164,10 +169,11 @@ class Curve:
     def secant_stiffness(self) -> Array:
         """Finite difference dF/dd between neighbouring points [N/m], shape (n - 1,).
 
-        Infinite where the depth does not grow, as in the full contact of a periodic surface.
+        Infinite where the depth does not grow with the force, as in the full contact of a periodic surface.
         """
         force, depth = np.diff(self.force), np.diff(self.depth)
-        return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=depth > 0))
+        moves = (depth > 0) | ((depth < 0) & (force < 0))
+        return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=moves))
 
     def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
         """Return the power law k ~ F^alpha through the points of a window of force (thesis, eq. 4.53).
@@ -346,9 +352,14 @@ def collect(path: Iterable[Solution]) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
     points: list[tuple[float, ...]] = []
     status: list[Status] = []
+    flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
+    hardness = 0.0
     for solution in path:
-        problem = solution.problem
+        problem = problem or solution.problem
+        if solution.problem.plastic:  # on unloading nothing limits the pressure
+            hardness = max(hardness, solution.problem.terms.largest_hardness)
+        flows.append(flow_point(solution))
         numbers = (getattr(solution, name) for name in CURVE_POINTS)
         points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
         status.append(solution.status)
@@ -370,7 +381,8 @@ def collect(path: Iterable[Solution]) -> Curve:
         full_contact_stiffness=full_contact_stiffness(problem),
         nominal_area=problem.grid.area,
         geometry=problem.geometry,
-        hardness=problem.hardness,
+        hardness=hardness or math.inf,
+        flow=flow_curve(flows),
     )
 
 

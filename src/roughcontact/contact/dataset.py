@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.contact.flow_curve import flow_point
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
-from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
+from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
 
 if TYPE_CHECKING:
     import pandas
@@ -70,6 +71,8 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     data |= {name: variable(name, (), getattr(curve, name), kind) for name in CURVE_SCALES}
     if math.isfinite(curve.hardness):
         data["hardness"] = variable("hardness", (), curve.hardness, kind)
+    if curve.flow is not None:
+        data |= {name: variable(name, ("load",), getattr(curve.flow, name), kind) for name in FLOW_POINTS}
     data |= sizes(curve)
     return dataset_of(data, {}, "normal contact stiffness of a rough surface against load", kind)
 
@@ -85,6 +88,8 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     grid, kind = problem.grid, problem.geometry
     axes = kind.axes
     data = {name: variable(name, axes, getattr(solution, name), kind) for name in _SOLUTION_MAPS}
+    if solution.flow is not None:
+        data["flow_depth"] = variable("flow_depth", axes, solution.flow.depth)
     if problem.surface is not None:
         data["heights"] = variable("heights", axes, problem.surface.heights)
     data["spot_label"] = variable("spot_label", axes, spots.labels)
@@ -154,6 +159,8 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     """
     names = (*_CURVE_ARRAYS, "secant_stiffness", *CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(curve, name)) for name in names}
+    if curve.flow is not None:
+        record |= {name: plain_values(getattr(curve.flow, name)) for name in FLOW_POINTS}
     record["status"] = [each.value for each in curve.status]
     return record | {"geometry": curve.geometry.value, "units": units_of(record, curve.geometry)}
 
@@ -184,4 +191,8 @@ def _scales(solution: Solution) -> dict[str, float]:
         "stiffness_residual": solution.frozen.residual,
         "modulus": problem.modulus,
     }
+    if solution.flow is not None:
+        scales |= dict(zip(FLOW_POINTS, flow_point(solution), strict=True)) | {
+            "flow_rise": solution.flow.rise
+        }
     return scales if problem.surface is None else scales | {"rms": problem.surface.rms}

@@ -146,6 +146,11 @@ def _check(patches: Sequence[Solution]) -> None:
             raise ValueError(
                 "errors are for heights in NumPy's memory: press the surface there, or take solution.on_host()"
             )
+        if problem.flow is not None or problem.rise or not isinstance(problem.hardness, int | float):
+            raise ValueError(
+                "errors are those of one load that is pressed again on other maps: not of a surface that has flowed "
+                "before or that rises as it flows, nor of a hardness that differs from cell to cell"
+            )
         if not each.status.converged:
             raise ConvergenceError(each)
         same = (

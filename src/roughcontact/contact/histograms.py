@@ -1,4 +1,4 @@
-"""How the pressure is distributed over the contact, and the gap over the rest."""
+"""Distributions of the pressure in contact and of the gap beside it; `Solution` has them as its methods."""
 
 from __future__ import annotations
 
@@ -86,14 +86,14 @@ def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
 
 
 def _density(solution: Solution, field: Array, mask: Mask, bins: int) -> tuple[Array, Array]:
-    """Return the density of a field over the cells of a mask, by their area, and the edges of its bins."""
+    """Return the density of a field over the area of the cells of a mask, and its edges, on the host."""
     if bins < 1:
         raise ValueError(f"a histogram needs at least one bin, not {bins}")
     chosen = on_host(mask).astype(bool)
-    values = np.maximum(on_host(field)[chosen], 0.0)  # a gap that is but rounding may be below
+    values, areas = on_host(field)[chosen], solution.problem.measure.on(np.flatnonzero(chosen))
+    values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
     if not values.size:
         return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
-    areas = solution.problem.measure.on(np.flatnonzero(chosen))
     end = float(values.max()) or 1.0
     density, edges = np.histogram(values, bins=int(bins), range=(0.0, end), weights=areas, density=True)
     return density, edges

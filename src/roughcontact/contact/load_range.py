@@ -11,9 +11,10 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.contact.curve import DECADE, length_scale
-from roughcontact.contact.load_search import SPOT_CELLS, LoadSearch, SurfaceKind, find_range
+from roughcontact.contact.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
+from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -76,15 +77,16 @@ def load_range(
     *,
     count: int = FORCES,
     operator: Operator | None = None,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
 ) -> LoadRange:
     """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
 
     From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force,
     has sixteen cells (if that leaves less than a decade: where it is as stiff, with a note). It ends with the first
     of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps half of the area in contact; on maps
-    with form contact at the border, beyond which the body goes on; a mean pressure in contact of 0.9 of the
-    hardness or, without one, of half the reduced modulus. On a line contact it is 0.03 to 3 of E* h.
+    with form contact at the border, beyond which the body goes on; a mean pressure in contact of half the reduced
+    modulus or, under a hardness, half of the force that it bears. What flows is in contact too: under a hardness the
+    stiffness here is that of unloading. On a line contact it is 0.03 to 3 of E* h.
 
     Parameters
     ----------
@@ -96,7 +98,7 @@ def load_range(
         Number of forces.
     operator : Operator, optional
         Another body than the half-space on the surface's grid.
-    hardness : float, optional
+    hardness : float, array or function, optional
         Pressure that no cell exceeds [Pa].
 
     Returns
@@ -131,7 +133,8 @@ def load_range(
         low, high = (part * scale for part in ON_LINES)
         ends = (f"{ON_LINES[0]:g} E* h", f"{ON_LINES[1]:g} E* h")
         return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
-    problem = make_problem(surface, modulus, Force(scale), operator, tolerance=1e-8, hardness=hardness)
+    first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
+    problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
     search = find_range(problem, kind, scale)
     return _loads(search, count, surface)
 

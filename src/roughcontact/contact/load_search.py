@@ -24,12 +24,14 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
+from roughcontact.solver.projection import bearing_area
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.validation import Array
 
 __all__ = [
     "ON_ONE_FEATURE",
+    "SEARCHED",
     "SPOT_CELLS",
     "STEPS_PER_DECADE",
     "LoadSearch",
@@ -41,7 +43,6 @@ __all__ = [
 SPOT_CELLS = 16  # cells of the mean spot, weighted by force: twenty lone cells resolve nothing
 AREA_SHARE = 0.5  # of the nominal area in contact: beyond, the interfaces of flat maps are nearly closed
 STRAINED = 0.5  # of the reduced modulus: mean pressure in contact beyond which small strains are none
-PLASTIC = 0.9  # of the hardness: mean pressure in contact at which nearly all of it is plastic
 ON_ONE_FEATURE = 0.5  # of the force on the largest spot where the contact is as stiff as twenty cells
 PILOT_CELLS = 128  # to a side of the pilot
 STEPS_PER_DECADE = 4  # of force, in the search
@@ -143,10 +144,11 @@ def climb(
     loads: list[SearchedLoad] = []
     for solution in follow(problem, controls, ActiveSet()):
         share, cells = _largest_spot(solution)
-        stiff = solution.stiffness >= few
+        stiffness = solution.flattened.stiffness  # what flows is in contact too
+        stiff = stiffness >= few
         resolved = stiff and (cells >= SPOT_CELLS or problem.geometry is not Geometry.SURFACE)
         area = solution.contact_area
-        loads.append(SearchedLoad(solution.force, solution.stiffness, area, share, stiff, resolved))
+        loads.append(SearchedLoad(solution.force, stiffness, area, share, stiff, resolved))
         shares = [load.share for load in loads if load.stiff]
         on_one_feature = bool(shares) and min(shares) > ON_ONE_FEATURE
         reason = _end(solution, kind, full, on_one_feature=on_one_feature)
@@ -166,18 +168,29 @@ def _largest_spot(solution: Solution) -> tuple[float, float]:
     return float(spots.loads.max()) / solution.force, cells
 
 
+def _borne(solution: Solution) -> float:
+    """Return the force under which half of the map would bear the hardness of the contact [N]."""
+    problem, measure = solution.problem, solution.problem.measure
+    hardness = problem.terms.largest_hardness * bearing_area(measure, solution.contact, problem.terms)
+    return AREA_SHARE * measure.total(problem.measured) * hardness / solution.contact_area
+
+
 def _end(solution: Solution, kind: SurfaceKind, full: float, *, on_one_feature: bool) -> str:
     """Return what ends the range at this load; nothing if it goes on."""
     problem = solution.problem
-    if solution.stiffness >= FULL_CONTACT_SHARE * full:
+    if solution.flattened.stiffness >= FULL_CONTACT_SHARE * full:
         return f"{FULL_CONTACT_SHARE:g} of the full-contact stiffness"
     if kind in (SurfaceKind.PERIODIC, SurfaceKind.FLAT) and solution.contact_fraction >= AREA_SHARE:
         return "half of the area in contact"
     if kind is SurfaceKind.FORM and solution.touches_edge:
         return "contact at the border of the map"
     pressure = solution.force / solution.contact_area
-    if problem.hardness < math.inf:
-        return "" if pressure < PLASTIC * problem.hardness else "a mean pressure in contact near the hardness"
+    if problem.plastic:
+        return (
+            f"{AREA_SHARE:g} of the force that the hardness bears"
+            if solution.force >= _borne(solution)
+            else ""
+        )
     strained = pressure > STRAINED * problem.modulus and problem.geometry is not Geometry.FOUNDATION
     return "a mean pressure in contact of half the reduced modulus" if strained and not on_one_feature else ""
 
@@ -212,5 +225,6 @@ def pilot_of(problem: ContactProblem) -> ContactProblem | None:
         problem.control,
         problem.tolerance,
         modulus=problem.modulus,
-        hardness=problem.hardness,
+        hardness=problem.terms.largest_hardness,
+        size_law=problem.size_law,
     )

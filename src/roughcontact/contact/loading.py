@@ -8,9 +8,12 @@ import numpy as np
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
+from roughcontact.contact.flow import FlowReading, flow_reading
+from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.load_range import load_range
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body
+from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
@@ -35,7 +38,8 @@ def loading_path(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
+    flow: FlowReading = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, in order; each starts from the one before.
 
@@ -46,16 +50,20 @@ def loading_path(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     forces, depths, pressures : array, shape (n,)
-        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 24
-        forces that suit the surface, see `load_range`.
+        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
+        order. Without any, 24 forces that suit the surface, see `load_range`.
     operator : Operator, optional
         Another body than the half-space on the surface's grid, see `press`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
-    hardness : float, optional
-        Pressure that no cell exceeds [Pa].
+    hardness : float, array or function, optional
+        Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
+        is the elastic one of the flattened surface.
+    flow : {"removed", "raised"}
+        Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
+        volume conserved (Pullen and Williamson 1972), which changes the depth alone.
 
     Yields
     ------
@@ -75,12 +83,21 @@ def loading_path(
     >>> [f"{solution.force:.0e} N" for solution in path]
     ['1e-03 N', '2e-03 N']
     """
+    raises, keeps = flow_reading(flow), hardness is not None
+    if raises and depths is not None:
+        raise ValueError(
+            "depths cannot be named where the surface rises as it flows: give forces or pressures"
+        )
     if forces is None and depths is None and pressures is None:
         forces = load_range(surface, modulus, operator=operator, hardness=hardness).forces
-    controls = _controls(grid_of(surface), forces=forces, depths=depths, pressures=pressures)
+    controls = _controls(
+        grid_of(surface), rising=not keeps, forces=forces, depths=depths, pressures=pressures
+    )
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
+    if keeps:
+        return follow_history(problem, controls, solver or ActiveSet(), raises=raises)
     return follow(problem, controls, solver or ActiveSet())
 
 
@@ -94,7 +111,8 @@ def loading_curve(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
+    flow: FlowReading = "removed",
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
 
@@ -105,16 +123,20 @@ def loading_curve(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     forces, depths, pressures : array, shape (n,)
-        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]. Without any, 24
-        forces that suit the surface, see `load_range`.
+        At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
+        order. Without any, 24 forces that suit the surface, see `load_range`.
     operator : Operator, optional
         Another body than the half-space on the surface's grid, see `press`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
-    hardness : float, optional
-        Pressure that no cell exceeds [Pa].
+    hardness : float, array or function, optional
+        Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
+        is the elastic one of the flattened surface.
+    flow : {"removed", "raised"}
+        Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
+        volume conserved (Pullen and Williamson 1972), which changes the depth alone.
 
     Returns
     -------
@@ -144,23 +166,25 @@ def loading_curve(
         solver=solver,
         tolerance=tolerance,
         hardness=hardness,
+        flow=flow,
     )
     return collect(path)
 
 
 def _controls(
-    grid: AnyGrid, *, forces: Loads | None, depths: Loads | None, pressures: Loads | None
+    grid: AnyGrid, *, rising: bool, forces: Loads | None, depths: Loads | None, pressures: Loads | None
 ) -> list[Control]:
-    """Return the controls that exactly one of the three lists states."""
+    """Return the controls that exactly one of the three lists states, which must be `rising` or may be in any order."""
     name, loads = exactly_one(force=forces, depth=depths, pressure=pressures)
     values = np.atleast_1d(number(loads, f"the list of {name}s"))
     if values.ndim != 1 or not len(values):
         raise ValueError(
             f"the list of {name}s must hold at least one number in one row, not shape {values.shape}"
         )
-    if not (np.diff(values) > 0).all():
+    if rising and not (np.diff(values) > 0).all():
         at = int(np.argmin(np.diff(values) > 0))
         raise ValueError(
-            f"the {name}s must increase strictly, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}"
+            f"the {name}s must increase strictly, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}; "
+            "only under a hardness do loads go up and down"
         )
     return [control_of(grid, **{name: float(v)}) for v in values]

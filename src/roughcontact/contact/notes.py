@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["notes_on"]
 
 STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
+BEYOND = 1e-3  # of the hardness, on unloading: more than what a tolerance leaves open
 OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
 
 
@@ -29,6 +30,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
             f"{yielding} of {in_contact} cells in contact are at the hardness: they are plastic, and the "
             "stiffness is that of the others."
         )
+    notes.extend(_of_flow(solution))
     if solution.missing:
         hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"
         notes.append(f"{hold} no height: kept out of contact.")
@@ -48,6 +50,20 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     if in_contact and touching:
         notes.extend(_of_two_sides(solution, touching))
     return (*notes, *_doubts(solution))
+
+
+def _of_flow(solution: Solution) -> tuple[str, ...]:
+    """Return what there is to say where a flattened surface bears more than the pressure that flattened it."""
+    flow = solution.problem.flow
+    if flow is None:
+        return ()
+    beyond = float(solution.problem.measure.xp.max(solution.pressure / flow.hardness)) - 1
+    if beyond <= BEYOND:
+        return ()
+    return (
+        f"On the flattened surface the largest pressure is {beyond:.1e} of the hardness beyond it: on these cells "
+        "unloading is not quite elastic.",
+    )
 
 
 def _of_two_sides(solution: Solution, touching: int) -> tuple[str, ...]:
@@ -78,7 +94,7 @@ def _doubts(solution: Solution) -> tuple[str, ...]:
         doubts.append(
             f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus."
         )
-    summit = problem.mean_separation
+    summit = problem.mean_separation - problem.first_touch
     if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
         doubts.append(
             f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
+from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.spot_hardness import settle, without_spots
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -37,7 +40,7 @@ def press(
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
 ) -> Solution:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
@@ -57,8 +60,9 @@ def press(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual; see docs/conventions.md.
-    hardness : float, optional
-        Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body.
+    hardness : float, array or function, optional
+        Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
+        or a function of the radii of the contact spots [m], such as `NixGao`.
 
     Returns
     -------
@@ -106,15 +110,15 @@ def make_problem(
     operator: Operator | None,
     *,
     tolerance: float,
-    hardness: float | None = None,
+    hardness: Hardness | None = None,
 ) -> ContactProblem:
     """Return the problem of a surface against a flat."""
     value = as_modulus(modulus)
     require_memory_for(surface)
     body = body_on(surface.grid, value, operator)
-    strength = math.inf if hardness is None else scalar(hardness, "hardness")
-    allowed = scalar(tolerance, "tolerance")
-    return ContactProblem(separation_of(surface), body, control, allowed, surface, value, strength)
+    separation, allowed = separation_of(surface), scalar(tolerance, "tolerance")
+    strength, law = as_hardness(hardness, separation)
+    return ContactProblem(separation, body, control, allowed, surface, value, strength, law)
 
 
 def control_of(
@@ -151,7 +155,7 @@ def solve(
     subdomains : SubdomainSolver, optional
         Keeps restricted operators from one load to the next.
     """
-    state, subdomain = solve_state(
+    problem, state, subdomain = solve_state(
         problem, solver or _DEFAULT, initial, subdomains or SubdomainSolver(problem.operator)
     )
     pressure = prolong(state.pressure, subdomain, problem.grid.shape)
@@ -161,15 +165,21 @@ def solve(
 
 def solve_state(
     problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, subdomains: SubdomainSolver
-) -> tuple[State, Subdomain]:
-    """Return the solver's last state on its window, and where that lies."""
+) -> tuple[ContactProblem, State, Subdomain]:
+    """Return the problem, with the hardness of its spots, the last state on its window, and where that lies."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
         raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
-    if isinstance(problem.control, Depth) and problem.control.value == 0:
-        return _untouched(problem)
+    if isinstance(problem.control, Depth) and problem.control.value <= max(0.0, problem.first_touch):
+        if problem.size_law is not None:
+            problem = without_spots(problem, problem.size_law)
+        return problem, *_untouched(problem, problem.control.value)
     with one_blas_thread():
         guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)
-        return subdomains.solve(solver, problem.separation, problem.terms, guess)
+        if problem.size_law is not None:
+            return settle(problem, problem.size_law, solver, guess, subdomains)
+        if problem.flow is not None:
+            return problem, *_from_touch(problem, solver, guess, subdomains)
+        return problem, *subdomains.solve(solver, problem.separation, problem.terms, guess)
 
 
 def lock(pressure: Array) -> None:
@@ -178,9 +188,22 @@ def lock(pressure: Array) -> None:
         pressure.flags.writeable = False
 
 
-def _untouched(problem: ContactProblem) -> tuple[State, Subdomain]:
-    """At depth 0 the bodies touch and carry nothing."""
+def _from_touch(
+    problem: ContactProblem, solver: Solver, guess: tuple[Array, float], subdomains: SubdomainSolver
+) -> tuple[State, Subdomain]:
+    """Solve with depths that count from where the flattened bodies touch: more would cost digits of the pressure."""
+    touch = problem.first_touch
+    separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
+    control, (pressure, depth) = problem.control, guess
+    nearer = Depth(control.value - touch) if isinstance(control, Depth) else control
+    terms = replace(problem.terms, control=nearer)
+    state, subdomain = subdomains.solve(solver, separation, terms, (pressure, depth - touch))
+    return replace(state, depth=state.depth + touch), subdomain
+
+
+def _untouched(problem: ContactProblem, depth: float) -> tuple[State, Subdomain]:
+    """Up to the depth of first touch the bodies carry nothing."""
     shape = problem.grid.shape
     zero = problem.measure.xp.zeros_like(problem.separation)
     whole = tuple(slice(0, n) for n in shape)
-    return State(zero, 0.0, 0.0, 0, Status.NO_CONTACT), whole
+    return State(zero, depth, 0.0, 0, Status.NO_CONTACT), whole

@@ -8,12 +8,15 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.contact.flow import Flow
+from roughcontact.contact.size_law import SizeLaw
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.memory import require_memory
 from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
 from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.projection import bearing_area
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, scalar
@@ -56,8 +59,15 @@ class ContactProblem:
         Where the separation comes from.
     modulus : float
         Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
-    hardness : float
+    hardness : float or array, shape of the grid
         Pressure that no cell exceeds [Pa]: there the body is perfectly plastic; the flat may stand below its surface.
+    size_law : function, optional
+        Hardness [Pa] from the radii of contact spots [m], see `roughcontact.NixGao`; its solutions have as `hardness`
+        what it gives there.
+    rise : float
+        By how much the surface has been raised by what flowed [m]; it is in the separation already.
+    flow : Flow, optional
+        What flowed under larger loads; it is in the separation already.
 
     Raises
     ------
@@ -81,7 +91,10 @@ class ContactProblem:
     tolerance: float = 1e-8
     surface: Body | None = None
     modulus: float = math.nan
-    hardness: float = math.inf
+    hardness: float | Array = math.inf
+    size_law: SizeLaw | None = None
+    rise: float = 0.0
+    flow: Flow | None = None
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -90,10 +103,16 @@ class ContactProblem:
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
             )
         checked_tolerance(self.tolerance)
-        if not scalar(self.hardness, "hardness") > 0:
-            raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
-        if isinstance(self.control, Force) and self.hardness < math.inf:
-            strongest = self.hardness * self.measure.total(self.measured)
+        if isinstance(self.hardness, int | float):
+            if not scalar(self.hardness, "hardness") > 0:
+                raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
+        elif tuple(self.hardness.shape) != self.grid.shape:
+            raise ValueError(
+                f"a hardness is one number [Pa], or one for each cell of the grid {self.grid.shape}, not an array of "
+                f"shape {tuple(self.hardness.shape)}"
+            )
+        if isinstance(self.control, Force) and self.plastic:
+            strongest = self.terms.largest_hardness * bearing_area(self.measure, self.measured, self.terms)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
@@ -101,10 +120,12 @@ class ContactProblem:
                 )
         if not (isinstance(self.control, Depth) and self.semidefinite) or self.missing:
             return  # missing cells never touch and may bulge: contact is never full
-        if self.hardness < math.inf:
+        if self.plastic or self.size_law is not None:
             return  # a plastic body can be pressed to any depth
         mean = self.mean_separation
-        if self.control.value > mean * (1 + ROUNDING):
+        # What flowed is known to the tolerance of the load that made it flow.
+        allowed = ROUNDING if self.flow is None else max(ROUNDING, self.tolerance)
+        if self.control.value > mean * (1 + allowed):
             raise ValueError(
                 f"a depth of {self.control.value:.6g} m exceeds the mean separation {mean:.6g} m: there a periodic "
                 "surface is in full contact and its stiffness infinite; give a smaller depth, or a force"
@@ -141,6 +162,18 @@ class ContactProblem:
         return is_semidefinite(self.operator)
 
     @property
+    def plastic(self) -> bool:
+        """Whether a hardness limits the pressure."""
+        return self.terms.plastic
+
+    @property
+    def first_touch(self) -> float:
+        """Depth at which the bodies touch first [m]: not zero where the surface has flowed."""
+        if self.flow is None:
+            return -self.rise
+        return self.once("first_touch", lambda: float(self.measure.xp.min(self.separation)))
+
+    @property
     def measure(self) -> Measure:
         """Sums over its cells; they carry the array library of its fields."""
         return self.once("measure", lambda: Measure(self.operator.weights, namespace(self.separation)))
@@ -174,6 +207,64 @@ class ContactProblem:
         """
         other = replace(self, control=control)
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
+        return other
+
+    def raised(self, rise: float) -> ContactProblem:
+        """Return the same bodies with the surface raised as a whole; depths count as before.
+
+        Parameters
+        ----------
+        rise : float
+            By how much [m].
+
+        Returns
+        -------
+        ContactProblem
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> problem = rc.press(ball, 1e11, force=0.2, hardness=2e9).problem
+        >>> raised = problem.raised(1e-8)
+        >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
+        '10.0 nm nearer'
+        """
+        return self._moved(self.separation - rise, rise=self.rise + rise)
+
+    def after(self, flow: Flow) -> ContactProblem:
+        """Return the elastic contact of the surface that a load has flattened; depths count as before.
+
+        Parameters
+        ----------
+        flow : Flow
+            What has flowed under the load.
+
+        Returns
+        -------
+        ContactProblem
+            Without a hardness, up to that load.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> pressed = rc.press(ball, 1e11, force=0.2, hardness=2e9)
+        >>> elastic = pressed.problem.after(pressed.flow)
+        >>> elastic.hardness, elastic.surface.provenance[-1][:9]
+        (inf, 'flattened')
+        """
+        surface = None if self.surface is None else flow.flatten(self.surface)
+        separation = self.separation + flow.depth
+        return self._moved(separation, surface=surface, hardness=math.inf, size_law=None, flow=flow)
+
+    def _moved(self, separation: Array, **changes: Any) -> ContactProblem:
+        """Return bodies of which the surface alone has changed: what follows from where they touch is kept."""
+        if is_numpy(separation):
+            separation.flags.writeable = False
+        other = replace(self, separation=separation, **changes)
+        of_surface = ("mean_separation", "first_touch", "separation_at_touch")
+        other._memo.update({name: each for name, each in self._memo.items() if name not in of_surface})
         return other
 
     @property

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, largest, on_host
 from roughcontact.cached import cached_property
+from roughcontact.contact.flow import Flow, flow_of
 from roughcontact.contact.histograms import gap_histogram, pressure_histogram
 from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
@@ -133,9 +134,7 @@ class Solution:
     @one_blas_thread()
     def elastic_energy(self) -> float:
         """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
-        if self.problem.hardness < np.inf or not is_numpy(
-            self.pressure
-        ):  # under a hardness part of the depth is flow
+        if self.problem.plastic or not is_numpy(self.pressure):  # under a hardness part of the depth is flow
             return 0.5 * self._measure.dot(self.pressure, self.displacement)
         cells = self._cells
         work = self.pressure.ravel()[cells] * (self.depth - self.problem.separation.ravel()[cells])
@@ -148,11 +147,39 @@ class Solution:
             return self._frozen
         return frozen_contact(self.problem.operator, elastic_contact(self.pressure, self.problem.hardness))
 
+    @cached_property
+    def plastic(self) -> npt.NDArray[np.bool_]:
+        """Mask of the cells that flow at this load: their pressure is the hardness."""
+        return self.pressure >= self.problem.hardness
+
+    @cached_property
+    def flow(self) -> Flow | None:
+        """What has flowed at this load, or at a larger one before; None without a hardness."""
+        problem = self.problem
+        if problem.flow is not None or not problem.plastic:
+            return problem.flow
+        gap = self.displacement + problem.separation - self.depth
+        return flow_of(gap, self.plastic, problem.hardness, self._measure, problem.rise)
+
+    @cached_property
+    def flattened(self) -> Solution:
+        """The same state as an elastic contact of the surface that has flowed; the same object where none has.
+
+        Its stiffness is that of unloading, to which all cells in contact answer. Its gap is nowhere negative. Its
+        surface, ``flattened.problem.surface``, is the flattened one.
+        """
+        if self.flow is None or self.problem.flow is not None:
+            return self
+        whole = replace(self, problem=self.problem.after(self.flow))
+        # Without a plastic cell all in contact answer already.
+        return replace(whole, _frozen=None) if bool(self._measure.xp.any(self.plastic)) else whole
+
     @property
     def stiffness(self) -> float:
         """Normal contact stiffness dF/dd at fixed contact region [N/m] (thesis, eq. 4.1).
 
-        That of the cells that carry pressure: the slope of the force as the load is reduced.
+        That of the cells that carry pressure: the slope of the force as the load is reduced. Under a hardness the slope
+        as the load grows, to which cells at the hardness do not answer; as it is reduced, that of `flattened`.
         """
         return self.frozen.stiffness
 
@@ -224,7 +251,12 @@ class Solution:
         if isinstance(surface, Surface):
             surface = replace(surface, heights=on_host(surface.heights))
         frozen = self._frozen and replace(self._frozen, tangent=on_host(self._frozen.tangent))
-        bodies = replace(problem, separation=on_host(problem.separation), surface=surface)
+        hardness = (
+            problem.hardness if isinstance(problem.hardness, int | float) else on_host(problem.hardness)
+        )
+        flow = problem.flow and problem.flow.on_host()
+        separation = on_host(problem.separation)
+        bodies = replace(problem, separation=separation, surface=surface, hardness=hardness, flow=flow)
         return replace(self, problem=bodies, pressure=on_host(self.pressure), _frozen=frozen)
 
     @property
@@ -264,10 +296,10 @@ class Solution:
 
     @property
     def _size_and_cell(self) -> tuple[float, float]:
-        """What tells a contact from a cell: its stiffness; on a line, where that hardly grows, its width."""
+        """What tells a contact from a cell: the stiffness of all of it; on a line its width, for that hardly grows."""
         if self.problem.geometry is Geometry.LINE:
             return self.contact_area, self.problem.grid.spacing[0]
-        return self.stiffness, cell_stiffness(self.problem.operator)
+        return self.flattened.stiffness, cell_stiffness(self.problem.operator)
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""
@@ -276,6 +308,9 @@ class Solution:
             f"Solution({self.status.value}, force {self.force:.4g} {unit}, depth {self.depth:.4g} m, "
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
+
+    pressure_histogram = pressure_histogram
+    gap_histogram = gap_histogram
 
     def to_dataset(self) -> xarray.Dataset:
         """Return fields and numbers as an `xarray.Dataset` with units and long names.
@@ -301,8 +336,6 @@ class Solution:
 
         return solution_record(self.on_host())
 
-    pressure_histogram = pressure_histogram
-    gap_histogram = gap_histogram
     plot = plot_solution
     _repr_html_ = solution_html
 
@@ -328,7 +361,7 @@ class Solution:
         their separation, and missing cells by any amount.
         """
         if capabilities(self.problem.operator).positive:
-            return self.depth
+            return self.depth - self.problem.first_touch
         return max(self.depth, float(self._measure.xp.max(self.problem.separation)))
 
     def _mean_opening(self, opening: Array) -> float:

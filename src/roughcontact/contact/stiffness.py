@@ -50,7 +50,7 @@ class FrozenContact:
     tangent: Array
 
 
-def elastic_contact(pressure: Array, hardness: float) -> Mask:
+def elastic_contact(pressure: Array, hardness: float | Array) -> Mask:
     """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
     return (pressure > 0) & (pressure < hardness)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.curve import Curve
+from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES
+from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
 from roughcontact.solver.control import Status
 
 __all__ = ["read_curve"]
@@ -62,11 +63,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
 
 
 def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> Curve:
-    missing = [
-        name for name in (*_ARRAYS, *CURVE_SCALES, *_SIZES, "spots", "status") if name not in variables
-    ]
-    if missing or variables["force"].dimensions != ("load",):
-        raise ContentError(f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
+    _require(variables, (*_ARRAYS, *CURVE_SCALES, *_SIZES, "spots", "status"))
     kind = _word(attributes.get("geometry", ""))
     if kind not in {geometry.value for geometry in Geometry}:
         raise ContentError(f"its geometry is {kind!r}", _REMEDY)
@@ -76,6 +73,10 @@ def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any
     values |= {name: float(_numbers(variables, name, ())) for name in CURVE_SCALES}
     sizes = {name: _numbers(variables, name, axes).tolist() for name in _SIZES}
     hardness = float(_numbers(variables, "hardness", ())) if "hardness" in variables else math.inf
+    flow = None
+    if FLOW_POINTS[0] in variables:
+        _require(variables, FLOW_POINTS)
+        flow = FlowCurve(*(_numbers(variables, name, shape) for name in FLOW_POINTS))
     return Curve(
         **values,
         spots=_numbers(variables, "spots", shape).astype(np.intp),
@@ -85,7 +86,14 @@ def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any
         periodic=tuple(bool(value) for value in sizes["periodic"]),
         geometry=geometry,
         hardness=hardness,
+        flow=flow,
     )
+
+
+def _require(variables: Mapping[str, StoredVariable], names: Iterable[str]) -> None:
+    missing = [name for name in names if name not in variables]
+    if missing or variables["force"].dimensions != ("load",):
+        raise ContentError(f"it holds no loading curve: no {', '.join(missing or ['loads'])}", _REMEDY)
 
 
 def _numbers(

@@ -17,6 +17,7 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.interface_text import abaqus_text, lammps_text
+from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes
@@ -36,7 +37,7 @@ __all__ = ["require_surface_file", "write"]
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
-Writable = Surface | Solution | TangentialSolution | Curve | SlipCurve | InterfaceTable
+Writable = Surface | Solution | TangentialSolution | Curve | Loop | SlipCurve | InterfaceTable
 
 
 def write(what: Writable, path: str | os.PathLike[str]) -> None:
@@ -44,9 +45,9 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
     ==========  ==================================================================================================
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
-    ``.nc``     a surface, a solution or a curve, NetCDF-4; the surface in it is read back to the last bit, a loading
-                curve by `read_curve`
-    ``.csv``    a curve, or the table of an interface: one line a load
+    ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
+                loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`
+    ``.csv``    a curve, a loop, or the table of an interface: one line a load
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
                 history, for which the format has no place
     ``.txt``    a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
@@ -59,7 +60,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    what : Surface, Solution, TangentialSolution, Curve, SlipCurve or InterfaceTable
+    what : Surface, Solution, TangentialSolution, Curve, Loop, SlipCurve or InterfaceTable
         What is written.
     path : str or path
         File to write; one that is there is replaced.
@@ -77,7 +78,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    if isinstance(what, Curve | SlipCurve):
+    if isinstance(what, Curve | SlipCurve | Loop):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return

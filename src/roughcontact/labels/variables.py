@@ -12,7 +12,7 @@ from types import MappingProxyType
 from roughcontact.halfspace.operators.geometry import Geometry
 
 __all__ = [
-    *("CONDUCTION", "CONDUCTION_PER_AREA", "CURVE_POINTS", "CURVE_SCALES"),
+    *("CONDUCTION", "CONDUCTION_PER_AREA", "CURVE_POINTS", "CURVE_SCALES", "FLOW_POINTS"),
     *("VARIABLES", "Variable", "unit_of"),
 ]
 
@@ -20,6 +20,11 @@ __all__ = [
 CURVE_POINTS = (
     *("force", "depth", "stiffness", "interfacial_stiffness"),
     *("contact_area", "mean_gap", "elastic_energy"),
+)
+# What it takes over besides where a hardness limits the pressure.
+FLOW_POINTS = (
+    *("plastic_area", "flow_volume", "flow_energy"),
+    *("unloading_stiffness", "unloading_interfacial_stiffness"),
 )
 # What it conducts, as a patch and over its nominal area.
 CONDUCTION = ("electrical_conductance", "electrical_resistance", "thermal_conductance", "thermal_resistance")
@@ -78,6 +83,24 @@ _VARIABLES = {
     "spots": Variable("1", "number of connected contact spots", "contact spots"),
     "dimensionless_force": Variable("1", "force over modulus, length and rms height", "force / (E* L h)"),
     "dimensionless_stiffness": Variable("1", "stiffness over modulus and length", "stiffness / (E* L)"),
+    # plastic flow
+    "plastic_area": Variable("m2", "area of the cells whose pressure is the hardness"),
+    "flow_depth": Variable("m", "depth by which the surface has flowed", "depth of flow"),
+    "flow_volume": Variable("m3", "volume that has flowed", "volume of flow"),
+    "flow_energy": Variable("J", "work of the pressure upon the cells that flow", "energy of flow"),
+    "flow_rise": Variable("m", "rise of the whole surface by what has flowed", "rise"),
+    "unloading_stiffness": Variable(
+        "N m-1", "normal stiffness dF/dd as the load is reduced, contact region held fixed"
+    ),
+    "unloading_interfacial_stiffness": Variable(
+        "N m-1", "normal stiffness against the mean gap as the load is reduced, contact region held fixed"
+    ),
+    "flattened_heights": Variable("m", "height of the surface after flow, positive toward the other body"),
+    "residual_depth": Variable("m", "approach at which the flattened surface is touched without force"),
+    "residual_gap": Variable("m", "mean gap of the flattened surface that is touched without force"),
+    "branch": Variable("", "branch of the loop: first loading, unloading or reloading"),
+    "work": Variable("J", "work of first loading up to the largest load"),
+    "dissipated_work": Variable("J", "work of loading that unloading does not give back"),
     # tangential loading
     "tangential_force": Variable("N", "tangential force that body 2 exerts upon body 1"),
     "tangential_displacement": Variable(
@@ -151,9 +174,9 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
 )
 
 # On a line all that adds up over the contact is per unit length.
-_ON_A_LINE = {"N": "N m-1", "N m-1": "N m-2", "m2": "m", "J": "J m-1"}
+_ON_A_LINE = {"N": "N m-1", "N m-1": "N m-2", "m2": "m", "m3": "m2", "J": "J m-1"}
 # Springs feel a force per length, and touch over a length; their modulus stays a pressure.
-_ON_SPRINGS = {"Pa": "N m-1", "m2": "m", "Pa m-1": "N m-2"}
+_ON_SPRINGS = {"Pa": "N m-1", "m2": "m", "m3": "m2", "Pa m-1": "N m-2"}
 
 
 def unit_of(name: str, geometry: Geometry = Geometry.SURFACE) -> str:

@@ -35,6 +35,13 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.plot.engineering_units import Scale as Scale
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
+    from roughcontact.plot.loops import (
+        bearing_curves as bearing_curves,
+        depth_loop as depth_loop,
+        flattened_figure as flattened_figure,
+        loop_figure as loop_figure,
+        stiffness_loop as stiffness_loop,
+    )
     from roughcontact.plot.maps import (
         contact_map as contact_map,
         height_map as height_map,

@@ -15,13 +15,14 @@ from roughcontact.solver.control import Status
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
     from roughcontact.surface.surface import Surface
 
 __all__ = [
     *("AREAL_COLUMNS", "CURVE_COLUMNS"),
-    *("load_table", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
+    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
@@ -49,6 +50,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     problem, kind = solution.problem, solution.problem.geometry
     pressure = solution.force / problem.grid.area
     met = "met" if solution.status.converged else "MISSED"
+    flowed = solution.flow is not None and solution.flow.volume > 0
     return [
         ("surface", size_of(problem.grid)),
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
@@ -58,6 +60,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("depth", quantity("depth", solution.depth, kind)),
         ("stiffness", quantity("stiffness", solution.stiffness, kind)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
+        *(_flow_facts(solution) if flowed else ()),
         ("contact area", quantity("contact_area", solution.contact_area, kind)),
         ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
@@ -65,6 +68,52 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
+
+
+def _flow_facts(solution: Solution) -> list[tuple[str, str]]:
+    """Return what there is to tell of a state that has flowed."""
+    flow, flattened, kind = solution.flow, solution.flattened, solution.problem.geometry
+    assert flow is not None
+    most = float(solution.problem.measure.xp.max(flow.depth))
+    part = solution.problem.measure.total(solution.plastic) / (solution.contact_area or 1.0)
+    words = f"{quantity('flow_volume', flow.volume, kind)}, up to {quantity('flow_depth', most)} deep"
+    facts = [
+        ("volume of flow", words),
+        ("residual depth", quantity("residual_depth", flattened.problem.first_touch)),
+    ]
+    if solution.problem.flow is not None:  # unloaded: nothing flows
+        return facts
+    stiffness = [
+        (words, quantity(name, getattr(flattened, name), kind))
+        for words, name in (
+            ("stiffness on unloading", "stiffness"),
+            ("interfacial one on unloading", "interfacial_stiffness"),
+        )
+    ]
+    return [*stiffness, ("plastic part of the contact", f"{part:.2%}"), *facts]
+
+
+def loop_facts(loop: Loop) -> list[tuple[str, str]]:
+    """Return what a loop of loads is worth telling, line by line."""
+    kind, loading, unloading = loop.loading.geometry, loop.loading, loop.unloading
+    dissipated, work = loop.dissipated_work, loop.work
+    facts = [
+        (
+            "loads",
+            f"{len(loading)} up to {quantity('force', float(loading.force[-1]), kind)}, down and up again",
+        ),
+        ("largest depth", quantity("depth", float(loading.depth[-1]))),
+        ("residual depth", quantity("residual_depth", loop.residual_depth)),
+        ("stiffness on first loading", quantity("stiffness", float(loading.stiffness[-1]), kind)),
+        ("stiffness on unloading", quantity("stiffness", float(unloading.stiffness[0]), kind)),
+        ("volume of flow", quantity("flow_volume", loop.flow.volume, kind)),
+        ("work of first loading", quantity("work", work, kind)),
+        ("dissipated work", f"{quantity('dissipated_work', dissipated, kind)} ({dissipated / work:.2%})"),
+    ]
+    if loading.flow is not None:
+        part = loading.flow.plastic_area[-1] / loading.contact_area[-1]
+        facts.append(("plastic part of the contact", f"{part:.2%} at the largest load"))
+    return facts
 
 
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:

@@ -13,12 +13,14 @@ from matplotlib.figure import Figure
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
+from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
-from roughcontact.pictures import plot_curve, plot_solution, plot_surface
+from roughcontact.pictures import plot_curve, plot_loop, plot_solution, plot_surface
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
     load_table,
+    loop_facts,
     quantity,
     solution_facts,
     surface_facts,
@@ -26,7 +28,7 @@ from roughcontact.plot.facts import (
 )
 from roughcontact.surface.surface import Surface
 
-__all__ = ["of_curve", "of_solution", "of_surface"]
+__all__ = ["of_curve", "of_loop", "of_solution", "of_surface"]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
 _SIZE, _DPI = (4.6, 3.4), 96
@@ -70,6 +72,13 @@ def of_curve(curve: Curve) -> str:
     head = f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in header)}</tr>"
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
     return _page("Curve", facts, figure) + f"<table>{head}{body}</table>"
+
+
+def of_loop(loop: Loop) -> str:
+    """Return the numbers of a loop of loads beside force against depth."""
+    figure, axes = _figure()
+    plot_loop(loop, axes)
+    return _page("Loop", loop_facts(loop), figure)
 
 
 def _figure() -> tuple[Figure, Axes]:

@@ -99,7 +99,7 @@ class ActiveSet:
         >>> state.status.converged, f"{state.depth * 1e9:.0f} nm"
         (True, '175 nm')
         """
-        if terms.hardness < math.inf:
+        if terms.plastic:
             return self._run_plastic(operator, separation, terms, initial)
         conditions = Optimality.of(operator, terms, namespace(separation))
         p = feasible_start(  # A1
@@ -121,11 +121,12 @@ class ActiveSet:
         control = elastic_control(operator, separation, terms.control, xp)
         unlimited = replace(terms, control=control, hardness=math.inf)
         elastic = self.run(operator, separation, unlimited, initial)
-        if control == terms.control and float(xp.max(elastic.pressure)) <= terms.hardness:
+        if control == terms.control and bool(xp.all(elastic.pressure <= terms.hardness)):
             return elastic
         excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
         start, steps = project(measure, elastic.pressure, separation, terms), elastic.steps
-        if measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
+        alike = isinstance(terms.hardness, int | float)  # the inner solves know one upper bound for all cells
+        if alike and measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
             state = self._iterate(operator, separation, conditions, start)
             if state.status.converged:
                 return replace(state, steps=steps + state.steps)
@@ -139,7 +140,7 @@ class ActiveSet:
         tolerance, hardness = terms.tolerance, terms.hardness
         singular = is_semidefinite(operator)  # with every cell in contact, that is
         # Factorisations are made on the host, and know no hardness.
-        dense_limit = self.dense_limit if measure.on_host and hardness == math.inf else 0
+        dense_limit = self.dense_limit if measure.on_host and not terms.plastic else 0
         (u, exact), steps = first_product(operator, p), 1  # A2
         tangent: Tangent | None = None
         inner: InnerOperator | None = None
@@ -168,7 +169,7 @@ class ActiveSet:
                 count = int(np.count_nonzero(free))
             first, size = False, math.prod(free.shape)
             # With all cells at the hardness no free one determines the depth.
-            if not count and hardness < math.inf and bool(xp.any(p >= hardness)):
+            if not count and terms.plastic and bool(xp.any(p >= hardness)):
                 return State(p, d, residual, steps, Status.STAGNATED)
             if not count:  # too shallow a depth for this grid
                 p, u = xp.zeros_like(p), xp.zeros_like(p)
@@ -200,7 +201,7 @@ class ActiveSet:
                     max_steps=self.max_steps - steps,
                 )
                 tangent, steps = None, steps + done + 1
-                if hardness < math.inf:
+                if terms.plastic:
                     p = project(measure, p, u + separation, terms)
             del u, iterate
             u, exact = operator.apply(p), True  # A10

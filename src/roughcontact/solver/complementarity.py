@@ -125,7 +125,7 @@ def _weak(operator: Operator, separation: Array, state: State, known: float, xp:
     p, u, own = state.pressure, _displacement(operator, state), _own(operator, state.pressure)
     iterate = Iterate(p, u, separation)
     seen = state.extremes
-    if seen is None and iterate.fits_machine_code(math.inf):
+    if seen is None and iterate.fits_machine_code():
         seen = planes.extremes(*iterate)
     if (  # nearly always there is no such cell
         isinstance(own, float)
@@ -158,7 +158,7 @@ def _floored(
     if not bool(xp.any(weak)):
         return state
     p = xp.where(weak, 0.0, p)
-    if isinstance(terms.control, Force) and terms.hardness == math.inf:
+    if isinstance(terms.control, Force) and not terms.plastic:
         p *= terms.control.value / measure.total(p)
     iterate = Iterate(p, operator.apply(p), separation)
     depth, residual, *_ = conditions.evaluate(iterate)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from roughcontact.arrays import largest
 from roughcontact.validation import Array, scalar
 
 if TYPE_CHECKING:
@@ -87,18 +88,28 @@ class Terms:
         What is prescribed.
     tolerance : float
         Largest residual of a solution, see ``roughcontact.solver.optimality``.
-    hardness : float
+    hardness : float or array, shape of the cells
         Pressure that no cell exceeds [Pa]; a cell that reaches it is perfectly plastic.
     """
 
     control: Control
     tolerance: float = 1e-8
-    hardness: float = math.inf
+    hardness: float | Array = math.inf
 
     @property
     def depth(self) -> float | None:
         """The prescribed depth [m]; None under a prescribed force."""
         return None if isinstance(self.control, Force) else self.control.value
+
+    @property
+    def plastic(self) -> bool:
+        """Whether any pressure reaches a limit."""
+        return not isinstance(self.hardness, int | float) or self.hardness < math.inf
+
+    @property
+    def largest_hardness(self) -> float:
+        """The hardness of the hardest cell [Pa]."""
+        return self.hardness if isinstance(self.hardness, int | float) else largest(self.hardness)
 
 
 def checked_tolerance(tolerance: Any) -> float:
@@ -131,6 +142,7 @@ class Status(Enum):
     NO_CONTACT = "no contact"
     MAX_STEPS = "step limit"
     STAGNATED = "stagnated"
+    UNSETTLED = "unsettled"
 
     @property
     def converged(self) -> bool:
@@ -150,6 +162,10 @@ _MESSAGES = {
     Status.STAGNATED: (
         "The residual stopped falling above the tolerance. Often rounding allows no more: ask for a larger "
         "tolerance, or take a large offset out of the heights before they are stored; else try another solver."
+    ),
+    Status.UNSETTLED: (
+        "The hardness of the spots and the spots under that hardness did not settle on each other; take a hardness "
+        "that falls as spots grow, or change the load a little."
     ),
 }
 

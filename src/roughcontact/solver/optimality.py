@@ -46,9 +46,9 @@ class Iterate(NamedTuple):
     displacement: Array
     separation: Array
 
-    def fits_machine_code(self, hardness: float) -> bool:
+    def fits_machine_code(self, plastic: bool = False) -> bool:
         """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
-        if hardness < math.inf or not loader.takes(self.pressure):
+        if plastic or not loader.takes(self.pressure):
             return False
         wanted = np.dtype(np.float64), self.pressure.shape, True
         return all(
@@ -124,7 +124,7 @@ class Optimality:
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
         terms, measure = self.terms, self.measure
-        if not measure.varies and iterate.fits_machine_code(terms.hardness):
+        if not measure.varies and iterate.fits_machine_code(terms.plastic):
             return self._evaluate_in_one_pass(iterate)
         pressure, displacement, separation = iterate
         gap = displacement + separation
@@ -144,10 +144,11 @@ class Optimality:
         xp, hardness = self.measure.xp, self.terms.hardness
         # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
         strongest = float(xp.max(pressure))
-        if not (float(xp.min(pressure)) >= 0 and strongest <= hardness and strongest < math.inf):
+        limited = bool(xp.all(pressure <= hardness))
+        if not (float(xp.min(pressure)) >= 0 and limited and strongest < math.inf):
             return math.inf
         open_under_pressure = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
-        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if hardness < math.inf else gap))
+        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.terms.plastic else gap))
         scale = largest(displacement) if math.prod(displacement.shape) else 0.0
         return self.relative(max(-lowest, open_under_pressure), scale, strongest)
 
@@ -175,13 +176,13 @@ class Optimality:
         """
         (pressure, displacement, separation), terms = iterate, self.terms
         own = self.self_influence if projected else math.inf
-        if iterate.fits_machine_code(terms.hardness):
+        if iterate.fits_machine_code(terms.plastic):
             free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=own)
             return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
         xp, carrying = self.measure.xp, pressure > 0
         gap = displacement + separation - depth
         free, dropped = carrying | (gap < -allowed), 0
-        if terms.hardness < math.inf:
+        if terms.plastic:
             upper = pressure >= terms.hardness
             free = (free & ~upper) | (upper & (gap > allowed))
         if projected:

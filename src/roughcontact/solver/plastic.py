@@ -11,6 +11,7 @@ from roughcontact.solver.control import Depth, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
+from roughcontact.solver.projection import bearing_area
 from roughcontact.validation import Array
 
 __all__ = ["press_plastic"]
@@ -44,8 +45,8 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         return measure.total(pressure) / force - 1
 
     # At least what the hardness does to a single cell: a flat body bears at depth zero, which cannot be doubled.
-    bearing, own = _bearing_depth(measure, separation, force / terms.hardness), conditions.self_influence
-    low, high = 0.0, max(bearing, own * terms.hardness)
+    bearing, own = _bearing_depth(measure, separation, terms, force), conditions.self_influence
+    low, high = 0.0, max(bearing, own * terms.largest_hardness)
     below, above = -1.0, excess(high)
     for _ in range(tuning.DEPTH_TRIALS):
         if above >= 0:
@@ -68,13 +69,13 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
     return pressure, steps
 
 
-def _bearing_depth(measure: Measure, separation: Array, area: float) -> float:
-    """Return the depth at which the undeformed surface would bear on an area [m]."""
-    xp = measure.xp
+def _bearing_depth(measure: Measure, separation: Array, terms: Terms, force: float) -> float:
+    """Return the depth at which the undeformed surface would bear a force at its hardness [m]."""
+    xp, area = measure.xp, force / terms.largest_hardness
     low, high = 0.0, float(xp.max(xp.where(xp.isfinite(separation), separation, 0.0)))
     for _ in range(60):  # by bisection: cells are many, bisections are few
         middle = (low + high) / 2
-        if measure.total(separation <= middle) < area:
+        if bearing_area(measure, separation <= middle, terms) < area:
             low = middle
         else:
             high = middle

@@ -83,7 +83,7 @@ class PolonskyKeer:
         optimality = Optimality.of(operator, terms, xp)
         measure = optimality.measure
         self_influence, hardness, given = optimality.self_influence, terms.hardness, terms.depth
-        if hardness == np.inf:
+        if not terms.plastic:
             p = feasible_start(measure, separation, terms.control, initial, self_influence)
         else:  # projected, not scaled: cells at the hardness stay there
             p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
@@ -103,7 +103,7 @@ class PolonskyKeer:
                 g -= shift
                 d += shift
             elif singular and bool(xp.all(free)):
-                p = _to_bound(p, hardness, float(xp.mean(g)), xp)
+                p = _to_bound(p, terms, float(xp.mean(g)), xp)
                 free = (p > 0) & (p < hardness)
             r = optimality.residual(p, u, g)
             idle = 0 if r < best else idle + 1
@@ -144,13 +144,17 @@ class PolonskyKeer:
                 p = project(measure, p, g, terms)
 
 
-def _to_bound(pressure: Array, hardness: float, gap: float, xp: Any) -> Array:
+def _to_bound(pressure: Array, terms: Terms, gap: float, xp: Any) -> Array:
     """Return a pressure off its bounds, with a constant added that takes one cell to zero or to the hardness.
 
     At a given depth a periodic body in full contact has no equilibrium between the bounds: its mean `gap` is what the
     depth leaves, whatever the pressure, and a constant pressure moves nothing.
     """
-    if gap > 0 or hardness == np.inf:
+    if gap > 0 or not terms.plastic:
         return pressure - xp.min(pressure)  # type: ignore[no-any-return]
-    strongest = xp.max(pressure)
-    return xp.where(pressure == strongest, hardness, pressure + (hardness - strongest))  # type: ignore[no-any-return]
+    most = terms.largest_hardness
+    level = pressure - (
+        terms.hardness - most
+    )  # of all cells as far below the largest hardness as below their own
+    nearest = xp.max(level)
+    return xp.where(level == nearest, terms.hardness, pressure + (most - nearest))  # type: ignore[no-any-return]

@@ -14,7 +14,7 @@ from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
-__all__ = ["elastic_control", "feasible_start", "force_multiplier", "project"]
+__all__ = ["bearing_area", "elastic_control", "feasible_start", "force_multiplier", "project"]
 
 
 PASSES = 50  # in which a force is redistributed; what is left then is left to the next iteration
@@ -71,7 +71,7 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
     if not isinstance(terms.control, Force):
         return xp.clip(pressure, 0.0, hardness)  # type: ignore[no-any-return]
     force = terms.control.value
-    if hardness == np.inf:
+    if not terms.plastic:
         return _project_onto_simplex(measure, pressure, force)
     pressure = xp.clip(pressure, 0.0, hardness)
     # The missing force is distributed over the cells between the bounds. Each pass takes at least one cell to a bound,
@@ -82,20 +82,27 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
             break
         free = (pressure > 0) & (pressure < hardness)
         if not bool(xp.any(free)):  # all at their bounds: the next cells to touch take it, or all give some
-            free = _nearest(measure, gap, pressure, missing / hardness) if missing > 0 else pressure > 0
+            free = _nearest(measure, gap, pressure, terms, missing) if missing > 0 else pressure > 0
         pressure = xp.where(free, xp.clip(pressure + missing / measure.total(free), 0.0, hardness), pressure)
     return pressure
 
 
-def _nearest(measure: Measure, gap: Array, pressure: Array, area: float) -> Mask:
-    """Return the cells without pressure of the smallest gap, as many as have twice the `area`."""
-    xp = measure.xp
+def bearing_area(measure: Measure, cells: Mask, terms: Terms) -> float:
+    """Return the area of cells, each counted by its hardness over the largest one [m^2]."""
+    if isinstance(terms.hardness, int | float):
+        return measure.total(cells)
+    return measure.total(measure.xp.where(cells, terms.hardness / terms.largest_hardness, 0.0))
+
+
+def _nearest(measure: Measure, gap: Array, pressure: Array, terms: Terms, force: float) -> Mask:
+    """Return the cells without pressure of the smallest gap, as many as bear twice a `force` at the hardness."""
+    xp, area = measure.xp, force / terms.largest_hardness
     free = (pressure == 0) & xp.isfinite(gap)
     # The gap up to which the cells are enough, by bisection: cells are many, bisections are few.
     low, high = float(xp.min(xp.where(free, gap, np.inf))), float(xp.max(xp.where(free, gap, -np.inf)))
     for _ in range(60):
         middle = (low + high) / 2
-        if measure.total(free & (gap <= middle)) < 2 * area:
+        if bearing_area(measure, free & (gap <= middle), terms) < 2 * area:
             low = middle
         else:
             high = middle

@@ -21,7 +21,7 @@ from roughcontact.solver.control import Solver, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict"]
+__all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict", "restrict_hardness"]
 
 Box = tuple[slice, ...]
 Subdomain = Box | npt.NDArray[np.intp]
@@ -91,14 +91,15 @@ class SubdomainSolver:
         candidates = (separation < depth) | (pressure > 0)
         if not candidates.any():
             candidates = separation == separation.min()
-        if terms.hardness < math.inf and terms.depth is None:
+        if terms.plastic and terms.depth is None:
             candidates |= _bearing_cells(Measure(self.operator.weights), separation, terms)
         steps = 0
         while True:
             subdomain = self._subdomain(candidates)
             part = self.operator_on(subdomain)
+            limits = replace(terms, hardness=restrict_hardness(terms.hardness, subdomain))
             state = resolve_contact(
-                solver, part, restrict(separation, subdomain), terms, restrict(pressure, subdomain)
+                solver, part, restrict(separation, subdomain), limits, restrict(pressure, subdomain)
             )
             steps += state.steps
             overlap = separation < state.depth
@@ -168,11 +169,18 @@ class SubdomainSolver:
         return few and bool(len(Tiles.of(candidates)) * count / 4 < padded)
 
 
+def restrict_hardness(hardness: float | Array, subdomain: Subdomain) -> float | Array:
+    """Return the hardness [Pa] on a subdomain: one number, or one for each of its cells."""
+    return hardness if isinstance(hardness, int | float) else restrict(hardness, subdomain)
+
+
 def _bearing_cells(measure: Measure, separation: Array, terms: Terms) -> Mask:
     """Return the lowest cells that could carry twice the force under the hardness: a subdomain needs as many."""
     order = np.argsort(separation, axis=None, kind="stable")
-    area = np.cumsum(measure.on(order))
-    count = int(np.searchsorted(area, 2 * terms.control.value / terms.hardness)) + 1
+    area = measure.on(order)
+    if not isinstance(terms.hardness, int | float):  # softer cells bear as smaller ones would
+        area = area * (terms.hardness.ravel()[order] / terms.largest_hardness)
+    count = int(np.searchsorted(np.cumsum(area), 2 * terms.control.value / terms.largest_hardness)) + 1
     bearing = np.zeros(separation.size, dtype=bool)
     bearing[order[:count]] = True
     return (bearing & np.isfinite(separation).ravel()).reshape(separation.shape)

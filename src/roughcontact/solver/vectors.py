@@ -244,7 +244,7 @@ def scaled_vectors(
         Largest residual on F [m]: with it single precision holds all numbers. Pressures are in the unit too [Pa].
     """
     start, displacement, separation = iterate
-    bound = terms.hardness
+    bound = terms.largest_hardness  # that of all cells: others are solved by projection
     if _has_machine_code(separation, measure, bound):
         area = float(measure.weights)
         return CompiledVectors.scaled(inner, area, free, iterate, depth=terms.depth, otherwise=otherwise)

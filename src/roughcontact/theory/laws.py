@@ -11,13 +11,17 @@ from typing import TypedDict, Unpack
 
 from roughcontact.theory import (
     bush_gibson_thomas,
+    chang_etsion_bogy,
     finite_size,
     greenwood_williamson,
     hertz,
     interaction,
     joint,
+    kogut_etsion,
     persson,
+    persson_plastic,
     pohrt_popov,
+    pullen_williamson,
     rough_sphere,
 )
 from roughcontact.theory.law import LoadingLaw
@@ -141,6 +145,7 @@ def _finite_size(
 
 
 _NOMINALLY_FLAT = ("moments", "modulus", "area")
+_WITH_HARDNESS = ("moments", "hardness", "modulus", "area")
 
 LAWS: Mapping[str, NamedLaw] = MappingProxyType(
     {
@@ -175,8 +180,28 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
         "mikic": NamedLaw("elastic spots of a nominally flat joint (Mikic)", _NOMINALLY_FLAT, joint.mikic),
         "cmy": NamedLaw(
             "spots of a nominally flat joint that flow (Cooper, Mikic and Yovanovich)",
-            ("moments", "hardness", "modulus", "area"),
+            _WITH_HARDNESS,
             joint.cooper_mikic_yovanovich,
+        ),
+        "ceb": NamedLaw(
+            "asperities that keep their volume as they yield (Chang, Etsion and Bogy)",
+            _WITH_HARDNESS,
+            chang_etsion_bogy.law,
+        ),
+        "kogut-etsion": NamedLaw(
+            "asperities from first yield to full plasticity (Kogut and Etsion)",
+            _WITH_HARDNESS,
+            kogut_etsion.law,
+        ),
+        "persson-plastic": NamedLaw(
+            "elastic and plastic parts of the area (Persson)",
+            ("spectrum", "hardness", "modulus", "area"),
+            persson_plastic.law,
+        ),
+        "pullen-williamson": NamedLaw(
+            "plastic contact under large loads (Pullen and Williamson)",
+            ("hardness", "area"),
+            pullen_williamson.law,
         ),
         "power-law": NamedLaw(
             "self-affine up to its own size (Pohrt and Popov)",

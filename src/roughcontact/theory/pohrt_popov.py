@@ -1,4 +1,4 @@
-"""The power law of Pohrt and Popov: the stiffness of a self-affine surface without cut-off (thesis, eq. 4.74).
+"""The power law of Pohrt and Popov: the stiffness of a self-affine surface without cut-off (thesis, eq. 5.5).
 
 k/(E* L) = zeta (F/(E* h L))^alpha with alpha = 1/(H+1) and zeta = 1.7/(H+1). The exponent has a derivation, the
 prefactor is a fit to boundary-element results.
@@ -99,7 +99,7 @@ def prefactor(hurst: ArrayLike) -> Array:
 def stiffness(
     force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> Array:
-    """Return the contact stiffness of a self-affine surface [N/m] (thesis, eqs 4.53 and 4.74).
+    """Return the contact stiffness of a self-affine surface [N/m] (thesis, eqs 4.53 and 5.5).
 
     Parameters
     ----------

@@ -9,11 +9,11 @@ from roughcontact.validation import Array
 
 __all__ = ["cells_stiffness", "exponential_rate", "single_cell_stiffness"]
 
-_DEEPEST = 20.0  # over h; far beyond what eq. 4.74 is about
+_DEEPEST = 20.0  # over h; far beyond what eq. 5.5 is about
 
 
 def cells_stiffness(below: Array, length: float, force: Array, hurst: float) -> Array:
-    """Return the stiffness k/(E* L) of cells that do not feel each other, each under eq. 4.74 from its top on.
+    """Return the stiffness k/(E* L) of cells that do not feel each other, each under eq. 5.5 from its top on.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def cells_stiffness(below: Array, length: float, force: Array, hurst: float) -> 
 
 
 def single_cell_stiffness(length: Array | float, force: Array, hurst: float) -> Array:
-    """Return the stiffness k/(E* L) of one cell of side `length` L that carries a whole force F/(E* h L) (eq. 4.74)."""
+    """Return the stiffness k/(E* L) of one cell of side `length` L that carries a whole force F/(E* h L) (eq. 5.5)."""
     zeta, alpha = float(pohrt_popov.prefactor(hurst)), float(pohrt_popov.exponent(hurst))
     return np.asarray(length * zeta * (force / length) ** alpha)
 

@@ -16,18 +16,22 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from roughcontact.plot.ticks import LABEL, TICK, readable_ticks
+from roughcontact.plot.ticks import readable_ticks
 
 __all__ = [
     "COLOURS",
+    "COLUMN",
     "EXPONENT",
     "FORCE",
+    "LABEL",
     "LAW",
     "LINES",
     "LOG",
+    "PAGE",
     "STIFFNESS",
     "STYLE",
     "SURFACES",
+    "TICK",
     "arrow",
     "band",
     "both_methods",
@@ -40,16 +44,21 @@ __all__ = [
     "hurst_colours",
     "key",
     "label",
+    "legend_below",
     "lines_words",
     "named_ticks",
     "panels",
     "readable",
+    "scale_bar",
     "stiffness_axes",
     "with_errors",
     "with_intervals",
 ]
 
 Place = tuple[float, float]
+
+COLUMN, PAGE = 3.5, 7.2  # inches: widths of a column and of a page of a journal
+LABEL, TICK = 8, 7  # sizes of text there [points]
 
 STYLE: Any = {
     "axes.labelsize": LABEL,
@@ -59,11 +68,13 @@ STYLE: Any = {
     "legend.fontsize": TICK,
     "legend.frameon": False,
     "legend.title_fontsize": TICK,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4.0,
+    "legend.handlelength": 1.8,
+    "lines.linewidth": 1.1,
+    "lines.markersize": 3.5,
+    "axes.linewidth": 0.7,
 }
 """Settings of matplotlib under which every figure is drawn."""
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b0508a", "#a67500")  # none too pale for print
 LINES, SURFACES, LAW = "#c8290b", "black", "#0072b2"  # of both methods, and of what the thesis says
 LOG: dict[str, Any] = {"xscale": "log", "yscale": "log"}
 FORCE = r"force $F\,/\,(E^* h L)$"
@@ -90,6 +101,20 @@ def frameless(axes: Axes, **given: Any) -> None:
     """Take the frame off a map drawn to scale; further keywords are those of `Axes.set`."""
     axes.set(xticks=[], yticks=[], aspect="equal", **given)
     axes.spines[:].set_visible(False)
+
+
+def legend_below(axes: Axes, columns: int = 2, **given: Any) -> None:
+    """Put the legend below the axes, where it covers nothing; further keywords are those of `Figure.legend`."""
+    figure: Any = axes.figure
+    handles, words = axes.get_legend_handles_labels()
+    figure.legend(handles, words, loc="outside lower center", ncols=columns, **given)
+
+
+def scale_bar(axes: Axes, start: Place, length: float, words: str) -> None:
+    """Draw a bar of a length from its left end on a map, with what it is beneath."""
+    axes.plot([start[0], start[0] + length], [start[1]] * 2, color="black", linewidth=1.4, clip_on=False)
+    place: Any = (start[0] + length / 2, start[1])
+    axes.annotate(words, place, (0, -2), textcoords="offset points", ha="center", va="top", fontsize=TICK)
 
 
 def arrow(axes: Axes, start: Place, end: Place, style: str = "->", **given: Any) -> None:
@@ -207,9 +232,9 @@ def family(
 
 def hurst_colours(low: float, high: float) -> ScalarMappable:
     """Return what turns Hurst exponents into colours."""
-    # The last of viridis is too pale for a line on white.
+    # The last fifth of viridis is too pale for a line on white.
     span = max(high - low, 1e-9)
-    return ScalarMappable(Normalize(low, high + 0.12 * span), "viridis")
+    return ScalarMappable(Normalize(low, high + 0.25 * span), "viridis")
 
 
 def by_hurst(averages: xarray.Dataset) -> Iterator[tuple[float, xarray.Dataset, Any]]:

@@ -17,7 +17,16 @@ from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE, Window
 from roughcontact.statistics.samples import count
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.thesis.averaging import converged, curve_statistics, surface_study, without_parameters
+from roughcontact.thesis.averaging import (
+    converged,
+    curve_statistics,
+    exponential,
+    logarithm,
+    means,
+    slope,
+    surface_study,
+    without_parameters,
+)
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import WINDOWED, line_averages, line_fits
 
@@ -28,6 +37,7 @@ __all__ = [
     "curve_fits",
     "full_contact_study",
     "laws",
+    "other_means",
     "resolution_studies",
     "sphere_study",
     "square_study",
@@ -39,6 +49,7 @@ LOW_HURST = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.2)
 RADIUS, SPHERE_HURST, SPHERE_RMS = 0.5, 0.7, 9e-3  # of figure 37, over the side
 FORCES = (1e-6, 1e-2)  # of figure 37, over E* L^2
 SEED = 1
+_ROUND = 1e-9
 _LAWS = (
     *WINDOWED,
     *("prefactor", "prefactor_error", "prefactor_low", "prefactor_high", "correlation", "misfit", "samples"),
@@ -125,12 +136,36 @@ def laws(squares: xarray.Dataset, lines: xarray.Dataset) -> xarray.Dataset:
     Returns
     -------
     Dataset
-        Along ``hurst``, the lines also along ``points``; NaN where only the others were computed.
+        Along ``hurst``, the lines also along ``points``; NaN where only the others were computed. Of surfaces also
+        by other means, see `other_means`.
     """
     surfaces = without_parameters(curve_fits(squares)[list(_LAWS)])
+    surfaces = surfaces.assign(other_means(squares, surfaces).data_vars)
     reduced = without_parameters(line_fits(lines)[list(_LAWS)].rename({n: f"line_{n}" for n in _LAWS}))
     found = xarray.merge([surfaces, reduced], join="outer", combine_attrs="drop")
     return found.assign_attrs(curve_averages(squares).attrs | {"lines": line_averages(lines).attrs["lines"]})
+
+
+def other_means(exported: xarray.Dataset, fits: xarray.Dataset) -> xarray.Dataset:
+    """Return power laws by other ways to average than the mean stiffness: ``..._geometric`` and ``..._of_fits``.
+
+    The former are those of geometric means, the latter means over the samples of the laws of each, in the window of
+    `fits`; both with their standard errors.
+    """
+    names = [f"{name}{end}" for name in ("exponent", "prefactor") for end in ("", "_error")]
+    geometric = without_parameters(curve_fits(exported, mean="geometric")[names])
+    curves = without_parameters(converged(exported))
+    force = curves["dimensionless_force"]
+    inside = (force >= fits["window_low"] * (1 - _ROUND)) & (force <= fits["window_high"] * (1 + _ROUND))
+    stiffness = logarithm(curves["dimensionless_stiffness"].where(inside))
+    places = logarithm(force).where(stiffness.notnull())
+    exponent = slope(stiffness, places, "load")
+    prefactor = exponential(stiffness.mean("load") - exponent * places.mean("load"))
+    each = means(exponent_of_fits=exponent, prefactor_of_fits=prefactor)
+    renamed = {
+        name: f"{name.removesuffix('_error')}_geometric{'_error' * name.endswith('_error')}" for name in names
+    }
+    return geometric.rename(renamed).assign(each.data_vars)
 
 
 def _study(name: str, samples: int, parameters: dict[str, Any], table: dict[str, Any]) -> Study:

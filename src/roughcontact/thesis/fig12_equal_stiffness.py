@@ -13,8 +13,10 @@ from matplotlib.image import AxesImage
 from scipy.optimize import brentq
 
 import roughcontact as rc
+from roughcontact.halfspace.influence.love import love
 from roughcontact.theory import punch
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly, in_part
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array, Mask
 
@@ -32,7 +34,7 @@ CHOSEN = (
     "source of the figure",
     f"colours: pressure under a flat punch, from {CELLS[1]} x {CELLS[1]} cells",
 )
-SIZE = (7.4, 2.2)
+SIZE = (drawing.PAGE, 2.2)
 
 # Stiffnesses over 2 E* sqrt(A/pi) in the thesis' source of the figure; the square's stands in eqs 4.7 and 4.14, too.
 _PRINTED = {"square": (1.012, "eqs 4.7, 4.14"), "triangle": (1.034, "source of the figure")}
@@ -109,25 +111,93 @@ def draw(figure: Figure, data: tuple[PunchShape, ...]) -> None:
 
 
 def verdicts(data: tuple[PunchShape, ...]) -> Verdicts:
-    """Return the shape factors of square and triangle, and what two discs lose by each other."""
+    """Return the stiffness of a disc, the bound of a square, one cell's, two discs', and two shape factors."""
     one, two, *angular = data
     stiffnesses = punch.square(1.0, 1.0), punch.triangle(1.0, 1.0)
     exact = map(punch.shape_factor, stiffnesses, (1.0, 1.0), (1.0, math.sqrt(3) / 4))
     apart = float(punch.two_discs(1.0, two.size, SPACING) / (2 * punch.disc(1.0, two.size)))
     far = float(brentq(lambda s: float(punch.two_discs(1.0, 1.0, s)) - 0.99 * 4, 3.0, 1e3))
+    bound = float(punch.square(1.0, 1.0))
+    yield _same_circle()
+    yield _bound(bound)
+    yield _one_cell(bound)
+    yield Verdict(
+        "two distant circles act in parallel",
+        "Example (b) shows two distant circles which act in parallel.",
+        "section 4, fig. 12",
+        f"{apart:.3f} of the sum of their stiffnesses {SPACING:g} a apart, 0.99 of it {far:.0f} of their radii apart",
+        in_part(f"from {far:.0f} radii apart on", "1%", f"{apart - 1:+.1%} at {SPACING:g} a"),
+        "method",
+    )
     for region, factor in zip(angular, map(float, exact), strict=True):
         printed, source = _PRINTED[region.name]
         yield Verdict(
-            f"stiffness of a {region.name} over that of a disc of its area ({source})",
+            f"stiffness of a {region.name} over that of a disc of its area",
             f"{printed:.3f}",
+            source,
             f"{factor:.4f}, and {region.shape_factor / one.shape_factor:.3f} from {CELLS[0]}² and {CELLS[1]}² cells",
-            abs(factor / printed - 1) < 5e-4,
+            exactly(abs(factor / printed - 1) < 5e-4, "its last digit", f"{printed / factor - 1:+.1%}"),
+            "misprint",
         )
-    yield Verdict(
-        "two distant circles act in parallel",
-        "k = k1 + k2",
-        f"{apart:.3f} of the sum {SPACING:g} a apart; 0.99 of it {far:.0f} of their radii apart",
-        None,
+
+
+def _same_circle() -> Verdict:
+    """Return whether bodies of several exponents are equally stiff when they touch in one circle (eq. 4.6)."""
+    rings = rc.RadialGrid.uniform(200, 2.0)
+    shares = []
+    for exponent in (1.0, 2.0, 4.0):
+        body = rc.RadialProfile(-(rings.radii**exponent), rings)
+        depths = np.array([0.5, 0.5 * (1 + 1e-4)])
+        low, high = (rc.press(body, 1.0, depth=float(each), operator=rc.ring(rings, 1.0)) for each in depths)
+        radius = float(rings.edges[int(low.contact.sum())])
+        shares.append((high.force - low.force) / (high.depth - low.depth) / (2 * radius))
+    return Verdict(
+        "the stiffness of a circular contact is 2 E* a, whatever indenter made it",
+        "Every time it is a circle, eq. 4.6 applies. For example, any rotational symmetric indenter",
+        "section 4.1, eq. 4.6",
+        f"dF/dd of indenters r, r² and r⁴ by rings is {', '.join(f'{each:.3f}' for each in shares)} of 2 E* a",
+        exactly(max(abs(each - 1) for each in shares) < 0.02, "2%: the width of a ring over the radius"),
+        "method",
+    )
+
+
+def _bound(square: float) -> Verdict:
+    """Return whether a region within a square can be stiffer than the square (eq. 4.7)."""
+    n, rng = 24, np.random.default_rng(0)
+    grid = rc.Grid((n, n), 1 / n)
+    whole = rc.contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0)
+    parts = [
+        rc.contact_stiffness(rng.random(grid.shape) < part, grid, 1.0) / whole
+        for part in (0.2, 0.5, 0.8, 0.95)
+    ]
+    printed = 2 * _PRINTED["square"][0] / math.sqrt(math.pi)
+    return Verdict(
+        "no region within a square is stiffer than the square",
+        "A contact region that is within a square of length L cannot be associated with a stiffness that exceeds",
+        "section 4.2, eq. 4.7",
+        f"regions with 20 to 95 % of its cells are {min(parts):.2f} to {max(parts):.3f} times as stiff as the square; "
+        f"the square is {square:.4f} E* L, the number printed {printed:.4f}",
+        exactly(
+            max(parts) < 1 and abs(printed / square - 1) < 0.02,
+            "2% of the bound",
+            f"{printed / square - 1:+.1%}",
+        ),
+        "method",
+    )
+
+
+def _one_cell(square: float) -> Verdict:
+    """Return the stiffness of one cell under uniform pressure over that of a rigid square (eq. 4.16)."""
+    inside = float(love(0.0, 0.0, 1.0, 1.0))
+    share = math.pi / inside / square
+    return Verdict(
+        "a single cell is 0.78 times as stiff as a rigid square of its size, K00 = 3.5255",
+        "This value differs from the stiffness of a square indenter (eq. 4.14) by factor 0.78.",
+        "section 4.3, eq. 4.16",
+        f"K00 = {inside:.4f}; {share:.4f} of the rigid square, {share * square / 1.1419:.4f} of the number in "
+        "eq. 4.14",
+        exactly(abs(share - 0.78) < 0.01, "0.01", f"{share - 0.78:+.4f}"),
+        "method",
     )
 
 

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 import roughcontact as rc
 from roughcontact.plot.spectrum_plot import SpectrumScales, spectrum_axes
+from roughcontact.thesis import drawing
 
 __all__ = ["Instrument", "Measurements", "case", "draw"]
 
@@ -63,9 +64,9 @@ CHOSEN = (
     "bands: from a third of the field (all of it where it is the period) to eight pixels, or to where the rms "
     "curvature of the known law is a quarter of the tip's",
 )
-SIZE = (6.2, 4.8)
+SIZE = (drawing.COLUMN, 3.9)
 
-_STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#cc79a7", "^"))
+_STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#b0508a", "^"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +103,7 @@ def draw(figure: Figure, data: Measurements) -> None:
     q = 2 * math.pi / np.array([wavelengths.max(), wavelengths.min()])
     law, words = data.law(q) * scales.density.factor, f"the surface: H = {HURST:g}"
     axes.plot(q * scales.wavenumber, law, ":", color="#d55e00", linewidth=1.8, zorder=5, label=words)
-    axes.legend(loc="lower left")
+    drawing.legend_below(axes)
 
 
 def _measured(surface: rc.Surface, instrument: Instrument, law: rc.SelfAffineSpectrum) -> rc.PowerSpectrum:

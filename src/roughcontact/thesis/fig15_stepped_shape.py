@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from roughcontact.theory.stepped import SteppedIndenter
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.stepped_body import INDENTER
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
@@ -20,7 +21,7 @@ TITLE = "cylinders whose radii and heights follow the fractal law, C = 2, H = 0.
 COUNT = 4
 SEED = 0
 CHOSEN = (f"{COUNT} cylinders", "r0 and h0 as units of length and height")
-SIZE = (6.5, 3.6)
+SIZE = (drawing.COLUMN, 2.4)
 
 _BODY, _EDGE, _SMOOTH = "#cfe3f2", "#0072b2", "#d55e00"
 _ROOM = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}  # behind a label that a line would cross
@@ -88,11 +89,13 @@ def verdicts(data: Shape) -> Verdicts:
     radii, tops = data.rims
     furthest = float(np.abs(data.depth(radii) - tops).max() / tops[-1])
     yield Verdict(
-        "the shape is very similar to a smooth indenter z = r^H",
-        "very similar",
+        "the stepped body resembles a smooth indenter r^H",
+        "the shape of the indenter shown in fig. 15 is actually very similar to a smooth indenter z = r^H.",
+        "section 4.4.1",
         f"the upper rims lie on it within {max(furthest, 1e-15):.0e}, its tip {data.apex:.3f} h0 above the highest "
         "cylinder",
-        bool(furthest < 1e-12),
+        exactly(bool(furthest < 1e-12), "the upper rims on it, but for rounding"),
+        "method",
     )
 
 

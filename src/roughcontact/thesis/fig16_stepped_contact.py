@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 from roughcontact.validation import Array
@@ -25,7 +26,7 @@ CHOSEN = (
     "each state just before the next cylinder touches",
     "the deformation is computed and to scale with the heights of the cylinders",
 )
-SIZE = (6.8, 5.6)
+SIZE = (drawing.PAGE, 5.6)
 
 _LOW, _HIGH = -5.0, 6.5  # heights shown
 
@@ -57,16 +58,14 @@ def verdicts(data: tuple[rc.Solution, ...]) -> Verdicts:
     shares = [state.stiffness / (2 * MODULUS * r) for state, r in zip(data, radii, strict=True)]
     open_shares = [1 - state.contact_area / (math.pi * r**2) for state, r in zip(data, radii, strict=True)]
     yield Verdict(
-        "the stiffness is only determined by the largest radius in contact",
-        "k_n = 2 E* r_n (eq. 4.22 with its factor of two)",
-        f"{series(shares, '.2f')} of it for n = 0, 1, 2, though {series(open_shares, '.0%')} of the disc do not touch",
-        bool(min(shares) > 0.95),
-    )
-    yield Verdict(
-        "the wall reaches the next cylinder when the last one is pressed by its height",
-        "d = h_0 for n = 0",
-        f"d = {data[0].depth:.3f} h_0: the rim of the next cylinder has sunk by a third of d",
-        bool(abs(data[0].depth / INDENTER.height - 1) < 0.05),
+        "the stiffness of the stepped body is that of the largest radius in contact",
+        "in each step, the contact stiffness is only determined by the largest radius in contact and proportional to "
+        "the same",
+        "section 4.4.1",
+        f"{series(shares, '.2f')} of 2 E* r_n for n = 0, 1, 2, though {series(open_shares, '.0%')} of the disc do not "
+        f"touch; the next cylinder touches at a depth of {data[0].depth:.3f} h_0 for n = 0, as its rim sinks",
+        exactly(bool(min(shares) > 0.95), "5%", f"{min(shares) - 1:+.1%}"),
+        "method",
     )
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.theory.power_law_indenter import contact
 from roughcontact.thesis import drawing, fig15_stepped_shape
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.stepped_body import INDENTER, MODULUS, full_steps, stepped_body
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
@@ -27,7 +28,7 @@ CHOSEN = (
     "staircase: eq. 4.22 with its factor of two, eq. 4.23 with the steps before the last",
     "beside the staircase the contact of rings, and the smooth indenter z = Q r^H through the rims",
 )
-SIZE = (5.6, 4.2)
+SIZE = (drawing.COLUMN, 3.4)
 
 _MODEL, _COMPUTED, _SMOOTH = "0.45", "#0072b2", "#d55e00"
 
@@ -83,7 +84,7 @@ def draw(figure: Figure, data: Stiffening) -> None:
     axes.plot(curve.force, data.smooth, "--", color=_SMOOTH, label=label)
     words = r"contact stiffness $k\,/\,(E^* r_0)$"
     drawing.label(axes, r"force $F\,/\,(E^* r_0 h_0)$", words, **drawing.LOG)
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes, 1)
 
 
 def verdicts(data: Stiffening) -> Verdicts:
@@ -94,15 +95,20 @@ def verdicts(data: Stiffening) -> Verdicts:
     shares = [float((k * heights / f)[-1]) for f, k in (data.steps, (force, stiffness))]
     expected = 1 / (1 + INDENTER.hurst)
     yield Verdict(
-        "k_n grows as F_n^(1/(1+H)) (eq. 4.24)",
-        f"{expected:.4f}",
-        f"{exponent:.4f} between the last two steps of the rings",
-        bool(abs(exponent - expected) < 0.005 * expected),
+        "the stepped body follows k ~ F^(1/(1 + H))",
+        "k_n ∝ F_n^(1/(1+H))",
+        "eq. 4.24",
+        f"{exponent:.4f} between the last two steps of the rings, {expected:.4f} by the law",
+        exactly(bool(abs(exponent - expected) < 0.005 * expected), "0.5%", f"{exponent / expected - 1:+.2%}"),
+        "method",
     )
     yield Verdict(
-        "the force consists mainly of the stiffness of the last cylinder times its height (eq. 4.23)",
-        "F_n = k_n h_n",
+        "the force is mainly the last cylinder's stiffness times its height",
+        "The corresponding force at each spot consists mainly of the stiffness of the last cylinder times the height "
+        "of this last cylinder",
+        "section 4.4.1, eq. 4.23",
         f"k_n h_n is {shares[0]:.0%} of the force of the staircase and {shares[1]:.0%} of that of the rings, after "
         f"{COUNT} steps and ever after",
-        bool(shares[1] > 0.5),
+        exactly(bool(shares[1] > 0.5), "more than half"),
+        "method",
     )

@@ -13,7 +13,8 @@ from roughcontact.thesis.averaging import without_parameters
 from roughcontact.thesis.ensembles import curve_averages, square_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_averages, line_studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, judged
+from roughcontact.thesis.ruling import ruled
+from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -23,7 +24,7 @@ CHOSEN = (
     "surfaces of figure 27; lines of 2^13 points",
     "faint where the mean is below the stiffness of 20 cells or springs: there single cells decide",
 )
-SIZE = (8.2, 4.0)
+SIZE = (drawing.PAGE, 3.4)
 CLAIM = 0.3
 NEAR = 0.05
 
@@ -58,7 +59,7 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
         for hurst in averages[f"{prefix}hurst"].to_numpy():
             one, colour = averages.sel({f"{prefix}hurst": hurst}), colours.to_rgba(hurst)
             scatter, resolved = one[f"{prefix}scatter"], one[f"{prefix}resolved"]
-            axes.plot(force, scatter, color=colour, linewidth=0.7, alpha=0.3, zorder=2)
+            axes.plot(force, scatter, color=colour, linewidth=0.7, alpha=0.5, zorder=2)
             axes.plot(force, scatter.where(resolved), color=colour, zorder=3)
         level(axes, CLAIM, "30 %", ha="right")
         axes.set_title(title, loc="center")
@@ -69,23 +70,24 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Compare the scatter with 30 %."""
-    yield _verdict(averages, "", "boundary elements", averages.attrs["surfaces"])
-    yield _verdict(averages, "line_", "rough lines", averages.attrs["lines"])
+    yield _verdict(averages, "", "surfaces", averages.attrs["surfaces"])
+    yield _verdict(averages, "line_", "lines", averages.attrs["lines"])
 
 
 def _verdict(averages: xarray.Dataset, prefix: str, method: str, samples: int) -> Verdict:
     scatter, force, hurst = (averages[prefix + name] for name in ("scatter", "force", "hurst"))
     resolved = scatter.where(averages[f"{prefix}resolved"] & (force <= 0.07 * (1 + 1e-9)))
     # Over the forces: a single one is uncertain by 1/sqrt(2 n) of itself.
-    typical = resolved.mean(f"{prefix}load")
-    most = resolved.max(f"{prefix}load")
+    typical, most = resolved.mean(f"{prefix}load"), resolved.max(f"{prefix}load")
     worst = float(hurst[int(most.fillna(0).argmax(f"{prefix}hurst"))])
     used = force.to_numpy()[resolved.notnull().any(f"{prefix}hurst").to_numpy()]
     decades = np.log10(used.max() / used.min())
     return Verdict(
-        f"the scatter is limited to about 30 % over many orders of magnitude of the force ({method})",
-        "30 %",
+        f"the stiffness of {method} scatters by about 30 % at most",
+        "the standard deviation of the stiffness for different samples is limited to about 30% over many orders of "
+        "magnitude for the normal force F",
+        "section 4.4.2, fig. 18",
         f"{float(typical.min()):.0%} to {float(typical.max()):.0%} on the average over forces, by Hurst exponent; at "
         f"most {float(most.max()):.0%} (H = {worst:.2f}), over {decades:.1f} decades where resolved; {samples} samples",
-        judged(np.maximum(most - CLAIM, 0), most / np.sqrt(2 * samples), NEAR),
+        ruled(most - CLAIM, most / np.sqrt(2 * samples), NEAR, words="30% + 5%", above=True),
     )

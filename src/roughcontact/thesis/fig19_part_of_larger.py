@@ -9,11 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from scipy.ndimage import uniform_filter
 
 import roughcontact as rc
 from roughcontact.plot.raster import box
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 from roughcontact.validation import Array
 
@@ -31,7 +33,7 @@ CHOSEN = (
     "square (1) about the highest point of square (2)",
     "depth: as much as the highest point outside of square (1) lies below the highest",
 )
-SIZE = (7.0, 3.9)
+SIZE = (drawing.PAGE, 4.3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,15 +83,18 @@ def draw(figure: Figure, data: Gedankenexperiment) -> None:
         surface, contact = data.surfaces[n], data.contacts[n]
         length = surface.grid.lengths[0]
         left, right, top, bottom = place[0], place[0] + length, place[1], place[1] + length
-        _indenter(axes, data, n, (left, right, bottom, top))
+        image = _indenter(axes, data, n, (left, right, bottom, top))
         force, stiffness = contact.force / (surface.rms * length), contact.stiffness / length
         centre, middle = (left + right) / 2, (top + bottom) / 2
         axes.text(centre, top - 0.02, f"({n + 1})", ha="center", va="bottom")
         numbers = rf"$\bar{{F}}$ = {force:.4f},  $\bar{{k}}$ = {stiffness:.4f}"
-        axes.text(centre, bottom + 0.02, numbers, ha="center", va="top")
-        drawing.frameless(axes, xlim=(left, right), ylim=(middle + 0.58, middle - 0.58))  # one scale for both
+        axes.text(centre, bottom + 0.1, numbers, ha="center", va="top")
+        drawing.scale_bar(axes, (left, bottom + 0.03), 0.5 / SCALE, f"$L_2/{2 * SCALE}$")
+        drawing.frameless(axes, xlim=(left, right), ylim=(middle + 0.68, middle - 0.56))  # one scale for both
     box(panels[1], (x, x + 1 / SCALE), (y, y + 1 / SCALE), color="black", linewidth=1.4)
     panels[1].text(x + 0.015, y + 0.015, "(1)", va="top")
+    bar = figure.colorbar(image, ax=panels, shrink=0.7, pad=0.01)
+    bar.set_label("height / $h_2$")
 
 
 def verdicts(data: Gedankenexperiment) -> Verdicts:
@@ -103,18 +108,22 @@ def verdicts(data: Gedankenexperiment) -> Verdicts:
     ratio = float(data.rms[0] / data.rms[PARTS.index(SCALE)])
     halvings = np.log2(data.rms[:-1] / data.rms[1:])
     yield Verdict(
-        "small and large indenter: the same configuration, force and stiffness at one depth (4.25, 4.26)",
-        "F1 = F2, k1 = k2",
+        "a part and the whole have the same contact, force and stiffness at one depth",
+        "all physical quantities remain unchanged, that is to say, all quantities that still have dimensions.",
+        "section 4.4.2, eqs 4.25, 4.26",
         f"{'the same' if same else 'other'} cells in contact; F and k equal within "
         f"{max(abs(force), abs(stiffness), 1e-15):.0e}",
-        same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6),
+        exactly(same and bool(abs(force) < 1e-6 and abs(stiffness) < 1e-6), "1e-6"),
+        "method",
     )
     yield Verdict(
-        "rms height of the large indenter over that of the small one (4.27)",
-        f"lambda^H = {SCALE**HURST:.3f}",
-        f"{ratio:.3f} on the mean over all places, as the longest wave is the side of the large one; between parts "
-        f"halved again and again the exponent is {series(halvings, '.2f')} instead of {HURST:g}",
-        bool(abs(ratio / SCALE**HURST - 1) < 0.05),
+        "the rms height of a surface grows as lambda^H with its size",
+        "we know that for the rms roughness of both we have h_2 = λ^H h_1.",
+        "section 4.4.2, eq. 4.27",
+        f"{ratio:.3f} in place of {SCALE**HURST:.3f} on the mean over all places, as the longest wave is the side of "
+        f"the large one; between parts halved again and again the exponent is {series(halvings, '.2f')} in place of "
+        f"{HURST:g}",
+        exactly(bool(abs(ratio / SCALE**HURST - 1) < 0.1), "10%", f"{ratio / SCALE**HURST - 1:+.0%}"),
     )
 
 
@@ -129,9 +138,11 @@ def _rms_of_parts(heights: Array) -> Array:
 
 def _indenter(
     axes: Axes, data: Gedankenexperiment, number: int, extent: tuple[float, float, float, float]
-) -> None:
-    large = data.surfaces[1].heights
-    grey: Any = {"cmap": "Greys_r", "vmin": float(large.min()), "vmax": float(large.max()), "alpha": 0.75}
-    axes.imshow(data.surfaces[number].heights, extent=extent, interpolation="nearest", **grey)
+) -> AxesImage:
+    # Over the rms height of the large one.
+    low, high = (float(end) / RMS for end in (data.surfaces[1].heights.min(), data.surfaces[1].heights.max()))
+    grey: Any = {"cmap": "Greys_r", "vmin": low, "vmax": high, "alpha": 0.75, "interpolation": "nearest"}
+    image = axes.imshow(data.surfaces[number].heights / RMS, extent=extent, **grey)
     seen = np.where(data.contacts[number].contact, 1.0, np.nan)
     axes.imshow(seen, cmap=ListedColormap([drawing.LINES]), extent=extent, interpolation="nearest")
+    return image

@@ -15,6 +15,7 @@ from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.plot.raster import box
 from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
@@ -30,7 +31,7 @@ CHOSEN = (
     "d1 = h2, on the highest crest; d2 = 2.4 h2, on three crests of the shortest wave; d3 = h1, where it is flat",
     "pressed as in the method of dimensionality reduction: springs touch where the line stands above the level",
 )
-SIZE = (7.2, 3.9)
+SIZE = (drawing.PAGE, 3.6)
 
 _LEVELS = ("#8b1a1a", "#d55e00", "#b07d00")  # of d1, d2, d3
 
@@ -108,23 +109,29 @@ def verdicts(data: WavyLine) -> Verdicts:
     printed = asymptotic / FLAT_STIFFNESS * 4
     alpha = 1 / (WAVES.hurst + 1)
     yield Verdict(
-        "the shortest wave is flattened before the next crest of the middle one touches: one continuous spot (d3)",
-        "one spot",
+        "each wave is flat before the next crest of the longer one touches",
+        "contact will regularly occur at one continuous spot",
+        "section 4.4.2, fig. 20",
         f"{spots[0]}, {spots[1]} and {spots[2]} spots at d1, d2 and d3; one from {first:.3f} h0 to {last:.3f} h0, "
         f"where the shortest wave touches at its flanks; the next crests do at {crests:.3f} h0",
-        bool(spots[2] == 1 and last < crests),
+        exactly(bool(spots[2] == 1 and last < crests), "one spot at d3"),
+        "method",
     )
     yield Verdict(
-        "stiffness where the middle wave is flat, d = 2 h1 (eq. 4.46), over E* and the wavelength",
+        "stiffness where the middle wave is flat, over E* and the longest wavelength",
         f"{printed:.4f}",
+        "eq. 4.46, d = 2 h1",
         f"{stiffness[1]:.4f}; {asymptotic:.4f} by the corrected form, which holds for a large C",
-        bool(abs(stiffness[1] / printed - 1) < 0.05),
+        exactly(bool(abs(stiffness[1] / printed - 1) < 0.05), "5%", f"{printed / stiffness[1] - 1:+.0%}"),
+        "misprint",
     )
     yield Verdict(
-        "stiffness grows as F^(1/(H+1)) from one scale to the next (eq. 4.47)",
-        f"{alpha:.4f}",
-        f"{exponent:.4f} between the depths 2 h2 and 2 h1",
-        bool(abs(exponent / alpha - 1) < 0.02),
+        "a line of three waves follows k ~ F^(1/(H + 1)) from one scale to the next",
+        "k ∝ F^(1/(H+1))",
+        "eq. 4.47",
+        f"{exponent:.4f} between the depths 2 h2 and 2 h1, {alpha:.4f} by the law",
+        exactly(bool(abs(exponent / alpha - 1) < 0.02), "2%", f"{exponent / alpha - 1:+.2%}"),
+        "method",
     )
 
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import Ruling, exactly, in_part
 from roughcontact.thesis.verdict import Verdict, Verdicts, series
 from roughcontact.validation import Array
 
@@ -23,6 +24,7 @@ PLACES = 2**21
 PHASES = 30  # sets of random phases of adjacent harmonics
 WINDOW = (0.01, 0.1)  # depths below the peak over the height of the peak
 SEED = 24
+SPRINGS = 100_000
 CHOSEN = (
     "the modes nest: the frequencies of n + 1 cosines, multiplied, are those of 2^n modes of one amplitude, here "
     f"{', '.join(map(str, SHOWN))} waves",
@@ -31,7 +33,7 @@ CHOSEN = (
     f"beside them adjacent harmonics of one line from {FREQUENCIES[0]} waves on, {PHASES} sets of random phases",
     f"powers between depths of {WINDOW[0]:g} and {WINDOW[1]:g} of the peak's height",
 )
-SIZE = (7.2, 4.2)
+SIZE = (drawing.PAGE, 4.0)
 
 _FEWEST = 30  # heights, below which a count is mostly chance
 _COLOURS = ("black", "#0072b2", "#d55e00", "#009e73")
@@ -132,7 +134,7 @@ def draw(figure: Figure, data: BeatLines) -> None:
     axes = figure.add_subplot(table[:, 1], title="(e)", xlim=(1e-3, 1), ylim=(1e-6, 1.5), **drawing.LOG)
     _distribution(axes, data.heights)
     axes.set(xlabel="depth below the peak / height of the peak", ylabel="part of the line above it")
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 
 def _distribution(axes: Axes, data: tuple[Heights, ...]) -> None:
@@ -152,21 +154,44 @@ def _distribution(axes: Axes, data: tuple[Heights, ...]) -> None:
 
 
 def verdicts(data: BeatLines) -> Verdicts:
-    """Compare the powers of the densities with eq. 4.72."""
+    """Compare the powers of the densities with eq. 4.72, and those of the stiffness with eq. 4.63."""
     law = [-0.5 + 0.5 * math.log2(each.modes) for each in data.heights]
     nested = [each.exponent(each.nested) for each in data.heights]
     adjacent = [each.exponent(each.adjacent) for each in data.heights]
-    asked = "beta = -1/2 + log2(N)/2: " + series(law, ".2f")
+    off, other = (float(np.abs(np.subtract(powers, law)).max()) for powers in (nested, adjacent))
     where = f"at depths of {WINDOW[0]:g} to {WINDOW[1]:g} of the peak"
     yield Verdict(
-        "power of the density of heights below the peak of 1, 2, 4 and 8 modes that are beats of beats",
-        asked,
-        f"{series(nested, '.2f')}, {where}",
-        bool(np.abs(np.subtract(nested, law)).max() < 0.1),
+        "heights below the peak of N modes have a density z^(-1/2 + log2(N)/2)",
+        "The power β resulting from N modes can thus be expressed as β = -1/2 + 1/2 log2(N)",
+        "section 4.5.2, eq. 4.72",
+        f"{series(nested, '.2f')} of 1, 2, 4 and 8 modes that are beats of beats, {series(law, '.2f')} by the law; "
+        f"{series(adjacent, '.2f')} of adjacent harmonics, as a rough line has them, {where}: the power counts "
+        "independent phases, and adjacent harmonics have two",
+        _of_modes(off, other),
     )
+    powers = [_stiffness_power(beta) for beta in law]
+    expected = [(beta + 1) / (beta + 2) for beta in law]
+    apart = float(np.abs(np.subtract(powers, expected)).max())
     yield Verdict(
-        "the same of any modes of similar frequency, such as adjacent harmonics of a rough line",
-        asked,
-        f"{series(adjacent, '.2f')}, {where}; the power counts independent phases, and adjacent harmonics have two",
-        bool(np.abs(np.subtract(adjacent, law)).max() < 0.1),
+        "a density z^beta makes a stiffness F^((beta + 1)/(beta + 2))",
+        "α = (β + 1)/(β + 2)",
+        "section 4.5.2, eq. 4.63",
+        f"{series(powers)} of {SPRINGS} springs with beta = {series(law, 'g')}, {series(expected)} by the law",
+        exactly(apart < 0.005, "0.005", f"farthest {apart:.4f}"),
+        "method",
     )
+
+
+def _of_modes(nested: float, adjacent: float) -> Ruling:
+    if nested < 0.1 <= adjacent:
+        return in_part("modes that are beats of beats", "0.1", f"{adjacent:.2f} for adjacent harmonics")
+    return exactly(max(nested, adjacent) < 0.1, "0.1", f"{max(nested, adjacent):.2f}")
+
+
+def _stiffness_power(beta: float) -> float:
+    """Return alpha of k ~ F^alpha of springs whose heights have a density z^beta (eqs 4.59 to 4.62)."""
+    z = ((np.arange(SPRINGS) + 0.5) / SPRINGS) ** (1 / (beta + 1))
+    depth = np.geomspace(0.1, 1, 20)
+    stiffness = np.searchsorted(z, depth)
+    force = depth * stiffness - np.concatenate([[0.0], np.cumsum(z)])[stiffness]
+    return float(np.polyfit(np.log(force), np.log(stiffness), 1)[0])

@@ -14,7 +14,8 @@ from roughcontact.thesis import drawing
 from roughcontact.thesis.averaging import without_parameters
 from roughcontact.thesis.ensembles import curve_averages, curve_fits, resolution_studies
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, judged, series
+from roughcontact.thesis.ruling import Ruling, ruled
+from roughcontact.thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -29,9 +30,10 @@ CHOSEN = (
     f"open: one window for all, forces from {COMMON[0]:g} to {COMMON[1]:g}",
     "bars: 95 % of resampled ensembles",
 )
-SIZE = (6.2, 4.2)
+SIZE = (drawing.COLUMN, 3.7)
 
 _STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#d55e00", "^"))
+_BOTH = ("exponent", "common_exponent")
 _FITS = ("exponent", "exponent_error", "exponent_low", "exponent_high", "window_low", "count", "samples")
 
 
@@ -70,9 +72,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     x = np.linspace(-0.02, hurst[-1] + 0.05, 50)
     axes.plot(x, 1 / (x + 1), "--", color="black", label="1/(H + 1)")
     lowest = float(min(averages["exponent_low"].min(), averages["common_exponent_low"].min()))
-    # With room for the legend below.
-    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.16, 1.02))
-    axes.legend(loc="lower left", title="cells, window in force")
+    drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(lowest - 0.02, 1.02))
+    drawing.legend_below(axes, title="cells, window in force")
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
@@ -85,26 +86,47 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     counts = ", ".join(f"{int(n)} of {points}²" for n, points in samples)
     grid = low["stiffness"].isel(points=-1) / low["stiffness"].isel(points=0) - 1
     yield Verdict(
-        "alpha depends on the number of cells for low H",
-        "it does",
+        "alpha of surfaces depends on the number of cells at low H",
+        "dependency of the exponent α for low H on the system size.",
+        "section 4.5.2, fig. 26",
         f"{_means(low['exponent'])} on {_sizes(averages)} cells for H < -0.2, each in the window above its 20 cells, "
         f"errors about {float(low['exponent_error'].mean()):.3f}; surfaces a value: {counts}",
-        _differs(low["exponent"], low["exponent_error"]),
+        _grows(low["exponent"], low["exponent_error"]),
     )
     yield Verdict(
-        "the dependence is one on the number of modes, not on the forces of the fit",
-        "the small-scale limit decides",
+        "it depends on the number of scales, not on the forces of the fit",
+        "in the case of H smaller than approx. 0, depends on the number of scales for which the fractal power-spectrum "
+        "holds.",
+        "chapter 6",
         f"{_means(low['common_exponent'])} where all are fitted between {COMMON[0]:g} and {COMMON[1]:g}, errors about "
         f"{float(low['common_exponent_error'].mean()):.3f}; stiffness at {FORCE:g} on the finest grid "
         f"{float(grid.mean()):+.1%} from the coarsest",
-        _differs(low["common_exponent"], low["common_exponent_error"]),
+        _grows(low["common_exponent"], low["common_exponent_error"]),
     )
     yield Verdict(
-        "a constant for H < 0",
-        "constant",
+        "a constant exponent of surfaces below H = 0",
+        "starting from a constant value for H < 0",
+        "section 4.5.2, of fig. 23",
         f"the same within {float(abs(flat).max()):.3f} from H = {float(low['hurst'][0]):g} to "
         f"{float(low['hurst'][-1]):g} on each grid",
-        judged(flat, low["exponent_error"], 0.02),
+        # Values share their phases: the error of a difference is at most the sum of both.
+        ruled(flat, low["exponent_error"] + low["exponent_error"].max("hurst"), NEAR, "+.3f"),
+    )
+
+
+def findings(averages: xarray.Dataset) -> str:
+    """Return in a sentence what the exponent at low H depends on."""
+    low = averages.sel(hurst=slice(None, -0.2))
+    apart = [float((low[name].isel(points=-1) - low[name].isel(points=0)).mean()) for name in _BOTH]
+    first, last = (low["common_exponent_error"].isel(points=end).to_numpy() for end in (0, -1))
+    error = float(np.hypot(first, last).mean())
+    mostly = ": it is mostly the window of the fit" if 2 * abs(apart[1]) < abs(apart[0]) else ""
+    grids = averages["points"].to_numpy()
+    return (
+        f"Below H = 0 no such law is expected; there the fitted exponent grows by {apart[0]:.3f} from {grids[0]}² to "
+        f"{grids[-1]}² cells when each grid is fitted down to its 20 cells, and by {apart[1]:.3f} ± "
+        f"{error:.3f} between "
+        f"the same forces{mostly}."
     )
 
 
@@ -116,9 +138,12 @@ def _sizes(averages: xarray.Dataset) -> str:
     return ", ".join(f"{points}²" for points in averages["points"].to_numpy())
 
 
-def _differs(exponents: xarray.DataArray, errors: xarray.DataArray) -> bool | None:
-    """Return whether the finest and the coarsest grid differ; None where the errors do not let one say."""
-    apart = abs(float((exponents.isel(points=-1) - exponents.isel(points=0)).mean()))
-    # Samples are paired over H: their errors do not fall with the number of H.
+def _grows(exponents: xarray.DataArray, errors: xarray.DataArray) -> Ruling:
+    """Return whether the exponent is another on the finest grid than on the coarsest."""
+    apart = float((exponents.isel(points=-1) - exponents.isel(points=0)).mean())
+    # Samples are paired over H: the error of the mean is at most the mean of the errors.
     error = float(np.hypot(errors.isel(points=-1), errors.isel(points=0)).mean())
-    return True if apart > 3 * error else False if apart + 2 * error < NEAR else None
+    told, words = f"{apart:+.3f} ± {error:.3f}", f"a difference; none below {NEAR:g}"
+    if abs(apart) > 3 * error:
+        return Ruling("holds", words, trigger=told)
+    return Ruling("does not hold" if abs(apart) + 2 * error < NEAR else "not decided", words, trigger=told)

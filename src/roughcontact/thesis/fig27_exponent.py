@@ -10,7 +10,8 @@ from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import laws, square_study
 from roughcontact.thesis.figures import Scale, Studies
 from roughcontact.thesis.line_ensembles import line_studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, spanned
+from roughcontact.thesis.ruling import VICINITY, middle, ranged, ruled
+from roughcontact.thesis.verdict import Verdict, Verdicts, beside, counted, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -21,7 +22,7 @@ CHOSEN = (
     "logarithms; bars and bands: 95 % of resampled ensembles",
     "the same phases for all Hurst exponents: neighbouring values share their errors",
 )
-SIZE = (6.4, 4.4)
+SIZE = (drawing.COLUMN, 3.6)
 NEAR = 0.1  # of an exponent: what counts as agreement with the law
 
 
@@ -45,52 +46,69 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     drawing.both_methods(axes, averages, "exponent")
     drawing.exponent_laws(axes, hurst)
     drawing.hurst_axes(axes, hurst, drawing.EXPONENT, ylim=(0.28, 1.02))
-    axes.legend(loc="upper right")
+    drawing.legend_below(axes)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Compare the exponents with 1/(H + 1), with each other, and at both ends."""
-    found = averages.dropna("hurst", subset=["exponent"])
-    alpha, error, hurst = found["exponent"], found["exponent_error"], found["hurst"]
-    away, spread = alpha * (hurst + 1) - 1, error * (hurst + 1)
-    middle = slice(0.01, 2)
-    inside = hurst.sel(hurst=middle).to_numpy()
-    off = away.sel(hurst=middle).to_numpy()
-    near, worst = inside[np.abs(off) <= NEAR], inside[np.abs(off).argmax()]
+    found, away, spread = _from_law(averages)
+    alpha, error = found["exponent"], found["exponent_error"]
     apart = alpha - found["line_exponent"].isel(points=-1)
     both = np.hypot(error, found["line_exponent_error"].isel(points=-1))
-    smooth, low = slice(2.01, None), slice(None, 0)
+    smooth = slice(2 + VICINITY, None)
     ends = alpha.sel(hurst=smooth)[[0, -1]]
-    plateau = alpha.sel(hurst=low)
     yield Verdict(
-        "alpha = 1/(H + 1) for 0 < H < 2",
-        "1/(H + 1)",
-        f"within {NEAR:.0%} of it {_range(near)}; most off at H = {worst:.2f}: {alpha.sel(hurst=worst):.3f} instead of "
-        f"{1 / (1 + worst):.3f}; errors about {float(error.mean()):.3f}, {counted(averages, 'surfaces')} a value",
-        judged(away.sel(hurst=middle), spread.sel(hurst=middle), NEAR),
+        "alpha = 1/(H + 1) for surfaces",
+        "In the most relevant region of approximately 0 < H < 2, a new analytical expression is found [...] α = 1/(H + "
+        "1)",
+        "chapter 6, eq. 6.2; eq. 4.31",
+        f"{ranged(away, spread, NEAR)}; {counted(averages, 'surfaces')} a value",
+        ruled(middle(away), middle(spread), NEAR),
     )
     yield Verdict(
-        "the Hertzian exponent for H >= 2",
-        "1/3",
+        "the exponent of Hertz for surfaces above H = 2",
+        "Seamlessly, this dependency transitions into α = 2/3 for H ≥ 2, which corresponds to the classical Hertzian "
+        "case of single sine asperity.",
+        "chapter 6, where 2/3 stands for 1/3",
         " and ".join(f"{float(value):.3f} at H = {float(value['hurst']):.2f}" for value in ends)
         + "; in this window crests are not quite paraboloids any more",
-        judged(3 * alpha.sel(hurst=smooth) - 1, 3 * error.sel(hurst=smooth), NEAR),
+        ruled(3 * alpha.sel(hurst=smooth) - 1, 3 * error.sel(hurst=smooth), NEAR),
     )
     yield Verdict(
-        "boundary elements and rough lines are almost a perfect match",
-        "almost perfect",
-        f"differences {spanned(apart.sel(hurst=slice(0.39, None)), '+.3f')} for H >= 0.4, "
-        f"{spanned(apart.sel(hurst=low), '+.3f')} for H <= 0; errors about {float(both.mean()):.3f}",
-        judged(apart, both, 0.05),
-    )
-    yield Verdict(
-        "a constant for H below about 0",
-        "constant, depends on the number of scales",
-        f"{float(plateau.min()):.3f} to {float(plateau.max()):.3f} from H = {float(hurst[0]):.2f} to 0, errors about "
-        f"{float(error.sel(hurst=low).mean()):.3f}; what it depends on: figures 23, 25 and 26",
-        judged(plateau - plateau.mean(), error.sel(hurst=low), 0.03),
+        "exponents of surfaces and of lines match",
+        "It can be seen that the runs of the curves are almost a perfect match.",
+        "section 4.5.3, fig. 27",
+        f"differences {spanned(middle(apart), '+.3f')} for H from 0.25 to 1.75, {spanned(apart, '+.3f')} in all; "
+        f"errors about {float(both.mean()):.3f}",
+        ruled(apart, both, 0.05, "+.3f"),
     )
 
 
-def _range(hurst: np.typing.NDArray[np.float64]) -> str:
-    return f"for {hurst.min():.2f} <= H <= {hurst.max():.2f}" if hurst.size else "nowhere"
+def findings(averages: xarray.Dataset) -> str:
+    """Return in a sentence what the exponents are."""
+    found, away, spread = _from_law(averages)
+    line = found["line_exponent"].isel(points=-1) * (found["hurst"] + 1) - 1
+    worst = int(abs(middle(away)).to_numpy().argmax())
+    hurst = float(middle(away)["hurst"][worst])
+    rule = ruled(middle(away), middle(spread), NEAR)
+    return (
+        "The stiffness of rough squares grows as a power of the force. For Hurst exponents H from 0.25 to 1.75 its "
+        f"exponent lies {beside(middle(away))} the thesis' 1/(H + 1), farthest off at H = {hurst:.2f} (± "
+        f"{float(middle(spread)[worst]):.0%}), that of rough lines {beside(middle(line))}; that it is 1/(H + 1) to "
+        f"{NEAR:.0%}, the central claim, {_WORDS[rule.word]} for surfaces{f' ({rule.part})' if rule.part else ''}."
+    )
+
+
+_WORDS = {
+    "holds": "holds",
+    "holds in part": "holds in part",
+    "does not hold": "does not hold",
+    "not decided": "is not decided",
+}
+
+
+def _from_law(averages: xarray.Dataset) -> tuple[xarray.Dataset, xarray.DataArray, xarray.DataArray]:
+    """Return what was found for surfaces, exponents over 1/(H + 1), less one, and the errors of these."""
+    found = averages.dropna("hurst", subset=["exponent"])
+    inverse = found["hurst"] + 1
+    return found, found["exponent"] * inverse - 1, found["exponent_error"] * inverse

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.view import surface_view
+from roughcontact.thesis import drawing
 
 __all__ = ["case", "draw"]
 
@@ -23,7 +26,7 @@ CHOSEN = (
     f"R = {RADIUS:g} L and rms height {RMS:g} L as in figure 37, {POINTS} x {POINTS} points",
     "the sphere as the paraboloid r^2/(2R), as the thesis approximates it; drawn as far as r = L/2",
 )
-SIZE = (5.4, 3.2)
+SIZE = (drawing.COLUMN, 2.5)
 
 
 def case(seed: int = SEED) -> rc.Surface:
@@ -37,10 +40,18 @@ def draw(figure: Figure, data: rc.Surface) -> None:
     """Draw the sphere from aside."""
     # Axes in space are square, and leave much of their square empty: these reach over the page.
     axes: Any = figure.add_subplot(projection="3d")
-    tall = SIZE[0] / SIZE[1]
-    axes.set_position((0.0, 0.61 - tall / 2, 1.0, tall))
+    tall, wide = SIZE[0] / SIZE[1], 0.86
+    axes.set_position((-0.02, 0.62 - wide * tall / 2, wide, wide * tall))
     grid = data.grid
     y, x = (place - length / 2 for place, length in zip(grid.coordinates, grid.lengths, strict=True))
     inside = np.hypot(*np.meshgrid(y, x, indexing="ij")) <= LENGTH / 2
-    surface_view(rc.Surface(np.where(inside, data.heights, np.nan), grid), axes, frame=False)
+    shown = np.where(inside, data.heights, np.nan)
+    surface_view(rc.Surface(shown, grid), axes, frame=False)
+    colours = ScalarMappable(Normalize(float(np.nanmin(shown)), float(np.nanmax(shown))), "viridis")
+    bar = figure.colorbar(colours, cax=figure.add_axes((0.8, 0.2, 0.025, 0.62)))
+    bar.set_label(r"height $z\,/\,L$")
+    # The box is 0.3 of its width high.
+    enlarged = 0.3 * LENGTH / float(np.nanmax(shown) - np.nanmin(shown))
+    words = rf"base: a circle of diameter $L$; heights times {enlarged:.1f}"
+    figure.text(0.41, 0.04, words, ha="center", fontsize=drawing.TICK)
     axes.set_box_aspect((1, 1, 0.3), zoom=1.15)

@@ -10,8 +10,11 @@ from matplotlib.figure import Figure
 from roughcontact.mdr import indenter
 from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.indentation import indentation_curve
+from roughcontact.mdr.rough_line import loading_curves
 from roughcontact.theory import pohrt_popov, rough_sphere
+from roughcontact.theory.hertz import point
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 
 __all__ = ["Indenters", "case", "draw", "verdicts"]
@@ -28,7 +31,7 @@ CHOSEN = (
     f"R = {RADIUS:g} L and rms height {RMS:g} L as in figure 37, zeta = 1.7/(H + 1) = {1.7 / (HURST + 1):g}",
     f"drawn up to r = {SHOWN:g} L, heights enlarged",
 )
-SIZE = (7.2, 2.8)
+SIZE = (drawing.PAGE, 2.6)
 
 
 class Indenters(NamedTuple):
@@ -65,30 +68,48 @@ def draw(figure: Figure, data: Indenters) -> None:
 
 
 def verdicts(data: Indenters) -> Verdicts:
-    """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them."""
-    smooth, rough, both = (indentation_curve(each, 1.0, forces=FORCES * LENGTH**2) for each in data)
+    """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them, and springs that of Hertz."""
+    _, rough, both = (indentation_curve(each, 1.0, forces=FORCES * LENGTH**2) for each in data)
     law = pohrt_popov.stiffness(rough.force, HURST, RMS, LENGTH, 1.0)
     force = rough_sphere.force(
         both.stiffness, radius=RADIUS, hurst=HURST, rms=RMS, length=LENGTH, modulus=1.0
     )
     off_law = float(np.abs(rough.stiffness / law - 1).max())
     off_force = float(np.abs(force / both.force - 1).max())
-    ratio = both.stiffness / smooth.stiffness
     yield Verdict(
-        "the indenter Q r^H with Q of eq. 5.6 is as stiff as the rough surface (eq. 5.5)",
-        "k of eq. 5.5",
-        f"within {max(off_law, 1e-15):.0e}, with kappa(H) as Sneddon's integral gives it: the thesis does not say",
-        bool(off_law < 1e-10),
+        "the indenter Q r^H is as stiff as the rough surface it stands for",
+        "a rotationally symmetric indenter with power H has the same indentation behavior as a fractal rough surface",
+        "section 5.2, eqs 5.5, 5.6",
+        f"within {max(off_law, 1e-15):.0e} of eq. 5.5, with kappa(H) as Sneddon's integral gives it: the thesis does "
+        "not say",
+        exactly(bool(off_law < 1e-10), "rounding"),
+        "method",
     )
     yield Verdict(
-        "force and stiffness of the sum (eq. 5.9, with E* for E)",
-        "F(k) of eq. 5.9",
+        "force and stiffness of the sum of parabola and indenter",
+        "the dependence between normal force and normal contact stiffness can again be found using the solution by "
+        "[20],[78]",
+        "section 5.2, eq. 5.9 with E* for E",
         f"within {max(off_force, 1e-15):.0e} of the indentation of the profile",
-        bool(off_force < 1e-10),
+        exactly(bool(off_force < 1e-10), "rounding"),
+        "method",
     )
-    yield Verdict(
-        "treated as purely Hertzian, the stiffness is only overestimated",
-        "k_c <= k_p",
-        f"k_c/k_p from {ratio.min():.3f} at F = {FORCES[0]:.0e} E* L² to {ratio.max():.3f} at {FORCES[-1]:.0e}",
-        bool((ratio < 1).all()),
+    yield _springs()
+
+
+def _springs() -> Verdict:
+    """Return force and radius of Hertz' contact from springs under a parabola of half the radius (eqs A.60 to A.66)."""
+    count, depths = 20001, np.array([1e-3, 1e-2])
+    x = np.linspace(-0.2, 0.2, count) * RADIUS
+    pressed = loading_curves(-(x**2) / RADIUS, x[1] - x[0], 1.0, depths=depths)
+    exact = point(1.0, radius=RADIUS, depth=depths)
+    off = float(np.abs(pressed.force[0] / exact.force - 1).max())
+    wide = float(np.abs(pressed.stiffness[0] / (2 * exact.contact_radius) - 1).max())
+    return Verdict(
+        "independent springs under R1 = R/2 have the force and the radius of Hertz",
+        "So simply by choosing R_1 = R/2, we can find that eq. A.61 and A.62 as well as A.60 and A.65 coincide.",
+        "section A.2, eqs A.60 to A.66",
+        f"force within {off:.0e}, radius within {wide:.0e} on {count} springs",
+        exactly(max(off, wide) < 5e-3, "5e-3: a spring over the radius"),
+        "method",
     )

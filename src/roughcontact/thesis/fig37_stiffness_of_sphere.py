@@ -8,25 +8,25 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.plot.ticks import TICK
 from roughcontact.theory import pohrt_popov, rough_sphere
 from roughcontact.theory.hertz import point
 from roughcontact.thesis import drawing
 from roughcontact.thesis.ensembles import RADIUS, SPHERE_HURST, SPHERE_RMS, curve_averages, sphere_study
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, spanned
+from roughcontact.thesis.ruling import exactly, ruled, undecided
+from roughcontact.thesis.verdict import Verdict, Verdicts, beside, counted, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "stiffness of a rough sphere against force"
-CROSSOVER = 8e-5  # thesis, eq. 5.10
 CHOSEN = (
     f"R = {RADIUS:g} L, H = {SPHERE_HURST:g}, h = {SPHERE_RMS:g} L; free squares of 513 x 513 cells (small: 257 x 257)",
     "33 forces F/(E* L^2) from 1e-6 to 1e-2; arithmetic means over 50 samples (small: 20)",
     "open circles below the stiffness of 20 cells, which is that of the crossover",
 )
-SIZE = (6.2, 4.6)
-NEAR = 0.05
+SIZE = (drawing.COLUMN, 3.7)
+LEAST = 0.02  # of a stiffness: what these samples can tell
+NEAR = 0.1  # of a stiffness: what counts as agreement
 
 _BODY = {"radius": RADIUS, "hurst": SPHERE_HURST, "rms": SPHERE_RMS, "length": 1.0, "modulus": 1.0}
 
@@ -58,8 +58,8 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     force = averages["force"].to_numpy()
     for name, style, colour, width, words in (
         ("law", ":", "black", 3.2, "eq. 5.9"),
-        ("hertz", "--", "#0072b2", 1.2, "smooth sphere, slope 1/3"),
-        ("roughness", "-.", "#009e73", 1.2, "roughness alone, slope 1/(H + 1)"),
+        ("hertz", "--", "#0072b2", 1.2, "sphere alone, slope 1/3"),
+        ("roughness", "-.", "#009e73", 1.2, "roughness, slope 1/(H + 1)"),
     ):
         axes.plot(force, averages[name], style, color=colour, linewidth=width, zorder=2, label=words)
     resolved, colour = averages["resolved"], drawing.LINES
@@ -69,51 +69,71 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
     crossing = float(rough_sphere.crossover_force(*_BODY.values()))
     axes.axvline(crossing, color="0.5", linewidth=0.9, zorder=1)
     words = rf"crossover, ${1e5 * crossing:.2f} \cdot 10^{{-5}}$"
-    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=TICK, color="0.3")
+    axes.text(1.05 * crossing, 3.4e-3, words, fontsize=drawing.TICK, color="0.3")
     limits = {"xlim": (force[0] / 1.2, force[-1] * 1.2), "ylim": (3e-3, 0.6)}
     drawing.label(axes, r"force $F\,/\,(E^* L^2)$", drawing.STIFFNESS, **drawing.LOG, **limits)
-    axes.legend(loc="upper left")
+    drawing.legend_below(axes)
 
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
-    """Compare computed stiffnesses with eq. 5.9, with the asymptotes, and the crossover with its number."""
-    inside = averages["resolved"].to_numpy()
-    one = averages.isel(load=np.flatnonzero(inside))
-    ratio, error = one["stiffness"] / one["law"] - 1, one["stiffness_error"] / one["law"]
+    """Compare computed stiffnesses with eq. 5.9, with the asymptotes, and the crossover with where they meet."""
+    one, ratio, error = _from_law(averages)
     hertz = averages["stiffness"] / averages["hertz"] - 1
     errors = averages["stiffness_error"] / averages["hertz"]
     crossing = float(rough_sphere.crossover_force(*_BODY.values()))
-    below = averages.isel(load=np.flatnonzero(averages["force"].to_numpy() < crossing))
-    faint = below["stiffness"] / below["law"] - 1
+    # Where ln k of both asymptotes is one.
+    apart = np.log((averages["roughness"] / averages["hertz"]).to_numpy())
+    meeting = float(np.exp(np.interp(0, apart, np.log(averages["force"].to_numpy()))))
+    below = one.isel(load=np.flatnonzero(one["force"].to_numpy() < crossing))
+    faint = averages.isel(load=np.flatnonzero(averages["force"].to_numpy() < crossing))
+    deviation = faint["stiffness"] / faint["law"] - 1
     yield Verdict(
-        "sphere and roughness act as their forces added (eq. 5.9)",
-        "eq. 5.9",
-        f"{spanned(ratio, '+.1%')} from it where resolved (forces {spanned(one['force'], '.2g')} E* L^2), errors "
+        "sphere and roughness act as their forces added",
+        "derive an analytical approximation for the entire range of forces.",
+        "section 5.2, eq. 5.9",
+        f"{spanned(ratio, '+.1%')} from eq. 5.9 where resolved (forces {spanned(one['force'], '.2g')} E* L^2), errors "
         f"{spanned(error, '.1%')}; {counted(averages)}",
-        judged(ratio, error, NEAR),
+        ruled(ratio, error, NEAR),
     )
     yield Verdict(
-        "the crossover between roughness and sphere",
-        f"{CROSSOVER:g}",
-        f"{crossing:.4g} by eq. 5.10; there the computed stiffness is "
-        f"{float((averages['stiffness'] / averages['hertz']).interp(load=_place(averages, crossing))):.2f} of that of "
-        "the smooth sphere",
-        bool(abs(crossing / CROSSOVER - 1) < 0.01),
+        "the crossover lies where both asymptotes meet",
+        "The crossover is expected to take place at the intersection of both",
+        "section 5.2, eq. 5.10",
+        f"{crossing:.4g} by eq. 5.10, {meeting:.4g} where eqs 5.4 and 5.5 meet",
+        exactly(bool(abs(crossing / meeting - 1) < 0.01), "1%", f"{crossing / meeting - 1:+.1%}"),
+        "method",
     )
     yield Verdict(
-        "below the crossover the roughness decides",
-        "slope 1/(H + 1)",
-        f"{spanned(faint, '+.1%')} from eq. 5.9 below the crossover, mostly on fewer than 20 cells",
-        None,
+        "for small forces the stiffness is that of the roughness",
+        "For small normal forces, the system is dominated by the roughness and the stiffness approaches eq. 5.5.",
+        "section 5.2, fig. 37",
+        f"{spanned(deviation, '+.1%')} from eq. 5.9 below the crossover, of which {below.sizes['load']} of "
+        f"{faint.sizes['load']} forces are resolved",
+        undecided("fewer than 20 cells carry well below the crossover", f"{NEAR:.0%}"),
     )
     yield Verdict(
         "taken for a smooth sphere the stiffness can only be overestimated",
-        "only",
+        "When such a rough indenter is treated as purely Hertzian, then the contact stiffness can only be "
+        "overestimated.",
+        "section 5.2",
         f"means {spanned(hertz, '+.1%')} from that of the smooth sphere",
-        judged(np.maximum(hertz, 0), errors, 0.0),
+        ruled(hertz, errors, LEAST, above=True),
     )
 
 
-def _place(averages: xarray.Dataset, force: float) -> float:
-    """Return the place of a force along the loads."""
-    return float(np.interp(np.log(force), np.log(averages["force"]), np.arange(averages.sizes["load"])))
+def findings(averages: xarray.Dataset) -> str:
+    """Return in a sentence what is found about the rough sphere."""
+    _, ratio, error = _from_law(averages)
+    hertz = averages["stiffness"] / averages["hertz"] - 1
+    return (
+        f"A rough sphere of H = {SPHERE_HURST:g} is {beside(ratio)} (± {float(error.max()):.0%} or less) the "
+        f"stiffness of the thesis' closed form, eq. 5.9, where the grid resolves it, and {beside(hertz)} the "
+        "smooth sphere over all "
+        "forces."
+    )
+
+
+def _from_law(averages: xarray.Dataset) -> tuple[xarray.Dataset, xarray.DataArray, xarray.DataArray]:
+    """Return what is resolved, its stiffness over eq. 5.9, less one, and the errors of that."""
+    one = averages.isel(load=np.flatnonzero(averages["resolved"].to_numpy()))
+    return one, one["stiffness"] / one["law"] - 1, one["stiffness_error"] / one["law"]

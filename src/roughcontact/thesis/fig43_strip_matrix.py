@@ -8,7 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.thesis import drawing
 from roughcontact.thesis.matrix_view import matrix_view
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
@@ -22,7 +24,7 @@ CHOSEN = (
     "a smaller first and last column, and the same numbers between",
     "the constant C, which the thesis leaves open: no displacement at a distance of N strips",
 )
-SIZE = (7.4, 3.2)
+SIZE = (drawing.PAGE, 3.0)
 
 
 def case(seed: int = SEED) -> Array:
@@ -45,14 +47,18 @@ def verdicts(data: Array) -> Verdicts:
     # Without the constant: the distance is then counted in strips.
     own, next_one = data[0, :2] - 2 * math.log(STRIPS)
     yield Verdict(
-        "B_ij depends on |i - j| only",
-        "between the first and the last column",
+        "the matrix of strips depends on the distance only",
+        "All other values B_ij only depend on the difference |i - j|",
+        "section A.1.1, fig. 43",
         f"in all columns, within {max(spread, 1e-15):.0e}",
-        bool(spread < 1e-12),
+        exactly(bool(spread < 1e-12), "rounding"),
+        "method",
     )
     yield Verdict(
-        "B_ii and B_i,i+1 as eq. A.46 is printed",
+        "B_ii and B_i,i+1 of strips",
         f"-3/2, {-next_one / 2:.4f}",
+        "eq. A.46",
         f"{own:.4f}, {next_one:.4f}: the factor -2 of eq. A.43 is lost",
-        bool(abs(own + 1.5) < 1e-6),
+        exactly(bool(abs(own + 1.5) < 1e-6), "rounding", "a factor of -2"),
+        "misprint",
     )

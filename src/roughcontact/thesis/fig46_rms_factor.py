@@ -12,6 +12,7 @@ from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
 from roughcontact.plot.level import level
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exactly
 from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
@@ -25,9 +26,9 @@ CHOSEN = (
     "H from 0 to 2; N = 2, 8, 64, 1024 waves to a side, and the limit of many",
     "eq. A.76 without its factor 1/2; as printed it gives the lowest curve in the limit",
 )
-SIZE = (5.4, 3.8)
+SIZE = (drawing.COLUMN, 3.2)
 
-_COLOURS = ("#cc79a7", "#e69f00", "#009e73", "#56b4e9", "#0072b2")
+_COLOURS = ("#b0508a", "#a67500", "#009e73", "#2f8fcf", "#0072b2")
 
 
 def case(seed: int = SEED) -> Array:
@@ -45,7 +46,7 @@ def draw(figure: Figure, data: Array) -> None:
     level(axes, math.pi, r"$\pi$", ha="right")
     words = r"$\lambda = C_{\mathrm{1D}}\,/\,(q\,C_{\mathrm{2D}})$"
     drawing.label(axes, "Hurst exponent $H$", words, xlim=(HURST[0], HURST[-1]), ylim=(1, 3.4))
-    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.4), ncols=2)
+    drawing.legend_below(axes, 3)
 
 
 def verdicts(data: Array) -> Verdicts:
@@ -58,16 +59,22 @@ def verdicts(data: Array) -> Verdicts:
     lines = (line_spectrum(surface, factor) for factor in (own, own / 2))
     shares = [rc.grid_moments(rc.Grid(points, 1 / points), line).m0 / variance for line in lines]
     yield Verdict(
-        "lambda approaches pi for H = 1 and many grid points, and for no other H",
-        f"{math.pi:.4f} at H = 1",
+        "lambda approaches pi at H = 1 only",
+        "It only approaches π for H = 1 and a large number of grid points N.",
+        "section A.2, fig. 46",
         f"{limit[at[1.0]]:.4f} at H = 1; {limit[at[0.0]]:.4f} at H = 0, where 1024 waves to a side give "
         f"{data[-2, at[0.0]]:.4f}",
-        bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3),
+        exactly(
+            bool(abs(limit[at[1.0]] / math.pi - 1) < 1e-3), "0.1%", f"{limit[at[1.0]] / math.pi - 1:+.0%}"
+        ),
+        "misprint",
     )
     yield Verdict(
-        "factor of eq. A.76, H = 1: both have one rms height",
+        "the factor with which line and surface have one rms height, H = 1",
         f"{own / 2:.4f} on {points} points",
+        "eq. A.76",
         f"{own:.4f}; with it the line has {shares[0]:.6f} of the variance of the surface, with the printed one "
         f"{shares[1]:.6f}",
-        bool(abs(shares[1] - 1) < 1e-3),
+        exactly(bool(abs(shares[1] - 1) < 1e-3), "0.1%", "a factor of 2"),
+        "misprint",
     )

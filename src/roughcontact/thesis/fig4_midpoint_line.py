@@ -19,7 +19,7 @@ LENGTH = 1.0
 STAGES = 4
 SEED = 8
 CHOSEN = (f"H = {HURST:g}", "displacements uniform within ±d, d as the unit of height")
-SIZE = (6.5, 4.6)
+SIZE = (drawing.PAGE, 4.4)
 
 _LINE, _MOVED = "#0072b2", "#d55e00"
 

@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.plot.view import surface_view
 from roughcontact.thesis import drawing
+from roughcontact.thesis.ruling import exceeds
+from roughcontact.thesis.verdict import Verdict, Verdicts
 from roughcontact.validation import Array
 
-__all__ = ["case", "draw"]
+__all__ = ["case", "draw", "verdicts"]
 
 TITLE = "random midpoint displacement of a surface, half steps and stages"
 HURST = 0.8
@@ -19,13 +21,14 @@ RELATIVE = 0.25  # d over the side
 LENGTH = 1.0
 LEVELS = (1, 3, 7)
 SEED = 6
+DRAWS = 200  # surfaces whose waves are counted
 CHOSEN = (
     f"H = {HURST:g}, d = {RELATIVE:g} L",
     "the same d in both half steps",
     "edges on the border: the mean of their three neighbours",
     f"surfaces of {', '.join(f'{2**n + 1}²' for n in LEVELS)} nodes",
 )
-SIZE = (7.2, 5.0)
+SIZE = (drawing.PAGE, 4.8)
 
 
 # Of two squares a side: where the nodes of a half step lie.
@@ -100,3 +103,30 @@ def _nodes(axes: Axes, centres: Array, edges: Array | None = None) -> None:
     if edges is not None:
         axes.plot(*edges, "o", color=_EDGE, markersize=5, zorder=4)
     axes.plot(*centres, "o", color=_CENTRE, markersize=9, zorder=4)
+
+
+def verdicts(data: tuple[rc.Surface, ...]) -> Verdicts:
+    """Return how much the power of long and of short waves scatters among surfaces of this kind."""
+    grid = rc.Grid((65, 65), 1 / 64)
+    # Mean squares of the second difference, which knows waves about as long as it is, at L/2 and at one cell.
+    squares = np.array([[_bend(grid, seed, lag) for lag in (32, 1)] for seed in range(DRAWS)])
+    scatter = squares.std(axis=0, ddof=1) / squares.mean(axis=0)
+    ratio = float(scatter[0] / scatter[1])
+    yield Verdict(
+        "the long waves of random midpoint surfaces scatter greatly",
+        "the lower frequency amplitudes are subject to great scattering.",
+        "section 2.3.1",
+        f"the mean square of the second difference over half the side scatters by {scatter[0]:.0%} of its mean among "
+        f"{DRAWS} surfaces, over a cell by {scatter[1]:.0%}; amplitudes of the inverse Fourier transform are fixed",
+        # Each scatter is known to 1/sqrt(2 n) of itself.
+        exceeds(ratio, ratio / np.sqrt(DRAWS), 3.0, ".1f", "three times that of the short waves"),
+        "method",
+    )
+
+
+def _bend(grid: rc.Grid, seed: int, lag: int) -> float:
+    """Return the mean square of the second difference of one surface over a number of cells."""
+    heights = rc.midpoint_surface(
+        grid, HURST, np.random.default_rng(seed), displacement=RELATIVE * LENGTH
+    ).heights
+    return float(np.mean((heights[2 * lag :] - 2 * heights[lag:-lag] + heights[: -2 * lag]) ** 2))

@@ -21,7 +21,7 @@ CHOSEN = (
     f"rms height {RMS:g} L for every H, enlarged in the picture",
     "the same phases for every H",
 )
-SIZE = (6.5, 6.0)
+SIZE = (drawing.COLUMN, 3.6)
 
 
 def case(seed: int = SEED) -> tuple[rc.Surface, ...]:

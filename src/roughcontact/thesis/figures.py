@@ -17,9 +17,8 @@ import matplotlib
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.plot.ticks import TICK
 from roughcontact.study.study import Study
-from roughcontact.thesis.drawing import STYLE
+from roughcontact.thesis.drawing import STYLE, TICK
 from roughcontact.thesis.verdict import Verdict
 
 __all__ = [
@@ -31,6 +30,7 @@ __all__ = [
     "Studies",
     "drawn",
     "figure",
+    "findings",
     "is_ensemble",
     "module",
     "verdicts",
@@ -60,7 +60,7 @@ FIGURES = _figures()
 
 
 class FigureModule(Protocol):
-    """What the module of every figure holds. It may also hold `verdicts`, see the function of this name."""
+    """What the module of every figure holds. It may also hold `verdicts` and `findings`, see the functions."""
 
     TITLE: str
     CHOSEN: tuple[str, ...]  # what the thesis leaves open, and what is taken here
@@ -77,8 +77,8 @@ class SimpleFigure(FigureModule, Protocol):
     --------
     >>> import roughcontact as rc
     >>> found = rc.thesis.module("fig6")
-    >>> found.SEED, found.SIZE, len(found.CHOSEN)
-    (4, (6.5, 6.0), 3)
+    >>> found.SEED, len(found.case()) == len(found.EXPONENTS)
+    (4, True)
     """
 
     SEED: int
@@ -232,12 +232,18 @@ def verdicts(found: FigureModule, data: object) -> tuple[Verdict, ...]:
     Examples
     --------
     >>> import roughcontact as rc
-    >>> found = rc.thesis.module("fig41")
-    >>> [(verdict.claim, verdict.word) for verdict in rc.thesis.verdicts(found, found.case())]
-    [('the matrix is well conditioned', 'holds')]
+    >>> found = rc.thesis.module("fig20")
+    >>> [verdict.word for verdict in rc.thesis.verdicts(found, found.case())]
+    ['holds', 'does not hold', 'holds']
     """
     judge = getattr(found, "verdicts", None)
     return () if judge is None else tuple(judge(data))
+
+
+def findings(found: FigureModule, data: Any) -> str:
+    """Return what a figure says about the whole, in a sentence; empty for most."""
+    said = getattr(found, "findings", None)
+    return "" if said is None else str(said(data))
 
 
 def figure(name: str, seed: int | None = None) -> Figure:

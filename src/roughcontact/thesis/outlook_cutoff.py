@@ -16,7 +16,8 @@ from roughcontact.statistics.fit_window import CELLS
 from roughcontact.theory import persson
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.figures import Scale, Studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, judged, plus_minus
+from roughcontact.thesis.ruling import middle, ranged, ruled, undecided
+from roughcontact.thesis.verdict import Verdict, Verdicts, plus_minus, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
@@ -25,6 +26,7 @@ HURST = (0.0, 0.2, 0.4, 0.7)
 SHOWN = 0.7  # Hurst exponent of the curves
 FORCES = np.geomspace(2e-3, 0.2, 11)  # F/(E* h L), h the rms height with all waves
 FORCE = 0.05  # at which waves are counted
+NEAR = 0.1  # of a stiffness: what counts as no influence
 LEAST = 4  # cells a shortest wave
 CHOSEN = (
     "free squares, H = " + ", ".join(f"{hurst:g}" for hurst in HURST),
@@ -32,7 +34,7 @@ CHOSEN = (
     f"and 64 x 64), at least {LEAST} cells a wave; the longer waves of a sample are the same throughout",
     "20 samples (small: 12), compared one by one; forces over E* L and the rms height with all waves",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SEED = 11
 
 
@@ -134,63 +136,62 @@ def draw(figure: Figure, averages: xarray.Dataset) -> None:
 
 def verdicts(averages: xarray.Dataset) -> Verdicts:
     """Say how the area goes with load and shortest wave, and how much the stiffness does."""
-    found = [_of(averages.sel(hurst=hurst)) for hurst in averages["hurst"].values]
-    areas, stiffnesses = zip(*found, strict=True)
-    yield from areas
-    yield from stiffnesses
-    yield _grid(averages.sel(hurst=SHOWN))
-
-
-def _of(averages: xarray.Dataset) -> tuple[Verdict, Verdict]:
-    """Return the verdicts on area and stiffness of one Hurst exponent."""
     fine = averages.isel(points=-1)
     at = fine.sel(force=FORCE, method="nearest")
-    few, many = at.isel(waves=0), at.isel(waves=-1)
-    first, last = int(few["waves"]), int(many["waves"])
-    told = (
-        f"H = {float(fine['hurst']):g}, {averages.attrs['surfaces']} samples of {int(fine['points'])}² cells, shortest "
-        f"wave from L/{first} to L/{last}, F = {FORCE:g} E* h L"
+    first, last = int(at["waves"][0]), int(at["waves"][-1])
+    told = f"{averages.attrs['surfaces']} samples of {int(fine['points'])}² cells, F = {FORCE:g} E* h L"
+    mean, error = 1 / at["spread"], at["spread_error"] / at["spread"] ** 2
+    yield Verdict(
+        "the pressure in contact is of the order of E* g/2, g the rms slope",
+        "the contact stress at any particular scale has the order of magnitude σ ≈ E*∇z/2",
+        "section 4.3, eq. 4.19",
+        f"mean pressures of {spanned(mean, '.2f')} E* g for H = {_hursts(averages)} and shortest waves from L/{first} "
+        f"to L/{last}; {told}",
+        # As logarithms to the base of ten: half an order of magnitude either way.
+        ruled(np.log10(2 * mean), error / mean / np.log(10), 0.5, "+.2f", words="half an order of magnitude"),
     )
-    growth, fall = float(many["slope"] / few["slope"]), float(few["area_change"])
+    whole, half = at.isel(waves=-1), at.isel(waves=-2)
+    change = half["stiffness_change"] - 1
+    rows = [at.sel(hurst=hurst) for hurst in averages["hurst"].values]
+    each = "; ".join(
+        f"H = {float(one['hurst']):g}: "
+        + ", ".join(
+            f"L/{int(wave['waves'])} {plus_minus(wave, 'stiffness_change', '.3f')}"
+            for wave in (one.isel(waves=n) for n in range(at.sizes["waves"] - 1))
+        )
+        for one in rows
+    )
+    yield Verdict(
+        "the stiffness does not see the smallest scales",
+        "The contact stiffness on the contrary is determined by the largest wavelength in the power spectrum of the "
+        "surface roughness and is not sensitive to the occurrence on the atomic scale.",
+        "section 4.3",
+        f"without the shortest octave of waves, L/{int(half['waves'])} to L/{int(whole['waves'])}: "
+        f"{ranged(change, half['stiffness_change_error'], NEAR)}; k over that with all waves for other shortest waves: "
+        f"{each}; {told}",
+        ruled(middle(change), middle(half["stiffness_change_error"]), NEAR),
+    )
+    yield _area(at, fine, told)
+
+
+def _hursts(averages: xarray.Dataset) -> str:
+    return ", ".join(f"{hurst:g}" for hurst in averages["hurst"].values)
+
+
+def _area(at: xarray.Dataset, fine: xarray.Dataset, told: str) -> Verdict:
+    """Return what load, shortest wave and grid do to the contact area."""
+    few, many = at.isel(waves=0), at.isel(waves=-1)
+    growth, fall = many["slope"] / few["slope"], few["area_change"]
     power = -np.log(fall) / np.log(growth)
     area = fine["area"].isel(waves=-1)
-    load = np.polyfit(np.log(fine["force"]), np.log(area), 1)[0]
-    changes = [at.isel(waves=i) for i in range(at.sizes["waves"] - 1)]
-    halved = ", ".join(
-        f"L/{int(each['waves'])} {plus_minus(each, 'stiffness_change', '.3f')}" for each in changes
-    )
-    least = fine.isel(force=0, waves=0)
-    return (
-        Verdict(
-            "contact area as a function of load and shortest wave (Outlook), from the pressure in contact of eq. 4.19: "
-            "A = 2 F/(E* g), g the rms slope",
-            "2",
-            f"A E* g/F from {plus_minus(few, 'spread')} to {plus_minus(many, 'spread')}, while g grows by a factor of "
-            f"{growth:.2f} and A falls by one of {fall:.2f}, as g^{power:.2f}; with all waves A ~ F^{load:.2f} from "
-            f"{FORCES[0]:g} to {FORCES[-1]:g}; {told}",
-            judged(at["spread"] / 2 - 1, at["spread_error"] / 2, 0.25),
-        ),
-        Verdict(
-            "the stiffness is that of the longest waves and does not see the smallest scales (section 4.3)",
-            "not sensitive",
-            f"k over that with all waves, for a shortest wave of {halved}, where the area is {fall:.2f} to 1; at a "
-            f"force of {FORCES[0]:g}, where few cells touch, {plus_minus(least, 'stiffness_change')} for L/{first}; "
-            f"{told}",
-            judged(few["stiffness_change"] - 1, few["stiffness_change_error"], 0.1),
-        ),
-    )
-
-
-def _grid(averages: xarray.Dataset) -> Verdict:
-    """Return the verdict on the number of cells for the same waves."""
-    one = averages.isel(waves=0).sel(force=FORCE, method="nearest").dropna("points", subset=["spread"])
-    rough, smooth, waves = one.isel(points=0), one.isel(points=-1), int(one["waves"])
+    loads = [np.polyfit(np.log(fine["force"]), np.log(area.sel(hurst=h)), 1)[0] for h in fine["hurst"].values]
     return Verdict(
-        "contact area as a function of grid resolution (Outlook)",
-        "asked",
-        f"A E* g/F {plus_minus(rough, 'spread')} with {int(rough['points']) // waves} cells a shortest wave and "
-        f"{plus_minus(smooth, 'spread')} with {int(smooth['points']) // waves}, on the same surfaces; the stiffness "
-        f"{float(rough['stiffness'] / smooth['stiffness'] - 1):+.1%}; H = {SHOWN:g}, shortest wave L/{waves}, F = "
-        f"{FORCE:g} E* h L",
-        None,
+        "the contact area as a function of load and shortest wave",
+        "Can some of the ideas be used in estimating the contact area, not only as function of the applied load, but "
+        "also on grid resolution / short wave cut-off?",
+        "chapter 7",
+        f"A E* g/F is {spanned(at['spread'], '.2f')}, A ~ F^{min(loads):.2f} to F^{max(loads):.2f} and, with more "
+        f"waves, as g^{float(power.min()):.2f} to g^{float(power.max()):.2f}; {told}",
+        undecided("a question; the area follows the rms slope"),
+        "answer",
     )

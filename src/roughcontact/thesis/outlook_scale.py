@@ -13,11 +13,13 @@ from matplotlib.figure import Figure
 from roughcontact.thesis import averaging, drawing
 from roughcontact.thesis.averaging import exponential, logarithm
 from roughcontact.thesis.outlook_cutoff import studies
-from roughcontact.thesis.verdict import Verdict, Verdicts, counted, judged, listed, plus_minus
+from roughcontact.thesis.ruling import VICINITY, exceeds, middle, ranged, ruled
+from roughcontact.thesis.verdict import Verdict, Verdicts, counted, listed
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "prefactor of the stiffness against the size of the surface, at a given Theta"
+NEAR = 0.1  # of a stiffness: what counts as no difference
 WINDOW = (0.02, 0.07)  # forces F/(E* h L) over which the prefactor is averaged
 ONE = 0.2  # force F/(E* h L) of the smallest size at which sizes are compared at one force
 OCTAVE = 0.5  # the longest waves: those from L down to this part of it
@@ -28,7 +30,7 @@ CHOSEN = (
     "Theta = h L^-H as in eq. 7.1, with the rms height h of all waves; and, beside it, with that of the longest "
     "octave, which does not know the shortest wave",
 )
-SIZE = (8.8, 7.2)
+SIZE = (drawing.PAGE, 6.2)
 SHOWN = (0.0, 0.7)
 
 
@@ -115,41 +117,51 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         f"{counted(averages)}, L from {waves[0]} to {waves[-1]} shortest waves, F from {WINDOW[0]:g} to {WINDOW[1]:g} "
         "E* h L"
     )
+    last = averages.isel(waves=-1)
+    factor = exponential(last["same_force"])
+    error = factor * last["same_force_error"]
+    growth = listed(averages, "growth", "hurst", "+.3f")
+    yield Verdict(
+        "at a given Theta the size is not in the stiffness, nor in the way to gross slip",
+        "depends on the normal force in a power-law fashion, but does not depend on the system size.",
+        "chapter 7, eqs 7.2 and 7.6",
+        f"at one force F/(E* Theta), {ONE:g} E* h L of the smallest size, the largest is stiffer by "
+        f"{ranged(factor - 1, error, NEAR, '+.0%')}; at equal F/(E* h L) d ln zeta/d ln L = {growth}; {told}",
+        ruled(middle(factor - 1), middle(error), NEAR, "+.0%"),
+    )
+    yield Verdict(
+        "one zeta for all forces",
+        "k/E* = ζ (F/(E*Θ))^(1/(H + 1))",
+        "chapter 7, eq. 7.2",
+        f"d ln zeta/d ln F = {listed(averages, 'steepness', 'hurst', '+.2f')}; {told}",
+        ruled(middle(averages["steepness"]), middle(averages["steepness_error"]), 0.1, "+.2f"),
+    )
+    near = averages.isel(hurst=np.flatnonzero(averages["hurst"] <= VICINITY))
+    low = near.isel(waves=-1)
+    least = int(abs(low["same_force"]).to_numpy().argmin())
+    yield Verdict(
+        "for small H the prefactor depends on the size",
+        "For small values of H it will surely depend on the system size in addition to the other parameters.",
+        "chapter 7",
+        f"the largest is {listed(low.assign(factor=factor, factor_error=error), 'factor', 'hurst')} times as stiff as "
+        f"the smallest at one force F/(E* Theta); {told}",
+        exceeds(
+            abs(float(low["same_force"][least])),
+            float(low["same_force_error"][least]),
+            NEAR,
+            ".2f",
+            "a difference of ln k by more than 0.1",
+        ),
+        "answer",
+    )
     octave = listed(averages, "growth_octave", "hurst", "+.3f")
-    steep = listed(averages, "steepness", "hurst", "+.2f")
     whole, part = (float(np.abs(averages[name]).max()) for name in ("growth", "growth_octave"))
-    yield from (_size(averages.sel(hurst=hurst), told) for hurst in averages["hurst"].values)
+    errors = float(averages["growth_error"].max() + averages["growth_octave_error"].max())
     yield Verdict(
-        "the normalisation by Theta is the favourable one at small H (Outlook)",
-        "favourable",
-        f"with Theta of the longest octave in place of all waves d ln zeta/d ln L is {octave}; at most {part:.3f} in "
-        f"place of {whole:.3f}; {told}",
-        whole < part,
-    )
-    yield Verdict(
-        "the stiffness goes as F^(1/(H + 1)), with one zeta for all forces (eq. 7.2)",
-        "0",
-        f"d ln zeta/d ln F = {steep}; {told}",
-        judged(averages["steepness"], averages["steepness_error"], 0.05),
-    )
-
-
-def _size(one: xarray.Dataset, told: str) -> Verdict:
-    """Return the verdict on the size at one Hurst exponent."""
-    first, last, hurst = one.isel(waves=0), one.isel(waves=-1), float(one["hurst"])
-    factor = float(np.exp(last["same_force"]))
-    error = factor * float(last["same_force_error"])
-    independent = judged(factor - 1, error, 0.1)
-    if hurst < 0.5:
-        claim, thesis = "the prefactor depends on the size for small H (Outlook)", "surely"
-        holds = None if independent is None else not independent
-    else:
-        claim, thesis, holds = "the size is not in the stiffness (eq. 7.2)", "0", independent
-    return Verdict(
-        f"at a given Theta {claim}, H = {hurst:g}",
-        thesis,
-        f"at one force F/(E* Theta), {ONE:g} E* h L of the smallest size, the largest is {factor:.2f} ± {error:.2f} "
-        f"times as stiff; at equal F/(E* h L) zeta goes from {plus_minus(first, 'zeta')} to "
-        f"{plus_minus(last, 'zeta')}, d ln zeta/d ln L = {plus_minus(one, 'growth', '+.3f')}; {told}",
-        holds,
+        "the normalisation by Theta is the favourable one at small H",
+        "In this context it seems favorable to use the normalization according to eq. 7.2.",
+        "chapter 7",
+        f"d ln zeta/d ln L is {growth}; with Theta of the longest octave in place of all waves {octave}; {told}",
+        exceeds(part - whole, errors, 0.0, "+.3f", "a weaker dependence on the size"),
+        "answer",
     )

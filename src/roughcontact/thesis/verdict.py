@@ -1,16 +1,34 @@
-"""What the thesis says in numbers, what is found here, and whether the two agree."""
+"""What the thesis says, word for word, what is found here, and whether the two agree."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 import xarray
 
-__all__ = ["Verdict", "Verdicts", "counted", "judged", "listed", "plus_minus", "series", "spanned"]
+from roughcontact.thesis.ruling import Ruling
+
+__all__ = [
+    "Kind",
+    "Verdict",
+    "Verdicts",
+    "beside",
+    "counted",
+    "listed",
+    "plus_minus",
+    "series",
+    "signed",
+    "spanned",
+]
+
+Kind = Literal["claim", "method", "misprint", "theory", "answer"]
+"""A claim about rough contacts; one about definitions and methods; a printed number or formula; a theory of others;
+or an answer to a question that the thesis asks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,55 +38,65 @@ class Verdict:
     Parameters
     ----------
     claim : str
-        What is claimed, in words.
-    thesis : str
-        The number in the text.
+        What is claimed, in our words.
+    quote : str
+        What the thesis says, word for word; a formula where it says it by one.
+    source : str
+        Section, equation or figure of the quote.
     found : str
-        The number found here, with its error and what it was found from.
-    holds : bool or None
-        None where the text states too little to say so.
+        What is found here, with its error and what it was found from.
+    ruling : Ruling
+        The verdict, and how it was reached.
+    kind : str
 
     Examples
     --------
     >>> import roughcontact as rc
-    >>> rc.thesis.Verdict("the stiffness saturates", "1.1419", "1.1518", False).word
-    'does not hold'
+    >>> found = rc.thesis.module("fig41")
+    >>> [verdict] = rc.thesis.verdicts(found, found.case())
+    >>> verdict.source, verdict.word
+    ('section A.1.1, fig. 41', 'holds')
     """
 
     claim: str
-    thesis: str
+    quote: str
+    source: str
     found: str
-    holds: bool | None
+    ruling: Ruling
+    kind: Kind = "claim"
 
     @property
     def word(self) -> str:
-        """The verdict in a word or two."""
-        return {True: "holds", False: "does not hold", None: "open"}[self.holds]
+        """The verdict in a word or two, with where it holds if it does so in part."""
+        return self.ruling.words
 
 
 Verdicts = Iterator[Verdict]
 """What a figure says, a claim after the other."""
 
 
-def judged(deviation: npt.ArrayLike, error: npt.ArrayLike, tolerance: float) -> bool | None:
-    """Return whether all deviations stay within a tolerance, as far as their standard errors let one say.
-
-    None where one is outside, but by less than three standard errors, and where there is none. Deviations that are
-    NaN say nothing.
-    """
-    away, errors = np.broadcast_arrays(np.abs(np.asarray(deviation, dtype=np.float64)), np.nan_to_num(error))
-    if not np.isfinite(away).any():
-        return None
-    if not (away > tolerance).any():
-        return True
-    return False if (away > tolerance + 3 * errors).any() else None
-
-
 def spanned(values: npt.ArrayLike, form: str) -> str:
     """Return the smallest and the largest of some numbers in words; NaN are none."""
     numbers = np.asarray(values, dtype=np.float64)
     there = numbers[np.isfinite(numbers)]
-    return f"{there.min():{form}} to {there.max():{form}}" if there.size else "none"
+    return " to ".join(signed(each, form) for each in (there.min(), there.max())) if there.size else "none"
+
+
+def beside(deviations: npt.ArrayLike) -> str:
+    """Return in words how far numbers lie from a law, from parts of it less one: "10% below to 15% above"."""
+    numbers = np.asarray(deviations, dtype=np.float64)
+    there = numbers[np.isfinite(numbers)]
+    if not there.size:
+        return "nowhere"
+    return " to ".join(
+        f"{abs(each):.0%} {'below' if each < 0 else 'above'}" for each in (there.min(), there.max())
+    )
+
+
+def signed(value: float, form: str) -> str:
+    """Return a number in words; one that is rounded to zero has no sign."""
+    words = f"{value:{form}}"
+    return words if set(words) & set("123456789") else words.lstrip("+-")
 
 
 def series(values: npt.ArrayLike, form: str = ".3f", between: str = ", ") -> str:

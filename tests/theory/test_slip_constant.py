@@ -1,4 +1,4 @@
-"""Thesis, eq. 7.7: its constants belong to another power law than the thesis' own."""
+"""Thesis, eq. 7.7: its constants are those of another fit than eq. 4.74."""
 
 import pytest
 from scipy.integrate import quad
@@ -29,7 +29,7 @@ def gross_slip(hurst, theta):
 @pytest.mark.parametrize(
     ("hurst", "off"), [(0.3, -0.036), (0.5, 0.0745), (0.7, 0.149), (1.0, 0.213), (2.0, 0.217)]
 )
-def test_7_7_constant_of_the_largest_displacement_before_slip(hurst, off):
+def test_the_largest_displacement_is_the_depth_and_by_eq_7_7_that_of_another_fit(hurst, off):
     theta = 2e-6 * 3e-3**-hurst
     given = {"friction": FRICTION, "ratio": mindlin.ratio(POISSON)}
     exact = gross_slip(hurst, theta)
@@ -39,6 +39,6 @@ def test_7_7_constant_of_the_largest_displacement_before_slip(hurst, off):
     )
     legacy = printed_7_7(hurst, theta)
     assert mindlin.slip_constant(theta, hurst, constants="printed") == pytest.approx(legacy, rel=1e-14)
-    # How far the printed constants are off, to the digits given.
+    # How far both fits are apart, to the digits given.
     value = mindlin.fractal_gross_slip(FORCE, MODULUS, hurst, legacy, **given)
     assert value / exact - 1 == pytest.approx(off, abs=1e-3)

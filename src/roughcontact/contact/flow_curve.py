@@ -1,0 +1,65 @@
+"""What flows along a loading curve, and the stiffness that unloading from each of its loads would have."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.validation import Array
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+
+__all__ = ["FlowCurve", "flow_curve", "flow_point"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FlowCurve:
+    """Flow at each load of a curve; on unloading and reloading nothing flows, and what has flowed stays.
+
+    Attributes
+    ----------
+    plastic_area : array, shape (n,)
+        Area of the cells that flow at this load, whose pressure is the hardness [m^2].
+    flow_volume : array, shape (n,)
+        Volume that has flowed [m^3].
+    flow_energy : array, shape (n,)
+        Work of the pressure upon the cells that flow [J].
+    unloading_stiffness, unloading_interfacial_stiffness : array, shape (n,)
+        ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact
+        answer [N/m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e11, forces=[0.05, 0.1, 0.2], hardness=2e9)
+    >>> (curve.flow.flow_volume * 1e18).round(2).tolist()  # [um^3]
+    [0.0, 0.38, 3.27]
+    >>> bool((curve.flow.unloading_stiffness >= curve.stiffness).all())
+    True
+    """
+
+    plastic_area: Array
+    flow_volume: Array
+    flow_energy: Array
+    unloading_stiffness: Array
+    unloading_interfacial_stiffness: Array
+
+
+def flow_point(solution: Solution) -> tuple[float, ...]:
+    """Return the numbers of one load, in the order of the fields; none without a hardness."""
+    flow = solution.flow
+    if flow is None:
+        return ()
+    flattened = solution.flattened
+    area = solution.problem.measure.total(solution.plastic)
+    return area, flow.volume, flow.energy, flattened.stiffness, flattened.interfacial_stiffness
+
+
+def flow_curve(points: Sequence[tuple[float, ...]]) -> FlowCurve | None:
+    """Return the numbers of all loads; None where there is no flow."""
+    return FlowCurve(*np.array(points).T) if points and points[0] else None

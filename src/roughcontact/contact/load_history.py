@@ -1,0 +1,73 @@
+"""Loads up and down: what flows is kept, and the surface is elastic up to the largest load so far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import groupby
+
+from roughcontact.contact.continuation import follow
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.solver.control import Control, Depth, Solver
+from roughcontact.solver.subdomain import SubdomainSolver
+
+__all__ = ["follow_history"]
+
+
+def follow_history(
+    problem: ContactProblem, controls: list[Control], solver: Solver, *, raises: bool = False
+) -> Iterator[Solution]:
+    """Yield the solution under one control after the other, up and down.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Of the surface as it was, under a hardness.
+    controls : list of Force or Depth
+        In any order.
+    solver : Solver
+    raises : bool
+        Whether what flows raises the whole surface.
+    """
+    subdomains = SubdomainSolver(problem.operator)
+    top: Solution | None = None
+    for first, run in _runs(controls):
+        if first or top is None:
+            for solution in follow(problem, run, solver, start=top, subdomains=subdomains):
+                yield _raised(solution) if raises else solution
+                top = solution
+            continue
+        turn = (_raised(top) if raises else top).flattened
+        elastic = turn.problem
+        for solution in follow(elastic, _reachable(elastic, run), solver, start=turn, subdomains=subdomains):
+            # What flowed is known no better than the load that made it flow.
+            known = solution if turn.status.converged else replace(solution, status=turn.status)
+            yield known
+
+
+def _runs(controls: list[Control]) -> Iterator[tuple[bool, list[Control]]]:
+    """Yield the loads in runs: whether they go beyond all loads before, and which they are."""
+    largest, marked = -1.0, []
+    for control in controls:
+        marked.append((control.value > largest, control))
+        largest = max(largest, control.value)
+    for first, run in groupby(marked, key=lambda each: each[0]):
+        yield first, [control for _, control in run]
+
+
+def _reachable(problem: ContactProblem, controls: list[Control]) -> list[Control]:
+    """Return depths, none beyond full contact, which is known to the tolerance only."""
+    if not problem.semidefinite or problem.missing:
+        return controls
+    mean = problem.mean_separation
+    return [Depth(min(each.value, mean)) if isinstance(each, Depth) else each for each in controls]
+
+
+def _raised(solution: Solution) -> Solution:
+    """Return a state of first loading on the surface that what has flowed raises as a whole; depths count as before."""
+    flow, problem = solution.flow, solution.problem
+    if flow is None or not flow.volume:
+        return solution
+    rise = flow.volume / problem.measure.total(problem.measured)
+    return replace(solution, problem=problem.raised(rise), depth=solution.depth - rise)

@@ -1,0 +1,259 @@
+"""A whole loop of loads: first loading, along which the surface flows, then unloading and reloading, both elastic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.contact.curve import Curve, collect
+from roughcontact.contact.flow import Flow, FlowReading
+from roughcontact.contact.load_range import load_range
+from roughcontact.contact.loading import Loads, loading_path
+from roughcontact.contact.problem import Body
+from roughcontact.contact.size_law import Hardness
+from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.labels.variables import unit_of
+from roughcontact.material import Solid
+from roughcontact.pictures import loop_html, plot_loop
+from roughcontact.solver.control import Solver
+from roughcontact.validation import Array, number, numeric, require
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["BRANCHES", "Loop", "closed_loop", "loading_loop", "loads_of_loop"]
+
+BRANCHES = ("loading", "unloading", "reloading")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Loop:
+    """A surface that is pressed for the first time, unloaded and pressed again.
+
+    Attributes
+    ----------
+    loading : Curve
+        First loading, up to the largest load; what flows there is ``loading.flow``.
+    unloading, reloading : Curve
+        From the largest load down to the least, and up again, on the flattened surface: its stiffness is that of all
+        cells in contact. Depths count from the first touch of the surface as it was.
+    surface : Surface or RadialProfile
+        As it was.
+    flattened : Surface or RadialProfile
+        After the largest load, with its provenance.
+    flow : Flow
+        What has flowed at the largest load.
+    residual_depth : float
+        Depth at which the flattened surface is touched without force [m]: what stays of the approach.
+    residual_gap : float
+        Mean gap of the flattened surface at that touch [m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> f"{loop.dissipated_work * 1e9:.1f} of {loop.work * 1e9:.1f} nJ are lost", loop.converged
+    ('6.5 of 25.7 nJ are lost', True)
+    >>> loop.to_dataset()["residual_depth"].attrs["units"]
+    'm'
+    """
+
+    loading: Curve
+    unloading: Curve
+    reloading: Curve
+    surface: Body
+    flattened: Body
+    flow: Flow
+    residual_depth: float
+    residual_gap: float
+
+    @property
+    def curves(self) -> dict[str, Curve]:
+        """The three branches by name, in their order."""
+        return {name: getattr(self, name) for name in BRANCHES}
+
+    @property
+    def converged(self) -> bool:
+        """Whether every load of every branch met its tolerance."""
+        return all(status.converged for curve in self.curves.values() for status in curve.status)
+
+    @property
+    def dissipated_work(self) -> float:
+        """Work of loading that unloading does not give back [J]: the area of the loop.
+
+        The energy of flow, less what the force takes up as the surface rises under it. The rise is integrated
+        over the force by the trapezoidal rule, to the second order of the steps of the loads.
+        """
+        flow = self.loading.flow
+        if flow is None or not self.flow.rise:
+            return self.flow.energy
+        rise = np.append(0.0, flow.flow_volume) * (self.flow.rise / self.flow.volume)
+        return self.flow.energy - float(np.trapezoid(np.append(0.0, self.loading.force), rise))
+
+    @property
+    def work(self) -> float:
+        """Work of first loading [J]: the elastic energy at the largest load, and what is dissipated."""
+        return float(self.loading.elastic_energy[-1]) + self.dissipated_work
+
+    def __repr__(self) -> str:
+        """Say what the loop spans, not its numbers."""
+        unit = unit_of("force", self.loading.geometry)
+        return (
+            f"Loop({len(self.loading)} loads up to {self.loading.force[-1]:.4g} {unit}, residual depth "
+            f"{self.residual_depth:.4g} m, {self.flow!r})"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the branches as an `xarray.Dataset`, one after the other, with the surface before and after.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names; ``branch`` says to which branch a load belongs.
+        """
+        from roughcontact.contact.loop_dataset import loop_dataset
+
+        return loop_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON: a record of each branch, and what they have in common.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+        >>> f"{loop.to_record()['residual_depth'] * 1e9:.0f} nm"
+        '78 nm'
+        """
+        from roughcontact.contact.loop_dataset import loop_record
+
+        return loop_record(self)
+
+    plot = plot_loop
+    _repr_html_ = loop_html
+
+
+@numeric
+def loading_loop(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    hardness: Hardness,
+    forces: Loads | None = None,
+    pressures: Loads | None = None,
+    flow: FlowReading = "removed",
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> Loop:
+    """Press a surface for the first time, unload it and press it again.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    hardness : float, array or function
+        Pressure that no cell exceeds [Pa], see `press`: of the softer body.
+    forces, pressures : array, shape (n,)
+        At most one: strictly increasing forces [N] or nominal pressures [Pa], of which the last is the largest load.
+        Unloading and reloading take the same ones. Without any, 24 forces that suit the surface, see `load_range`.
+    flow : {"removed", "raised"}
+        Where material that flows goes, see `loading_path`.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`.
+    solver : Solver, optional
+        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
+    tolerance : float
+        Largest residual of each load.
+
+    Returns
+    -------
+    Loop
+        Three curves, the flattened surface, and what has flowed.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> f"{loop.residual_depth * 1e9:.0f} of {loop.loading.depth[-1] * 1e9:.0f} nm stay"
+    '78 of 303 nm stay'
+    >>> f"k {loop.loading.stiffness[-1]:.3g} N/m, and {loop.unloading.stiffness[0]:.3g} N/m as it is unloaded"
+    'k 8.3e+05 N/m, and 1.15e+06 N/m as it is unloaded'
+    """
+    require(
+        hardness is not None, "a loop needs a hardness: without one nothing flows, and loading is unloading"
+    )
+    if forces is None and pressures is None:
+        forces = load_range(surface, modulus, operator=operator, hardness=hardness).forces
+    require(forces is None or pressures is None, "give forces or pressures, not both")
+    name = "pressures" if forces is None else "forces"
+    loads = np.atleast_1d(number(pressures if forces is None else forces, f"the list of {name}"))
+    require(
+        loads.ndim == 1 and len(loads) > 0, f"the list of {name} must hold at least one number in one row"
+    )
+    if not (np.diff(loads) > 0).all():
+        raise ValueError(
+            f"the {name} of a loop must increase strictly: it goes down them and up again by itself"
+        )
+    given: dict[str, Any] = {name: loads_of_loop(loads)}
+    path = loading_path(
+        surface,
+        modulus,
+        **given,
+        operator=operator,
+        solver=solver,
+        tolerance=tolerance,
+        hardness=hardness,
+        flow=flow,
+    )
+    return collect_loop(path, len(loads))
+
+
+def loads_of_loop(loads: Array) -> Array:
+    """Return rising loads, up, down and up again."""
+    return np.concatenate([loads, loads[::-1], loads])
+
+
+def collect_loop(path: Iterator[Solution], count: int) -> Loop:
+    """Drain a path of loads, up, down and up again, into a loop; fields are not kept, but for those at the turn."""
+    turn: list[Solution] = []
+
+    def watched() -> Iterator[Solution]:
+        for solution in islice(path, count):
+            turn[:] = [solution]
+            yield solution
+
+    return closed_loop(collect(watched()), turn[0], path)
+
+
+def closed_loop(loading: Curve, turn: Solution, path: Iterator[Solution]) -> Loop:
+    """Return the loop of a curve of first loading, its last state, and the path of the loads that follow."""
+    unloading, reloading = (collect(islice(path, len(loading))) for _ in range(2))
+    before, after = turn.problem.surface, turn.flattened.problem
+    assert turn.flow is not None
+    assert before is not None
+    assert after.surface is not None
+    touch = after.first_touch
+    return Loop(
+        loading, unloading, reloading, before, after.surface, turn.flow, touch, after.mean_separation - touch
+    )

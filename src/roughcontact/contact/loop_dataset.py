@@ -1,0 +1,59 @@
+"""A loop of loads as labelled data, and as a plain record."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.arrays import on_host
+from roughcontact.contact.dataset import curve_dataset, curve_record
+from roughcontact.labels.labelled import centres, dataset_of, plain_values, units_of, variable
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.contact.loop import Loop
+
+__all__ = ["loop_dataset", "loop_record"]
+
+_SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
+
+
+def loop_dataset(loop: Loop) -> xarray.Dataset:
+    """Return the three branches one after the other along ``load``, and the maps of the surface before and after."""
+    import xarray
+
+    kind, grid = loop.loading.geometry, loop.surface.grid
+    # What lies between two loads has no place where branches meet; scales and titles are those of first loading.
+    branches = [curve_dataset(curve).drop_dims("interval") for curve in loop.curves.values()]
+    along = [name for name, values in branches[0].items() if values.dims == ("load",)]
+    loads = xarray.concat([each[along] for each in branches], "load")
+    others = branches[0].drop_vars(along)
+    words = np.repeat(list(loop.curves), [len(curve) for curve in loop.curves.values()])
+    fields = {
+        "heights": loop.surface.heights,
+        "flattened_heights": loop.flattened.heights,
+        "flow_depth": loop.flow.depth,
+    }
+    data: dict[str, Any] = {name: variable(name, kind.axes, on_host(field)) for name, field in fields.items()}
+    data |= {name: variable(name, (), getattr(loop, name), kind) for name in _SCALARS}
+    data["flow_rise"] = variable("flow_rise", (), loop.flow.rise)
+    whole = dataset_of(
+        data, centres(grid, kind), "first loading, unloading and reloading of a rough surface", kind
+    )
+    joined = xarray.merge([whole, others, loads], combine_attrs="override")
+    return joined.assign(branch=variable("branch", ("load",), words))
+
+
+def loop_record(loop: Loop) -> dict[str, Any]:
+    """Return a loop as plain numbers, words and lists that JSON can hold."""
+    kind = loop.loading.geometry
+    record = {name: plain_values(getattr(loop, name)) for name in _SCALARS}
+    record |= {
+        "flow_volume": loop.flow.volume,
+        "flow_energy": loop.flow.energy,
+        "flow_rise": loop.flow.rise,
+    }
+    record |= {"units": units_of(record, kind)}
+    return record | {name: curve_record(curve) for name, curve in loop.curves.items()}

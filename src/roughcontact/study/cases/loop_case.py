@@ -1,0 +1,94 @@
+"""A case: one rough surface that flows when it is first pressed, unloaded and pressed again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from roughcontact.contact.loop import loading_loop
+from roughcontact.labels.labelled import variable
+from roughcontact.labels.variables import CURVE_POINTS, FLOW_POINTS, VARIABLES
+from roughcontact.study.case import Case
+from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
+from roughcontact.surface.moments import surface_moments
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "LoopParameters", "run"]
+
+_ARRAYS = (*CURVE_POINTS, "dimensionless_force", "dimensionless_stiffness", "resolved", "status")
+_ON_UNLOADING = ("depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy")
+_SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
+
+
+class LoopParameters(PressedSquare, ForceRange):
+    """A rough surface under a hardness, pressed by growing forces, unloaded by the same and pressed again.
+
+    Parameters
+    ----------
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+        See `RoughSquare`.
+    modulus, hardness, relative_hardness
+        See `PressedSquare`; one hardness is needed.
+    lowest_force, highest_force, loads
+        See `ForceRange`; by default from the first cells in contact to the end of the power law.
+    flow : {"removed", "raised"}
+        Where material that flows goes.
+    tolerance : float
+        Of the certificate of every load.
+    """
+
+    lowest_force: float = Field(default=1e-4, gt=0)
+    highest_force: float = Field(default=0.07, gt=0)
+    loads: int = Field(default=12, ge=2)
+    flow: Literal["removed", "raised"] = "removed"
+    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
+
+    @model_validator(mode="after")
+    def _some_hardness(self) -> Self:
+        if self.hardness is None and self.relative_hardness is None:
+            raise ValueError("give hardness or relative_hardness: without one nothing flows")
+        return self
+
+
+def run(parameters: LoopParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the loop of one sample.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``load`` the points of first loading and what flows, as in a `roughcontact.Curve`; under the same loads
+        those of the unloaded state, ``unloaded_depth``, ``unloaded_stiffness`` and others. ``residual`` is the largest
+        of the three branches. Without a dimension: ``residual_depth``, ``residual_gap``, ``work``,
+        ``dissipated_work``, ``hardness``, and ``rms`` of the roughness.
+    """
+    roughness = parameters.roughness(rng)
+    slope = surface_moments(roughness, derivative="spectral").rms_slope  # made of waves: exact
+    loop = loading_loop(
+        parameters.on_body(roughness),
+        parameters.modulus,
+        hardness=parameters.hardness_on(slope),  # type: ignore[arg-type]  # there is one
+        forces=parameters.forces * (parameters.modulus * parameters.size * parameters.rms),
+        flow=parameters.flow,
+        tolerance=parameters.tolerance,
+    )
+    whole = loop.loading.to_dataset()
+    record = whole[[*_ARRAYS, *FLOW_POINTS, "hardness"]].drop_vars("axis", errors="ignore")
+    # The rms height of the parameters, without the body under the roughness.
+    record["dimensionless_force"] = "load", parameters.forces, whole["dimensionless_force"].attrs
+    for name in _ON_UNLOADING:
+        dimensions, values, words = variable(name, ("load",), getattr(loop.unloading, name)[::-1])
+        about = words | {"long_name": f"{VARIABLES[name].long_name}, on unloading"}
+        record[f"unloaded_{name}"] = dimensions, values, about
+    worst = np.array([loop.loading.residual, loop.unloading.residual[::-1], loop.reloading.residual]).max(0)
+    record["residual"] = variable("residual", ("load",), worst)
+    for name in _SCALARS:
+        record[name] = variable(name, (), getattr(loop, name))
+    record["rms"] = variable("rms", (), roughness.rms)
+    return record.assign_attrs(title="first loading and unloading of rough surfaces that flow")
+
+
+CASE = Case("loop", 1, LoopParameters, run)

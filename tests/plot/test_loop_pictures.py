@@ -1,0 +1,79 @@
+"""Pictures of loops: what is drawn is what was computed."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.plot.loops import bearing_of
+
+
+def plane():
+    grid = rc.Grid((24, 20), 1e-6, periodic=True)
+    surface = rc.self_affine(grid, hurst=0.8, rms=2e-7, rng=np.random.default_rng(3))
+    return rc.loading_loop(surface, 1e11, hardness=4e9, pressures=[1e7, 4e7, 1e8])
+
+
+def rings():
+    edges = rc.RadialGrid.uniform(40, 1e-4)
+    ball = rc.RadialProfile(-(edges.radii**2) / 2e-2, edges)
+    return rc.loading_loop(ball, 1e11, hardness=8e7, forces=[0.05, 0.2])
+
+
+def line():
+    grid = rc.Grid(80, 1e-6)
+    scan = rc.self_affine(grid, hurst=0.8, rms=2e-7, rng=np.random.default_rng(5))
+    return rc.loading_loop(
+        scan, 1e11, hardness=1.5e9, forces=[1e3, 4e3], operator=rc.line(grid, 1e11), flow="raised"
+    )
+
+
+@pytest.fixture(params=[plane, rings, line], scope="module")
+def loop(request):
+    return request.param()
+
+
+def test_force_against_depth_begins_and_ends_where_nothing_bears(loop):
+    axes = loop.plot(Figure().subplots())
+    first, back, again = (drawn.get_xydata() for drawn in axes.lines)
+    np.testing.assert_array_equal(first[0], (0, 0))
+    assert back[-1, 1] == again[0, 1] == 0
+    assert back[-1, 0] == again[0, 0] > 0
+    assert first[-1, 0] / back[-1, 0] == pytest.approx(loop.loading.depth[-1] / loop.residual_depth)
+    assert len(first) == len(back) == len(again) == len(loop.loading) + 1
+
+
+def test_the_stiffness_per_area_of_every_branch(loop):
+    axes = loop.plot(Figure().subplots(), quantity="stiffness")
+    turned, first, back, _ = (drawn.get_ydata() for drawn in axes.lines)
+    assert (turned >= first * (1 - 1e-12)).all()
+    assert turned[-1] == pytest.approx(back[0], rel=1e-6)
+    expected = loop.loading.interfacial_stiffness[-1] / loop.unloading.interfacial_stiffness[0]
+    assert first[-1] / back[0] == pytest.approx(expected)
+
+
+def test_the_bearing_curve_is_cut_off(loop):
+    axes = loop.plot(Figure().subplots(), quantity="bearing")
+    before, after = (drawn.get_xydata() for drawn in axes.lines)
+    assert before[-1, 0] == after[-1, 0] == 100
+    assert after[0, 1] < before[0, 1]
+    assert (np.diff(after[:, 1]) <= 0).all()
+
+
+def test_the_bearing_curve_is_the_material_ratio():
+    surface = plane().surface
+    share, heights = bearing_of(surface)
+    known = rc.material_ratio(surface)
+    # Of n points the i-th highest stands at (i - 1/2)/n there, and all of its cell is counted here.
+    np.testing.assert_allclose(known.ratio_at(heights), share, atol=0.51 / surface.grid.size)
+
+
+def test_whole_figures_are_drawn(loop):
+    for figure in (rc.plot.loop_figure(loop), rc.plot.flattened_figure(loop.surface, loop.flow)):
+        figure.canvas.draw()
+        assert len(figure.axes) >= 2
+
+
+def test_another_quantity_is_refused(loop):
+    with pytest.raises(ValueError, match="depth, stiffness, bearing, not 'area'"):
+        loop.plot(quantity="area")
