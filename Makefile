@@ -77,7 +77,7 @@ $(ENV)/.ready-to-read: $(ENV)/.ready
 
 $(ENV)/.ready-to-test: $(ENV)/.ready
 	@echo "Installing what the tests need ..."
-	@$(BIN)/python $(INSTALL) -e ".[formats,test,lint]"
+	@$(BIN)/python $(INSTALL) -e ".[formats,page,test,lint]"
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
 	@touch $@
 

@@ -27,6 +27,7 @@ ORDER = [
     {"labels"},
     {"solver"},
     {"statistics"},
+    {"adhesion"},
     {"contact"},
     {"friction"},
     {"mdr"},
@@ -34,7 +35,8 @@ ORDER = [
     {"study"},
     {"plot"},
     {"thesis"},
-    {"cli", "web"},
+    {"page"},
+    {"cli"},
 ]
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 # `theory` stands beside the house; `pictures` and the two top files open doors and do nothing else.

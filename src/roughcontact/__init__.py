@@ -19,6 +19,13 @@ if TYPE_CHECKING or _LATE is None:
         theory as theory,
         thesis as thesis,
     )
+    from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
+    from roughcontact.adhesion.attraction import Adhesion as Adhesion
+    from roughcontact.adhesion.quasi_static import Jump as Jump
+    from roughcontact.contact.adhesive_loop import (
+        AdhesiveLoop as AdhesiveLoop,
+        adhesive_loop as adhesive_loop,
+    )
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
         below as below,

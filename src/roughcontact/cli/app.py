@@ -16,6 +16,7 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         curve_command as curve_command,
         prepare_command as prepare_command,
         press_command as press_command,
+        serve_command as serve_command,
         spectrum_command as spectrum_command,
         study_command as study_command,
         surface_command as surface_command,
@@ -25,7 +26,7 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
 __all__ = ["app"]
 
 
-_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "thesis")}
+_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve", "thesis")}
 _SURFACE = {
     "info": "surface_command",
     "make": "surface_command",

@@ -22,9 +22,10 @@ def option(text: str, example: str | None = None, *names: str, default: Any = No
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
-def argument(text: str, metavar: str) -> Any:
-    """Return an argument, which must be given."""
-    return field(metadata={"argument": True, "metavar": metavar, "help": text})
+def argument(text: str, metavar: str, default: Any = ...) -> Any:
+    """Return an argument: its help, what stands for it there, and its default; ``...`` where it must be given."""
+    given = {"argument": True, "metavar": metavar, "help": text}
+    return field(default=MISSING if default is ... else default, metadata=given)
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
@@ -50,11 +51,12 @@ def _flat(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iter
             yield from _flat(each.name, hints[each.name], each, panel)
         return
     given = {"rich_help_panel": panel, **declared.metadata}
+    default = ... if declared.default is MISSING else declared.default
     if given.pop("argument", False):
-        info = typer.Argument(..., metavar=given["metavar"], help=given["help"])
+        info = typer.Argument(default, metavar=given["metavar"], help=given["help"])
     else:
         names = given.pop("names") or ([f"--{name.replace('_', '-')}"] if declared.default is False else [])
-        info = typer.Option(... if declared.default is MISSING else declared.default, *names, **given)
+        info = typer.Option(default, *names, **given)
     yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
 
 

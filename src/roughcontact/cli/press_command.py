@@ -121,9 +121,10 @@ def _solve(surface: Surface, modulus: float, **given: Any) -> Solution:
     cells = " x ".join(str(n) for n in surface.grid.shape)
     with doing(f"Pressing {cells} cells"):
         try:
-            return rc.press(surface, modulus, **given)
+            solution: Solution = rc.press(surface, modulus, **given)
         except rc.ConvergenceError as error:
-            return error.solution
+            solution = error.solution
+    return solution
 
 
 def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:

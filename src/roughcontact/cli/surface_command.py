@@ -60,8 +60,8 @@ def info(
     """
     file = source.file
     with reported(file, out, as_json=json) as beside:
-        from roughcontact.cli.advice import advice
         from roughcontact.files.file_errors import ReadError
+        from roughcontact.plot.advice import advice
 
         ending = picture_ending(format, out)
         channels = _channels(file)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import overload
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import FlowReading, flow_reading
@@ -15,6 +18,7 @@ from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.sticking import sticking_states
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
@@ -25,6 +29,36 @@ from roughcontact.validation import Array, exactly_one, number, numeric
 __all__ = ["loading_curve", "loading_path"]
 
 Loads = Sequence[float] | Array
+
+
+@overload
+def loading_path(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    pressures: Loads | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    hardness: Hardness | None = None,
+    flow: FlowReading = "removed",
+    adhesion: None = None,
+) -> Iterator[Solution]: ...
+
+
+@overload
+def loading_path(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+    adhesion: Adhesion,
+) -> Iterator[AdhesiveState]: ...
 
 
 @numeric
@@ -40,7 +74,8 @@ def loading_path(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
     flow: FlowReading = "removed",
-) -> Iterator[Solution]:
+    adhesion: Adhesion | None = None,
+) -> Iterator[Solution] | Iterator[AdhesiveState]:
     """Yield the solution of every load, in order; each starts from the one before.
 
     Parameters
@@ -64,11 +99,16 @@ def loading_path(
     flow : {"removed", "raised"}
         Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
         volume conserved (Pullen and Williamson 1972), which changes the depth alone.
+    adhesion : Adhesion, optional
+        What holds the bodies together. They come from beyond its reach, and `depths` or `forces` of either sign may go
+        up and down: the bodies stay in the basin of their energy, and jump where it ends. States do not depend on the
+        steps. The first force must be at least 0; one that pulls the bodies off ends the contact.
 
     Yields
     ------
-    Solution
-        With its stiffness computed. A load that missed its tolerance says so in its `status`.
+    Solution or AdhesiveState
+        With its stiffness computed; with adhesion an `AdhesiveState` with the jumps on the way to it. A load that
+        missed its tolerance says so in its `status`.
 
     Raises
     ------
@@ -82,7 +122,17 @@ def loading_path(
     >>> path = rc.loading_path(ball, 1e9, forces=[1e-3, 2e-3])
     >>> [f"{solution.force:.0e} N" for solution in path]
     ['1e-03 N', '2e-03 N']
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> soft = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
+    >>> there, back = rc.loading_path(soft, 1e8, depths=[20e-9, 0.0], adhesion=adhesion)
+    >>> f"{there.force * 1e6:.2f} uN, {back.force * 1e6:.2f} uN, {back.status.value}"
+    '1.03 uN, -0.44 uN, converged'
     """
+    if adhesion is not None:
+        refused = {"pressures": pressures, "solver": solver, "hardness": hardness}
+        grid_of(surface)
+        return sticking_states(surface, modulus, adhesion, depths, forces, operator, tolerance, **refused)
     raises, keeps = flow_reading(flow), hardness is not None
     if raises and depths is not None:
         raise ValueError(

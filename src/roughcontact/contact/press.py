@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import overload
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
+from roughcontact.contact.sticking import sticking_states
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -30,6 +34,7 @@ __all__ = ["lock", "press", "solve", "solve_state"]
 _DEFAULT = ActiveSet()
 
 
+@overload
 def press(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -41,7 +46,36 @@ def press(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-) -> Solution:
+    adhesion: None = None,
+) -> Solution: ...
+
+
+@overload
+def press(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    force: float | None = None,
+    depth: float | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+    adhesion: Adhesion,
+) -> AdhesiveState: ...
+
+
+def press(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    force: float | None = None,
+    depth: float | None = None,
+    pressure: float | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    hardness: Hardness | None = None,
+    adhesion: Adhesion | None = None,
+) -> Solution | AdhesiveState:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
     Parameters
@@ -63,11 +97,15 @@ def press(
     hardness : float, array or function, optional
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
         or a function of the radii of the contact spots [m], such as `NixGao`.
+    adhesion : Adhesion, optional
+        What holds the bodies together: the end of an approach from beyond its reach, by a `depth` of either sign or a
+        `force` of at least 0.
 
     Returns
     -------
-    Solution
-        Pressure, depth and certificate; area, stiffness and more follow from it.
+    Solution or AdhesiveState
+        Pressure, depth and certificate; area, stiffness and more follow from it. With adhesion an `AdhesiveState`,
+        whose `status` says whether the tolerance was met.
 
     Raises
     ------
@@ -86,7 +124,11 @@ def press(
     >>> solution.status.value
     'converged'
     """
-    control = control_of(grid_of(surface), force=force, depth=depth, pressure=pressure)
+    grid = grid_of(surface)
+    if adhesion is not None:
+        refused = {"pressure": pressure, "solver": solver, "hardness": hardness}
+        return next(sticking_states(surface, modulus, adhesion, depth, force, operator, tolerance, **refused))
+    control = control_of(grid, force=force, depth=depth, pressure=pressure)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
         solver=solver,

@@ -27,7 +27,7 @@ from roughcontact.mdr.recovery import spring_energy
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, scalar
 
-__all__ = ["Adhesion", "Control", "PullOff", "jkr"]
+__all__ = ["Control", "JKRContact", "PullOff", "jkr"]
 
 SPAN = (1e-15, 1e6)  # contact radii searched on a body without end [m]
 PER_DECADE = 200
@@ -59,7 +59,7 @@ class PullOff:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Adhesion:
+class JKRContact:
     """The equilibria of a body of revolution that sticks, one for each contact radius; made by `jkr`.
 
     Parameters
@@ -251,7 +251,7 @@ class Control:
 
     Parameters
     ----------
-    adhesion : Adhesion
+    adhesion : JKRContact
     machine_stiffness : float
         c = d + F/stiffness [m] for a positive stiffness, d itself for an infinite one; for 0 c = F [N].
 
@@ -267,7 +267,7 @@ class Control:
     (True, True)
     """
 
-    adhesion: Adhesion
+    adhesion: JKRContact
     machine_stiffness: float
 
     def __post_init__(self) -> None:
@@ -344,7 +344,7 @@ class Control:
         return a, np.concatenate([[0.0], self.level(a[1:])])
 
 
-def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> Adhesion:
+def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> JKRContact:
     """Return the adhesive contact of a body of revolution with short-ranged attraction.
 
     Parameters
@@ -358,7 +358,7 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
 
     Returns
     -------
-    Adhesion
+    JKRContact
 
     Raises
     ------
@@ -381,4 +381,4 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
         raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
-    return Adhesion(checked_profile(profile), as_modulus(modulus), w)
+    return JKRContact(checked_profile(profile), as_modulus(modulus), w)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from roughcontact.mdr.adhesion import Adhesion, Control
+from roughcontact.mdr.adhesion import Control, JKRContact
 from roughcontact.validation import Array, Mask, number, numeric, require, shown
 
 __all__ = ["AdhesivePath", "adhesive_path"]
@@ -59,7 +59,7 @@ class AdhesivePath:
 
 @numeric
 def adhesive_path(
-    adhesion: Adhesion,
+    adhesion: JKRContact,
     *,
     depths: Sequence[float] | Array | None = None,
     forces: Sequence[float] | Array | None = None,
@@ -72,7 +72,7 @@ def adhesive_path(
 
     Parameters
     ----------
-    adhesion : Adhesion
+    adhesion : JKRContact
         The equilibria of the body, from `jkr`.
     depths : array, shape (n,), optional
         History of the depth [m], or of the far end of a spring with `machine_stiffness` [N/m] that holds the body.
@@ -98,8 +98,10 @@ def adhesive_path(
     >>> path.contact_radius.round(8).tolist(), path.released.tolist()
     ([3.155e-05, 4.708e-05, 0.0], [False, False, True])
     """
-    if not isinstance(adhesion, Adhesion):
-        raise ValueError(f"an Adhesion is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}")
+    if not isinstance(adhesion, JKRContact):
+        raise ValueError(
+            f"a JKRContact is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}"
+        )
     require((depths is None) != (forces is None), "give exactly one history, of depths or of forces")
     if depths is not None and not machine_stiffness > 0:
         raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")

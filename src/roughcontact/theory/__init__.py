@@ -9,6 +9,7 @@ from roughcontact.late import late_names, open_name
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
     from roughcontact.theory import (
+        adhesive_wave as adhesive_wave,
         asperities as asperities,
         beat_wave as beat_wave,
         bounds as bounds,
@@ -28,6 +29,7 @@ if TYPE_CHECKING or _LATE is None:
         kogut_etsion as kogut_etsion,
         law as law,
         laws as laws,
+        maugis as maugis,
         mindlin as mindlin,
         nayak as nayak,
         persson as persson,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughcontact.cli.report import quantity
+from roughcontact.plot.facts import quantity
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.surface.spikes import find_spikes, tail_of
 

@@ -2,7 +2,8 @@
 A friction loop
 ===============
 
-A ball is pressed on a flat and pushed to and fro: the contact slips from its edge inward, and each cycle takes energy.
+A ball is pressed on a flat and pushed to and fro: the contact slips from its edge inward, and each cycle
+takes energy.
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 A curve beside theories
 =======================
 
-How much of a nominally flat surface touches: computed, by Persson's theory, and by that of Greenwood and Williamson.
+How much of a nominally flat surface touches: computed, by Persson's theory, and by two of asperities:
+Greenwood and Williamson's, and that of Bush, Gibson and Thomas.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ grid = rc.Grid((128, 128), 4e-6, periodic=True)
 rng = np.random.default_rng(1)
 surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rolloff=128e-6, short_cutoff=32e-6, rng=rng)
 curve = rc.loading_curve(surface, 57e9, pressures=np.geomspace(3e6, 3e8, 9))
-theories = rc.loading_laws(surface, 57e9, ["persson", "gw"])
+theories = rc.loading_laws(surface, 57e9, ["persson", "gw", "bgt"])
 axes = curve.plot(quantity="contact_area", theories=theories)
 axes.legend()
 

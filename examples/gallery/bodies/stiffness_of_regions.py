@@ -2,7 +2,8 @@
 Stiffness of contact regions
 ============================
 
-What matters for the stiffness of one region is its extent: two discs apart are stiffer than one disc of their area.
+What matters for the stiffness of one region is its extent: two discs apart are stiffer than one disc of their
+area.
 """
 
 import matplotlib.pyplot as plt

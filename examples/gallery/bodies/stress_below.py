@@ -2,8 +2,8 @@
 Stress below a ball
 ===================
 
-The equivalent stress of von Mises is largest below the surface, at about half the contact radius (Johnson, *Contact
-Mechanics*, 1985, section 3.4: 0.48 a for a Poisson's ratio of 0.3).
+The equivalent stress of von Mises is largest below the surface, at about half the contact radius (Johnson,
+*Contact Mechanics*, 1985, section 3.4: 0.48 a for a Poisson's ratio of 0.3).
 """
 
 import roughcontact as rc

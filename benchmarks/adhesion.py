@@ -1,0 +1,106 @@
+"""Surfaces that stick: whether states depend on the step, and random problems.
+
+    python benchmarks/adhesion.py [--surfaces 10] [--count 1000]
+
+Ten strongly adhesive rough surfaces, free and periodic in turn, with Irwin's length from 1.5 to 4 cells, are approached
+and drawn back in 10, 20, 50 and 100 steps: forces at the depths that all four share, relative to the largest, and
+depths of the jumps, relative to the way from where the attraction begins. Then random problems under random depths or
+forces: certified to 1e-8 and stable, or what their status says. Ends with 1 if numbers of jumps differ, a force by more
+than 1e-6, a jump's depth by more than 1e-6, or if a state is neither certified and stable nor says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import roughcontact as rc
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+from sticking import rough, sticky
+
+STEPS = (1, 2, 5, 10)
+ALLOWED = 1e-6
+
+
+def steps(number: int) -> bool:
+    """Compare the steps on one surface."""
+    length = (1.5, 2.0, 2.5, 3.0, 4.0)[number // 2 % 5]
+    slope = 0.05 if number % 2 else 0.08 if length < 2.6 else 0.06
+    surface = rough(32, periodic=bool(number % 2), slope=slope, seed=number)
+    adhesion = sticky(length)
+    deep = 0.4 * float(surface.heights.max() - surface.heights.mean())
+    found = []
+    for finer in STEPS:
+        up = np.linspace(-10 * adhesion.range, deep, 10 * finer + 1)
+        path = list(rc.loading_path(surface, 1.0, depths=np.r_[up, up[-2::-1]], adhesion=adhesion))
+        jumps = [jump for state in path for jump in state.jumps]
+        found.append(([state.force for state in path][::finer], jumps, sum(state.products for state in path)))
+    forces = np.array([one[0] for one in found])
+    force = np.ptp(forces, axis=0).max() / np.abs(forces).max()
+    counts = [len(jumps) for _, jumps, _ in found]
+    place = math.nan
+    if len(set(counts)) == 1:
+        places = np.array([[jump.depth for jump in jumps] for _, jumps, _ in found])
+        place = float(np.ptp(places, axis=0).max(initial=0.0)) / (deep + 40 * adhesion.range)
+    doubtful = sum(jump.ambiguous for _, jumps, _ in found for jump in jumps)
+    kind = "periodic" if number % 2 else "free"
+    print(
+        f"{number:3} {kind:9} {length:4} cells  jumps {counts}  ambiguous {doubtful}  forces {force:.1e}  "
+        f"places {place:.1e}  products {[products for *_, products in found]}",
+        flush=True,
+    )
+    return force <= ALLOWED and place <= ALLOWED
+
+
+def random_problem(number: int) -> list[rc.AdhesiveState]:
+    """Return three states of a random problem, which depends on its number alone."""
+    rng = np.random.default_rng(number)
+    cells, slope = int(rng.choice([16, 20, 24, 32])), 10 ** rng.uniform(-2, 0.3)
+    surface = rough(cells, periodic=bool(rng.integers(2)), slope=slope, seed=number)
+    adhesion = sticky(rng.uniform(1.5, 6.0), reach=10 ** rng.uniform(-1.3, 0.5))
+    mean = float(surface.heights.max() - surface.heights.mean())
+    if rng.integers(2):
+        depths = rng.uniform(-3 * adhesion.range, 0.9 * mean, 3)
+        return list(rc.loading_path(surface, 1.0, depths=depths, adhesion=adhesion))
+    forces = rng.normal(size=3) * 0.1 * slope * cells**2
+    forces[0] = abs(forces[0])
+    return list(rc.loading_path(surface, 1.0, forces=forces, adhesion=adhesion))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--surfaces", type=int, default=10)
+    parser.add_argument("--count", type=int, default=1000)
+    options = parser.parse_args()
+    found = [steps(number) for number in range(options.surfaces)]
+    certified = missed = unstable = jumps = doubtful = 0
+    worst = 0.0
+    for number in range(options.count):
+        for state in random_problem(number):
+            jumps += len(state.jumps)
+            doubtful += sum(jump.ambiguous for jump in state.jumps)
+            if not state.status.converged:
+                missed += 1
+                print(f"problem {number}: {state}", flush=True)
+            elif math.isfinite(state.depth) and state.stability <= 0:
+                unstable += 1
+                print(f"problem {number}: stability {state.stability:.2g}, {state}", flush=True)
+            else:
+                certified += 1
+                worst = max(worst, state.residual)
+    print(
+        f"certified and stable {certified}, largest residual {worst:.1e}; missed {missed}; unstable {unstable}; "
+        f"jumps {jumps}, ambiguous {doubtful}"
+    )
+    return int(not all(found) or unstable > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,33 @@
+"""
+A friction loop from the loading curve
+======================================
+
+Jaeger's rule: what a tangential force does follows from the loading curve at forces F and F - Q/µ. Here for a
+rough pad, beside the whole computation; the rule is exact without lateral contraction.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import roughcontact as rc
+from roughcontact.theory import jaeger, mindlin
+
+solid, friction, force = rc.Solid(1e9, 0.0), 0.3, 0.02
+grid = rc.Grid((96, 96), 1e-6)
+pad = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(4))
+curve = rc.loading_curve(pad, (solid, solid), forces=np.geomspace(1e-4, 1, 40) * force)
+ratio = mindlin.pair_ratio(solid, solid)
+pulls = np.linspace(0.1, 0.9, 9) * friction * force
+by_rule = jaeger.displacement(curve, force, pulls, friction=friction, ratio=ratio)
+pressed = rc.press(pad, (solid, solid), force=force)
+slid = rc.slide_curve(pressed, (solid, solid), friction=friction, forces=pulls)
+
+axes = plt.subplots()[1]
+axes.plot(by_rule * 1e9, pulls * 1e3, label="Jaeger's rule")
+axes.plot(slid.displacement[:, 0] * 1e9, pulls * 1e3, "o", label="computed")
+axes.set(xlabel="displacement [nm]", ylabel="tangential force [mN]")
+axes.legend()
+
+deviation = np.abs(by_rule / slid.displacement[:, 0] - 1).max()
+print(f"largest deviation {deviation:.4f}")
+assert deviation < 0.01  # the loading curve between forty loads

@@ -1,0 +1,31 @@
+"""
+Tangential and normal stiffness
+===============================
+
+Sticking contact of two like bodies has (1 - nu)/(1 - nu/2) of its normal stiffness (Mindlin 1949, for a round
+spot). A rough contact has nearly the same, at any load, in any direction.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import roughcontact as rc
+
+steel = rc.handbook("steel").solid
+grid = rc.Grid((128, 128), 1e-6)
+surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+forces, ratios = np.geomspace(0.05, 5, 5), []
+for solution in rc.loading_path(surface, (steel, steel), forces=forces):
+    tangential = rc.tangential_stiffness(solution.contact, grid, (steel, steel))
+    ratios.append(np.linalg.eigvalsh(tangential.matrix) / solution.stiffness)
+
+axes = plt.subplots()[1]
+axes.semilogx(forces, ratios, "o-", label=["softer direction", "stiffer direction"])
+mindlin = 1 / rc.theory.mindlin.pair_ratio(steel, steel)
+axes.axhline(mindlin, color="k", linestyle="--", label="Mindlin")
+axes.set(xlabel="force [N]", ylabel="tangential / normal stiffness", ylim=(0, 1))
+axes.legend()
+
+deviation = np.abs(np.mean(ratios, axis=1) / mindlin - 1).max()
+print(f"mean of both directions: within {deviation:.3f} of Mindlin's ratio")
+assert deviation < 0.03

@@ -1,0 +1,41 @@
+"""
+Which cut-off?
+==============
+
+Waves are added to one surface, shorter and shorter ones. The stiffness of the joint stops changing early; the
+rms slope grows on, and the contact area falls on, about as one over it. So any cut-off below that of the
+settled stiffness will do for a stiffness; an area belongs to a cut-off, and is given with it.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import roughcontact as rc
+
+modulus, grid = 60e9, rc.Grid((256, 256), 2e-6, periodic=True)
+cutoffs, rows = np.array([64, 32, 16, 8, 6]) * 1e-6, []
+for cutoff in cutoffs:
+    surface = rc.self_affine(
+        grid,
+        hurst=0.8,
+        rms=1e-6,
+        rms_band=(512e-6, 64e-6),
+        rolloff=128e-6,
+        short_cutoff=cutoff,
+        rng=np.random.default_rng(1),
+    )
+    solution = rc.press(surface, modulus, pressure=1e8)
+    slope = rc.surface_moments(surface).rms_slope
+    rows.append((solution.stiffness, solution.contact_area, 1 / slope))
+
+stiffness, area, inverse = np.array(rows).T
+axes = plt.subplots()[1]
+for values, name in (stiffness, "stiffness"), (area, "contact area"), (inverse, "1 / rms slope"):
+    axes.semilogx(cutoffs * 1e6, values / values[0], "o-", base=2, label=name)
+axes.set(xlabel="short cut-off [µm]", ylabel="value / that with waves above 64 µm", ylim=(0, None))
+axes.invert_xaxis()
+axes.legend()
+
+print(f"below 16 µm the stiffness changes by {abs(stiffness[-1] / stiffness[2] - 1):.1%},", end=" ")
+print(f"the area by {abs(area[-1] / area[2] - 1):.0%}")
+assert abs(stiffness[-1] / stiffness[2] - 1) < 0.02 < abs(area[-1] / area[2] - 1)

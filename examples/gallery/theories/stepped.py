@@ -1,0 +1,24 @@
+"""
+Discs on discs
+==============
+
+A pile of ever wider discs whose steps follow h ~ r^H: between two steps the stiffness is that of a disc, and
+from step to step it grows as F^(1/(H+1)). So much of the law of a fractal is geometry.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from roughcontact.theory.stepped import SteppedIndenter
+
+modulus, axes, slopes = 1e9, plt.subplots()[1], []
+for hurst in 0.2, 0.8:
+    pile = SteppedIndenter(radius=1e-7, height=1e-9, ratio=1.5, hurst=hurst)
+    force, stiffness = pile.corners(16, modulus)
+    axes.loglog(force, stiffness, drawstyle="steps", label=f"H = {hurst}")
+    slopes.append(float(np.log(1.5) / np.log(force[-1] / force[-2])))
+axes.set(xlabel="force [N]", ylabel="stiffness [N/m]")
+axes.legend()
+
+print("exponents:", np.round(slopes, 4))
+assert np.allclose(slopes, [1 / 1.2, 1 / 1.8], rtol=1.5**-15)  # what the first disc still is of the whole

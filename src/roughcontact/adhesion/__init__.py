@@ -1,0 +1,1 @@
+"""Contact of surfaces that attract each other."""

@@ -1,0 +1,269 @@
+"""A state of a contact that sticks, with its certificate, energies, stiffness and stability."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.adhesion.attraction import Attraction
+from roughcontact.adhesion.control_form import DepthControl, ForceControl
+from roughcontact.adhesion.elastic_form import ElasticForm
+from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.adhesion.gradient_flow import released
+from roughcontact.adhesion.quasi_static import Jump, Station
+from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
+from roughcontact.adhesion.tangent import force_slope
+from roughcontact.adhesion.truncated_newton import Counter
+from roughcontact.cached import cached_property
+from roughcontact.halfspace.operators.operator import Operator, exact_of
+from roughcontact.solver.control import Status
+from roughcontact.validation import Array, Mask
+
+__all__ = ["AdhesiveState", "Blank", "state_of"]
+
+WEAK = 1e-6  # of the largest traction: a reaction of the wall below it may be none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Blank:
+    """What the states of one path share.
+
+    Attributes
+    ----------
+    operator : Operator
+        The body.
+    separation : array, shape of the grid
+        Undeformed gap at first touch [m]; infinite where nothing was measured.
+    form : ElasticForm
+        Its elastic form.
+    control : DepthControl or ForceControl
+        What is prescribed.
+    tolerance : float
+        Largest residual.
+    resolved : bool
+        Whether the attraction varies over more than a cell and a half.
+    """
+
+    operator: Operator
+    separation: Array
+    form: ElasticForm
+    control: DepthControl | ForceControl
+    tolerance: float
+    resolved: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AdhesiveState:
+    """An equilibrium of a contact that sticks; the rest is computed when asked for, once.
+
+    Attributes
+    ----------
+    blank : Blank
+        Body, separation and tolerance.
+    attraction : Attraction
+        The law on the cells.
+    depth : float
+        Approach of the bodies since first touch [m]; negative where the undeformed surfaces are apart, minus infinity
+        where a force has pulled them off, which carry none.
+    pressure : array, shape of the grid
+        Reaction of the wall less the attraction [Pa]: negative under tension.
+    contact : array of bool, shape of the grid
+        Cells that the wall holds.
+    residual : float
+        Largest violation of the conditions of equilibrium as a traction, relative to the law's largest attraction or
+        the largest pressure if that is larger, on an exact product with the pressure. A gap in contact counts by the
+        pressure on its cell alone that would close it.
+    jumps : tuple of Jump
+        Instabilities on the way from the state before.
+    products : int
+        Products with the stiffness or the compliance of the body since the state before.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> state = rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> f"{state.force * 1e9:.0f} nN at a depth of zero, on {state.contact.sum()} rings"
+    '-440 nN at a depth of zero, on 34 rings'
+    >>> state.residual < 1e-8, state.stability > 0
+    (True, True)
+    """
+
+    blank: Blank
+    attraction: Attraction
+    depth: float
+    pressure: Array
+    contact: Mask
+    residual: float
+    jumps: tuple[Jump, ...]
+    products: int
+
+    @property
+    def status(self) -> Status:
+        """Whether the certificate meets the tolerance."""
+        if not self.residual <= self.blank.tolerance:
+            return Status.STAGNATED
+        return Status.CONVERGED if self.contact.any() else Status.NO_CONTACT
+
+    @property
+    def unresolved(self) -> bool:
+        """Whether the attraction varies from cell to cell: the state is one of the lattice, not of the body."""
+        return not self.blank.resolved
+
+    @cached_property
+    def displacement(self) -> Array:
+        """Displacement of the surface [m], by an exact product."""
+        return exact_of(self.blank.operator).apply(self.pressure)
+
+    @cached_property
+    def gap(self) -> Array:
+        """Deformed gap [m]; infinite where nothing was measured."""
+        return np.asarray(self.displacement + self.blank.separation - self.depth)
+
+    @cached_property
+    def reaction(self) -> Array:
+        """Pressure of the wall [Pa]: zero but in contact."""
+        reaction = self.pressure + self.attraction.traction(np.maximum(self.gap, 0.0))
+        return np.where(self.contact, reaction, 0.0)
+
+    @property
+    def attracted(self) -> Mask:
+        """Cells apart from the wall by no more than the range of the attraction."""
+        return np.asarray(~self.contact & (self.gap <= self.attraction.range))
+
+    @property
+    def force(self) -> float:
+        """Normal force [N], tension negative; on a line [N/m]."""
+        return float(np.sum(self.pressure * self._weights))
+
+    @property
+    def contact_area(self) -> float:
+        """Area of the cells that the wall holds [m^2]; on a line [m]."""
+        return float(np.sum(self.contact * self._weights))
+
+    @property
+    def contact_fraction(self) -> float:
+        """Contact area over the nominal area."""
+        return self.contact_area / self.blank.operator.grid.area
+
+    @property
+    def elastic_energy(self) -> float:
+        """Elastic energy of the body [J]."""
+        return 0.5 * float(np.sum(self.pressure * self.displacement * self._weights))
+
+    @property
+    def adhesive_energy(self) -> float:
+        """Energy of the attraction over all cells [J], negative."""
+        return float(np.sum(self.attraction.energy(np.maximum(self.gap, 0.0)) * self._weights))
+
+    @property
+    def energy(self) -> float:
+        """Elastic and adhesive energy [J]; its slope with the depth is the force."""
+        return self.elastic_energy + self.adhesive_energy
+
+    @cached_property
+    def stiffness(self) -> float:
+        """Slope of the force with the depth along the branch [N/m], the attraction taking part."""
+        return self._slope(self._energy.attraction.curvature(self._point.gap))
+
+    @cached_property
+    def contact_stiffness(self) -> float:
+        """Slope of the force with the depth at fixed contact and fixed attraction [N/m]."""
+        return self._slope(np.zeros(self.blank.form.shape)) if self.contact.any() else 0.0
+
+    @property
+    def stability(self) -> float:
+        """Smallest eigenvalue of the Hessian on the free cells, relative to the elastic one, as it is controlled.
+
+        At given depth, or under a given force with the depth free. One without attraction, zero where the branch ends.
+        Cells whose reaction is as good as none count as free.
+        """
+        return self._ritz[0]
+
+    @property
+    def stability_bound(self) -> float:
+        """How far the next eigenvalue may be from `stability`, by the residual of its vector.
+
+        The smaller of two searches from different starts; a smaller eigenvalue that both missed is not excluded.
+        """
+        return self._ritz[1]
+
+    @cached_property
+    def weakly_active(self) -> Mask:
+        """Cells in contact whose reaction is as good as none."""
+        scale = self._energy.scale(self._point)
+        return np.asarray(self.contact & (self.reaction <= WEAK * scale))
+
+    def __repr__(self) -> str:
+        """Say what was found, not the field."""
+        return (
+            f"AdhesiveState({self.status.value}, force {self.force:.4g}, depth {self.depth:.4g} m, "
+            f"{int(np.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
+        )
+
+    @cached_property
+    def _ritz(self) -> tuple[float, float]:
+        free = self._loose(self.contact & ~self.weakly_active)
+        form = self.blank.control.form
+        curvature = self._energy.attraction.curvature(self._point.gap)
+        found = [smallest_ratio(form, free, curvature, Counter(), seed=seed) for seed in (0, 1)]
+        least = min(found, key=lambda ritz: ritz.value)
+        return least.value, least.bound if form is self.blank.form else sharp_bound(form, free, least)
+
+    @cached_property
+    def _energy(self) -> GapEnergy:
+        work = self.blank.form.extended(
+            np.broadcast_to(self.attraction.work, self.blank.separation.shape), 0.0
+        )
+        obstacle = self.blank.form.extended(self.depth - self.blank.separation, -np.inf)
+        return GapEnergy(self.blank.form, Attraction(work, self.attraction.range), obstacle)
+
+    @cached_property
+    def _point(self) -> Point:
+        """The state on the cells of the computation; beyond the grid only that there is no wall matters."""
+        gap = self.blank.form.extended(np.where(self.contact, 0.0, np.maximum(self.gap, 0.0)), np.inf)
+        pressure = self.blank.form.extended(self.pressure, 0.0)
+        return Point(gap, pressure, gap, pressure, 0.0)
+
+    def _loose(self, held: Mask) -> Mask:
+        """Return the cells of the computation that may move."""
+        free = np.ones(self.blank.form.shape, bool)
+        free[self.blank.form.inside] = ~held
+        return free
+
+    def _slope(self, curvature: Array) -> float:
+        free = self._loose(self.contact)
+        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0))
+
+    @property
+    def _weights(self) -> float | Array:
+        return self.blank.operator.weights
+
+
+def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
+    """Return the state of a station, certified on an exact product."""
+    control, point, value = blank.control, station.point, station.value
+    energy = control.energy_at(value)
+    inside = energy.form.inside
+    law = Attraction(np.asarray(energy.attraction.work)[inside], energy.attraction.range)
+    if released(energy, point):
+        nothing = np.zeros(energy.form.grid.shape)
+        return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products)
+    depth = control.depth(value, point)
+    gap = point.gap[inside]
+    contact = gap <= 0
+    # Apart from the wall the pressure is the attraction; the wall's is what the body says.
+    pressure = np.where(contact, point.pressure[inside], -law.traction(gap))
+    for array in (pressure, contact):
+        array.flags.writeable = False
+    exact = exact_of(blank.operator).apply(pressure) + blank.separation - depth
+    reaction = pressure + law.traction(np.maximum(exact, 0.0))
+    worst = float(np.abs(np.minimum(exact / energy.form.reference, reaction)).max())
+    residual = worst / energy.scale(point)
+    if isinstance(control, ForceControl):
+        weighted = pressure * blank.operator.weights
+        residual = max(residual, abs(float(weighted.sum()) - value) / float(np.abs(weighted).sum()))
+    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products)

@@ -1,0 +1,141 @@
+"""The law of adhesion: attraction as a function of the gap."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+from roughcontact.validation import Array, positive, positive_scalar, shown
+
+__all__ = ["Adhesion", "Attraction", "Law"]
+
+Law = Literal["exponential"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Adhesion:
+    """Work of adhesion, and how the attraction falls with the gap.
+
+    Parameters
+    ----------
+    work : float or array, shape of the grid
+        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+    range : float
+        Length over which the attraction falls [m].
+    law : {"exponential"}
+        Attraction ``(w/range) exp(-gap/range)``, with a hard wall at the gap zero.
+    allow_unresolved : bool
+        Whether to compute although the attraction varies from cell to cell beside a contact (`process_zone` below 1.5
+        cells), which is refused otherwise: every state is then one of the lattice, and is marked so.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive, or there is no such law.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> adhesion = rc.Adhesion(work=50e-3, range=2e-9)
+    >>> f"{adhesion.strength / 1e6:.0f} MPa"
+    '25 MPa'
+    >>> f"{adhesion.process_zone(1e9) * 1e9:.1f} nm"
+    '25.5 nm'
+    """
+
+    work: float | Array
+    range: float
+    law: Law = "exponential"
+    allow_unresolved: bool = False
+
+    def __post_init__(self) -> None:
+        work = positive(self.work, "work of adhesion [J/m^2]", zero=True)
+        if not np.any(work > 0):
+            raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
+        object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
+        object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
+        if self.law not in get_args(Law):
+            names = ", ".join(map(repr, get_args(Law)))
+            raise ValueError(f"the law of adhesion must be one of {names}, not {shown(self.law)}")
+
+    @property
+    def strength(self) -> float:
+        """Largest attraction of the law [Pa]."""
+        return float(np.max(self.work)) / self.range
+
+    def process_zone(self, modulus: float) -> float:
+        """Return Irwin's length ``E* w/(pi s^2)`` [m], on which the attraction varies beside a contact.
+
+        Parameters
+        ----------
+        modulus : float
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float
+            [m], for the largest attraction s.
+        """
+        return modulus * float(np.max(self.work)) / (math.pi * self.strength**2)
+
+    def tabor(self, radius: float, modulus: float) -> float:
+        """Return Tabor's number ``(R w^2/(E*^2 range^3))^(1/3)`` of a sphere.
+
+        Parameters
+        ----------
+        radius : float
+            Radius R [m].
+        modulus : float
+            Reduced modulus E* [Pa].
+
+        Returns
+        -------
+        float
+            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> adhesion = rc.Adhesion(work=50e-3, range=2e-9)
+        >>> f"{adhesion.tabor(radius=1e-5, modulus=1e9):.2f}, on rubber {adhesion.tabor(radius=1e-5, modulus=1e6):.0f}"
+        '1.46, on rubber 146'
+        """
+        w = float(np.max(self.work))
+        return float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attraction:
+    """The exponential law on the cells of a computation; where no wall is, the gap is infinite and it is zero.
+
+    Parameters
+    ----------
+    work : float or array
+        [J/m^2]
+    range : float
+        [m]
+    """
+
+    work: float | Array
+    range: float
+
+    def traction(self, gap: Array) -> Array:
+        """Return the attraction [Pa], positive, at a gap [m]."""
+        return np.asarray(self.work / self.range * np.exp(-gap / self.range))
+
+    def curvature(self, gap: Array) -> Array:
+        """Return by how much the attraction falls with the gap [Pa/m], positive."""
+        return np.asarray(self.work / self.range**2 * np.exp(-gap / self.range))
+
+    def energy(self, gap: Array) -> Array:
+        """Return the energy per area [J/m^2], negative."""
+        return np.asarray(-self.work * np.exp(-gap / self.range))
+
+    def energy_change(self, gap: Array, step: Array) -> Array:
+        """Return the change of the energy per area [J/m^2] when the gap grows by `step`, without cancellation."""
+        # Of the two gaps the smaller: the other's exponential may be nothing, and its ratio to this one infinite.
+        nearer = np.exp(-np.minimum(gap, gap + step) / self.range)
+        return np.asarray(self.work * nearer * np.sign(step) * -np.expm1(-np.abs(step) / self.range))

@@ -1,0 +1,99 @@
+"""What is prescribed, as an energy: the depth, or the force with the depth left free.
+
+Under a force F the displacement is counted from the flat, v = u - d on the cells of the grid, and the depth is
+eliminated: the elastic energy loses its part along a rigid shift, ``K' = K - (K 1)(K 1)^T/(1.K 1)``, and F enters as
+the traction ``F K 1/(1.K 1)``. On a periodic grid, where the mean displacement is zero whatever the pressure, K' is K
+and the traction is even.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughcontact.adhesion.attraction import Attraction
+from roughcontact.adhesion.elastic_form import ElasticForm
+from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.validation import Array
+
+__all__ = ["DepthControl", "ForceControl"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DepthControl:
+    """Prescribed depths of a body.
+
+    Parameters
+    ----------
+    form : ElasticForm
+    attraction : Attraction
+        On the cells of the computation.
+    separation : array, shape of the grid
+        [m]
+    """
+
+    form: ElasticForm
+    attraction: Attraction
+    separation: Array
+
+    def energy_at(self, value: float) -> GapEnergy:
+        """Return the energy at a depth [m]."""
+        return GapEnergy(self.form, self.attraction, self.form.extended(value - self.separation, -np.inf))
+
+    def depth(self, value: float, point: Point) -> float:
+        """Return the depth of a point [m]."""
+        return value
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ForceControl:
+    """Prescribed forces on a body; made by `of`.
+
+    Parameters
+    ----------
+    form : ElasticForm
+        That of a body whose depth is free.
+    attraction : Attraction
+        On the cells of the computation.
+    separation : array, shape of the grid
+        [m]
+    unit : array
+        Traction of a unit force [1/m^2].
+    rigid : float
+        Force per depth of the cells displaced as one [N/m]; zero where the mean displacement is zero.
+    """
+
+    form: ElasticForm
+    attraction: Attraction
+    separation: Array
+    unit: Array
+    rigid: float
+
+    @classmethod
+    def of(cls, control: DepthControl) -> ForceControl:
+        """Return the control by force of the same body."""
+        form = control.form
+        ones = form.extended(np.ones(form.grid.shape), 0.0)
+        if form.mean_free:
+            loose = replace(form, mean_free=False)
+            return cls(loose, control.attraction, control.separation, ones / form.grid.area, 0.0)
+        image = form.stiffness(ones)
+        rigid = form.dot(image, ones)
+
+        def softened(field: Array) -> Array:
+            return form.stiffness(field) - image * (form.dot(image, field) / rigid)
+
+        loose = replace(form, stiffness=softened)
+        return cls(loose, control.attraction, control.separation, image / rigid, rigid)
+
+    def energy_at(self, value: float) -> GapEnergy:
+        """Return the energy under a force [N]."""
+        obstacle = self.form.extended(-self.separation, -np.inf)
+        return GapEnergy(self.form, self.attraction, obstacle, value * self.unit)
+
+    def depth(self, value: float, point: Point) -> float:
+        """Return the depth of a point [m]."""
+        if self.rigid == 0:
+            return -float(point.displacement.mean())
+        return (value - self.form.dot(self.unit, point.displacement) * self.rigid) / self.rigid

@@ -1,0 +1,197 @@
+"""A quasi-static path: from one prescribed depth or force to the next without leaving the basin of the energy.
+
+A step is taken if the energy at the new value is strictly convex on the box that holds the old state and the new: no
+other equilibrium lies in it, and the gradient flow from the old state ends in the new one. Else the step is halved,
+down to a bracket; what is left then is a limit point of the branch, and the body jumps.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from roughcontact.adhesion.control_form import DepthControl, ForceControl
+from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.adhesion.gradient_flow import flow, released
+from roughcontact.adhesion.reduced_hessian import smallest_ratio
+from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, minimise
+from roughcontact.validation import Array
+
+__all__ = ["Jump", "QuasiStatic", "Station"]
+
+MOVED = 1e-2  # of the range of the attraction: below, a body has not jumped
+ON_THE_WAY = 1e-6  # residual of states that nobody asked for
+SAME = 1e-5  # of the range of the attraction: gaps of two states that are one
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """An instability: where a branch of equilibria ends, the body jumps to another.
+
+    Attributes
+    ----------
+    depth : float
+        The last depth at which the branch was found [m].
+    depth_after : float
+        [m]; NaN where a force pulled the body off.
+    force_before, force_after : float
+        [N]
+    bracket : float
+        Distance from the last depth (or force) of the branch to the first at which it was not found [m] (or [N]).
+    lost : float
+        Energy that is lost [J]: infinite where a force pulled the body off, which nothing stops.
+    approach : bool
+        Whether the depth (or force) was growing.
+    ambiguous : bool
+        Whether two integrations of the gradient flow ended in different states.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> jumps = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9).jumps
+    >>> first, last = jumps[0], jumps[-1]
+    >>> f"in at {first.depth * 1e9:.0f} nm, off at {last.depth * 1e9:.0f} nm", f"{last.lost * 1e18:.0f} aJ are lost"
+    ('in at -7 nm, off at -8 nm', '170 aJ are lost')
+    """
+
+    depth: float
+    depth_after: float
+    force_before: float
+    force_after: float
+    bracket: float
+    lost: float
+    approach: bool
+    ambiguous: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Station:
+    """A state on a path: what is prescribed, and the jumps on the way to it."""
+
+    value: float
+    point: Point
+    residual: float
+    converged: bool
+    jumps: tuple[Jump, ...] = ()
+
+
+@dataclass(slots=True)
+class _Stride:
+    """How far to go: bisection toward the nearest depth that was missed, twice as far from step to step without one."""
+
+    least: float
+    length: float
+    barrier: float = np.inf  # distance of the depth that was missed
+    row: int = 0
+
+    def next(self) -> float:
+        if self.length < self.barrier:
+            return max(self.length, self.least)
+        if self.row >= 2 or self.barrier <= self.least:
+            return self.barrier
+        return max(self.barrier / 2, self.least)
+
+    def taken(self, length: float) -> None:
+        self.row = 0 if length >= self.barrier else self.row + 1
+        self.barrier = self.barrier - length if length < self.barrier else np.inf
+        self.length = 2 * length
+
+    def missed(self, length: float) -> None:
+        self.barrier, self.row, self.length = length, 0, length / 2
+
+
+@dataclass(slots=True)
+class QuasiStatic:
+    """Walks along a path of prescribed depths or forces.
+
+    Parameters
+    ----------
+    control : DepthControl or ForceControl
+        What is prescribed.
+    bracket : float
+        Smallest step of it.
+    """
+
+    control: DepthControl | ForceControl
+    bracket: float
+    counter: Counter = field(default_factory=Counter)
+    _vectors: tuple[Array, ...] = ()
+
+    def start(self, value: float, displacement: Array) -> Station:
+        """Return where the gradient flow from a displacement ends."""
+        end = flow(self.control.energy_at(value), displacement, self._convex, self.counter).equilibrium
+        return Station(value, end.point, end.residual, end.converged)
+
+    def go(self, station: Station, target: float) -> Station:
+        """Return the state under another value of what is prescribed."""
+        jumps: list[Jump] = []
+        if released(self.control.energy_at(target), station.point):
+            return Station(target, station.point, station.residual, True)
+        here, stride = station, _Stride(self.bracket, abs(target - station.value))
+        while here.value != target:
+            left = target - here.value
+            length = min(stride.next(), abs(left))
+            value = target if length == abs(left) else here.value + float(np.copysign(length, left))
+            energy = self.control.energy_at(value)
+            begin = energy.carried(here.point)
+            # On the way a state need be no better than the step is long: as sharp as a state asked for at the bracket.
+            tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
+            end = minimise(energy, begin.displacement, self.counter, tolerance=tolerance, convex_only=True)
+            if end.converged and self._convex(energy, begin, end.point, here.point):
+                here = Station(value, end.point, end.residual, True)
+                stride.taken(length)
+            elif length > self.bracket:
+                stride.missed(length)
+            else:
+                here, jump = self._jump(here, value, energy, begin)
+                jumps += [jump] if jump else []
+                if released(energy, here.point):
+                    break
+                stride = _Stride(self.bracket, abs(target - here.value))
+        return Station(target, here.point, here.residual, here.converged, tuple(jumps))
+
+    def _jump(
+        self, here: Station, value: float, energy: GapEnergy, begin: Point
+    ) -> tuple[Station, Jump | None]:
+        start = begin.displacement
+        landing = flow(energy, start, self._convex, self.counter)
+        end = landing.equilibrium
+        scale = energy.attraction.range
+        station = Station(value, end.point, end.residual, end.converged)
+        moved = float(np.abs(end.point.displacement - begin.displacement).max())
+        if moved < MOVED * scale and end.converged:
+            return station, None  # the branch goes on, too flat for the test of convexity
+        off = released(energy, end.point)
+        other = flow(energy, start, self._convex, self.counter, first=4.0, growth=0.7).equilibrium
+        apart = float(np.abs(end.point.displacement - other.point.displacement).max())
+        jump = Jump(
+            self.control.depth(here.value, here.point),
+            math.nan if off else self.control.depth(value, end.point),
+            energy.force(here.point),
+            0.0 if off else energy.force(end.point),
+            abs(value - here.value),
+            math.inf if off else landing.lost,
+            value > here.value,
+            not off and apart > SAME * scale,
+        )
+        return station, jump
+
+    def _convex(self, energy: GapEnergy, one: Point, other: Point, before: Point | None = None) -> bool:
+        """Whether the energy is strictly convex on the box between two points, as far as can be told.
+
+        The first may come from a point `before`, under another depth: states under depths in between have gaps between
+        its gaps and those of the other.
+        """
+        earlier = before or one
+        nearest = np.minimum(np.minimum(one.gap, earlier.gap), other.gap)
+        free = earlier.free | other.free
+        curvature = energy.attraction.curvature(nearest)
+        # What bends the energy least is often the way that the state has moved.
+        start = (other.displacement - one.displacement, *self._vectors)
+        ritz = smallest_ratio(energy.form, free, curvature, self.counter, start=start, sign_only=True)
+        self._vectors = ritz.vectors[:1]
+        return ritz.positive

@@ -1,0 +1,169 @@
+"""The smallest eigenvalue of the Hessian on the free cells, relative to the elastic one, with a bound.
+
+``(K - D) x = lambda K x`` on the free cells F, with D the curvature of the attraction: one without attraction, zero
+where an equilibrium ends. By the locally optimal block method (Knyazev, SIAM J. Sci. Comput. 23, 517 (2001)), the
+compliance being the preconditioner. A residual r of a vector of unit elastic norm means that an eigenvalue lies within
+``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, C being the inverse of K: the inverse of
+a part is at most the part of the inverse.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from roughcontact.adhesion.elastic_form import ElasticForm
+from roughcontact.adhesion.truncated_newton import Counter, conjugate_gradients
+from roughcontact.validation import Array, Mask
+
+__all__ = ["Ritz", "sharp_bound", "smallest_ratio"]
+
+STEPS = 120
+BLOCK = 2
+SURE = 0.02  # bound below which a sign is believed
+DEPENDENT = 1e-12  # of the largest: directions of the basis that are left out
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ritz:
+    """A Ritz value and how far an eigenvalue may be from it.
+
+    Attributes
+    ----------
+    value, bound : float
+        An eigenvalue lies within `bound` of `value`; no eigenvalue is above one. The smallest is at most `value`.
+    vectors : tuple of arrays
+        To start the next search from.
+    residual : array
+        Of the first vector, whose elastic norm is one.
+    """
+
+    value: float
+    bound: float
+    vectors: tuple[Array, ...]
+    residual: Array
+
+    @property
+    def positive(self) -> bool:
+        """Whether it is positive by more than its bound."""
+        return self.value > self.bound
+
+
+def smallest_ratio(
+    form: ElasticForm,
+    free: Mask,
+    curvature: Array,
+    counter: Counter,
+    *,
+    start: tuple[Array, ...] = (),
+    accuracy: float = 1e-3,
+    sign_only: bool = False,
+    seed: int = 0,
+) -> Ritz:
+    """Return the smallest eigenvalue of ``(K - D) x = lambda K x`` on the free cells.
+
+    Parameters
+    ----------
+    form : ElasticForm
+    free : array of bool
+        The cells that may move.
+    curvature : array
+        D [Pa/m].
+    counter : Counter
+        Counts products.
+    start : tuple of arrays
+        Vectors of a similar problem.
+    accuracy : float
+        Bound at which to stop.
+    sign_only : bool
+        Whether to stop as soon as the sign is known.
+    seed : int
+        Of the vectors to start from besides.
+    """
+    if not np.any(free & (curvature > 0)):
+        return Ritz(1.0, 0.0, (), np.zeros(free.shape))
+    rng = np.random.default_rng(seed)
+    number = float(np.count_nonzero(free))
+
+    def project(x: Array) -> Array:
+        x = np.where(free, x, 0.0)
+        return np.where(free, x - x.sum() / number, 0.0) if form.mean_free else x
+
+    def softened(r: Array) -> Array:
+        counter.products += 1
+        return project(form.compliance(r))
+
+    def image(x: Array) -> Array:
+        counter.products += 1
+        return np.where(free, form.stiffness(x), 0.0)
+
+    weight = np.where(free, curvature, 0.0)
+    first = [project(v) for v in start]
+    block = max(BLOCK, len(start) + 1)
+    while len(first) < block:
+        first.append(softened(weight * rng.standard_normal(free.shape)))
+    basis, images = first, [image(x) for x in first]
+    old: list[tuple[Array, Array]] = []
+    value, bound, vectors = 1.0, np.inf, tuple(first)
+    for _ in range(STEPS):
+        coefficients, values = _ritz(form, basis, images, weight)
+        count = min(block, len(values))
+        chosen = [coefficients[:, k] for k in range(count)]
+        x = [_combined(c, basis) for c in chosen]
+        kx = [_combined(c, images) for c in chosen]
+        # What the newer parts contribute is the direction of the next step.
+        old = [(_combined(c[block:], basis[block:]), _combined(c[block:], images[block:])) for c in chosen]
+        residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
+        soft = [softened(r) for r in residuals]
+        value = float(values[0])
+        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], soft[0]))))
+        vectors = tuple(x)
+        if bound <= accuracy or (sign_only and (value < 0 or bound <= min(SURE, value / 4))):
+            break
+        basis, images = [*x, *soft], [*kx, *(image(s) for s in soft)]
+        if len(coefficients) > block:
+            basis += [p for p, _ in old]
+            images += [p for _, p in old]
+    return Ritz(value, bound, vectors, residuals[0])
+
+
+def sharp_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
+    """Return the bound of a Ritz value where the compliance is not the inverse of the stiffness, by solving for it.
+
+    Under a prescribed force the stiffness is that of a body whose depth is free, and the compliance bounds nothing.
+    """
+    none = np.zeros(form.shape)
+    solved, _ = conjugate_gradients(form, free, none, ritz.residual, 1e-6, Counter())
+    return float(np.sqrt(max(0.0, form.dot(ritz.residual, solved))))
+
+
+def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Array) -> tuple[Array, Array]:
+    """Return the Ritz vectors' coefficients and values, from the smallest up."""
+    size = len(basis)
+    elastic, adhesive = np.empty((size, size)), np.empty((size, size))
+    for i in range(size):
+        heavy = weight * basis[i]
+        for j in range(size):
+            elastic[i, j] = form.dot(basis[i], images[j])
+            adhesive[i, j] = form.dot(heavy, basis[j])
+    norms = np.sqrt(np.maximum(np.diagonal(elastic), 0.0))
+    scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)
+    elastic = scale[:, None] * (elastic + elastic.T) / 2 * scale
+    adhesive = scale[:, None] * (adhesive + adhesive.T) / 2 * scale
+    lengths, turned = scipy.linalg.eigh(elastic)
+    kept = lengths > DEPENDENT * lengths[-1]
+    whitened = turned[:, kept] / np.sqrt(lengths[kept])
+    ratios, inner = scipy.linalg.eigh(whitened.T @ adhesive @ whitened)
+    coefficients = scale[:, None] * (whitened @ inner[:, ::-1])
+    return np.asarray(coefficients), np.asarray(1 - ratios[::-1])
+
+
+def _combined(coefficients: Array, fields: list[Array]) -> Array:
+    if not fields:
+        return np.zeros(())
+    answer = coefficients[0] * fields[0]
+    for c, f in zip(coefficients[1:], fields[1:], strict=True):
+        answer = answer + c * f
+    return np.asarray(answer)

@@ -1,0 +1,209 @@
+"""Bounded truncated Newton: from a displacement to an equilibrium of lower energy.
+
+Projected steps on the free cells (Bertsekas, SIAM J. Control Optim. 20, 221 (1982)), whose linear systems are solved by
+conjugate gradients (Steihaug, SIAM J. Numer. Anal. 20, 626 (1983)) that the compliance preconditions. Where they find
+the Hessian not positive definite, it is shifted by a multiple of the identity: the step is then one of the implicit
+gradient flow in the gap.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughcontact.adhesion.elastic_form import ElasticForm
+from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.validation import Array, Mask
+
+__all__ = ["Counter", "Equilibrium", "conjugate_gradients", "minimise"]
+
+TOLERANCE = 1e-10  # of the residual: a hundredth of what is promised, for the product that certifies
+ITERATIONS = 400
+INNER = 300
+HALVINGS = 12
+ARMIJO = 1e-4
+SHIFT = 0.05  # the first shift of an indefinite Hessian, of the largest curvature of the attraction
+STIFFEST = 100.0  # shift, of the same, at which a step that lowers no energy tells of rounding
+FORCING = 0.1
+
+
+@dataclass(slots=True)
+class Counter:
+    """Products with the stiffness or the compliance so far."""
+
+    products: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equilibrium:
+    """Where a minimisation ended.
+
+    Attributes
+    ----------
+    point : Point
+    residual : float
+        Relative to the scale of tractions.
+    converged : bool
+    indefinite : bool
+        Whether the Hessian was not positive definite somewhere on the way.
+    lost : float
+        By how much the energy fell [J].
+    """
+
+    point: Point
+    residual: float
+    converged: bool
+    indefinite: bool
+    lost: float
+
+
+def minimise(
+    energy: GapEnergy,
+    start: Array,
+    counter: Counter,
+    *,
+    tolerance: float = TOLERANCE,
+    proximal: float = 0.0,
+    iterations: int = ITERATIONS,
+    convex_only: bool = False,
+) -> Equilibrium:
+    """Return an equilibrium below `start`.
+
+    Parameters
+    ----------
+    energy : GapEnergy
+    start : array
+        Displacement [m], above the obstacle.
+    counter : Counter
+        Counts products.
+    tolerance : float
+        Relative residual.
+    proximal : float
+        Stiffness [Pa/m] by which cells are held to `start`, as in one step of the implicit gradient flow.
+    iterations : int
+        At most.
+    convex_only : bool
+        Whether to give up where the Hessian is not positive definite.
+    """
+    counter.products += 1
+    point = energy.at(energy.feasible(start))
+    anchor = point.displacement
+    shift, lost, indefinite = 0.0, 0.0, False
+    residual = math.inf
+    for _ in range(iterations):
+        held = _held(energy, point, anchor, proximal)
+        residual = energy.residual(held) / energy.scale(point)
+        if residual <= tolerance:
+            return Equilibrium(point, residual, True, indefinite, lost)
+        free = held.free
+        bent = np.where(free, energy.attraction.curvature(point.gap), 0.0)
+        curvature, most = bent - proximal, float(np.max(bent))
+        forcing = min(FORCING, math.sqrt(residual))
+        step, negative = conjugate_gradients(
+            energy.form, free, curvature - shift, -held.reaction, forcing, counter
+        )
+        if negative:
+            indefinite = True
+            if convex_only:
+                break
+            shift = max(2 * shift, SHIFT * most)
+            continue
+        found = _search(energy, point, step, anchor, proximal, counter)
+        if found is None:
+            if shift > STIFFEST * most:
+                break
+            shift = max(4 * shift, SHIFT * most)
+            continue
+        point, gained = found
+        lost -= gained
+        shift = 0.0 if shift < 1e-3 * most else 0.25 * shift
+    return Equilibrium(point, residual, False, indefinite, lost)
+
+
+def _held(energy: GapEnergy, point: Point, anchor: Array, proximal: float) -> Point:
+    """Return the point with the force of the springs of a step of gradient flow."""
+    if proximal == 0:
+        return point
+    reaction = point.reaction + proximal * (point.displacement - anchor)
+    reaction[~np.isfinite(point.gap)] = point.reaction[~np.isfinite(point.gap)]
+    return replace(point, reaction=reaction)
+
+
+def _search(
+    energy: GapEnergy, point: Point, step: Array, anchor: Array, proximal: float, counter: Counter
+) -> tuple[Point, float] | None:
+    """Return the first point along the projected step whose energy is lower, and by how much it changed."""
+    length = 1.0
+    for _ in range(HALVINGS):
+        trial = energy.feasible(point.displacement + length * step)
+        counter.products += 1
+        new = energy.at(trial)
+        move = trial - point.displacement
+        change = energy.change(point, new)
+        held = _held(energy, point, anchor, proximal)
+        if proximal:
+            springs = np.where(np.isfinite(point.gap), move * (0.5 * move + point.displacement - anchor), 0.0)
+            change += proximal * float(np.sum(springs * energy.form.weights))
+        slope = energy.form.dot(held.reaction, move)
+        if slope < 0 and change <= ARMIJO * slope:
+            return new, change
+        length *= 0.5
+    return None
+
+
+def conjugate_gradients(
+    form: ElasticForm, free: Mask, curvature: Array, load: Array, forcing: float, counter: Counter
+) -> tuple[Array, bool]:
+    """Solve ``(K - curvature) s = load`` on the free cells; say whether a direction of negative curvature was met.
+
+    Where the mean of a displacement is prescribed, that of the answer is zero.
+    """
+    number = max(1.0, float(np.count_nonzero(free)))
+    constrained = form.mean_free
+
+    def precondition(r: Array) -> Array:
+        counter.products += 1
+        z = np.where(free, form.compliance(r), 0.0)
+        if not constrained:
+            return z
+        z -= along * (z.sum() / total)
+        return balanced(z)
+
+    def balanced(field: Array) -> Array:
+        # Rounding must not feed the mean, along which the Hessian is not positive.
+        return field - np.where(free, field.sum() / number, 0.0)
+
+    along, total = load, 1.0
+    if constrained:
+        counter.products += 1
+        along = np.where(free, form.compliance(free.astype(np.float64)), 0.0)
+        total = float(along.sum())
+    residual = np.where(free, load, 0.0)
+    if constrained:
+        residual = balanced(residual)
+    step = np.zeros_like(residual)
+    z = precondition(residual)
+    direction, rho = z, form.dot(residual, z)
+    if rho <= 0:
+        return step, False
+    goal = rho * forcing**2
+    for _ in range(INNER):
+        counter.products += 1
+        image = np.where(free, form.stiffness(direction) - curvature * direction, 0.0)
+        bend = form.dot(direction, image)
+        if bend <= 0:
+            return step, True
+        alpha = rho / bend
+        step = step + alpha * direction
+        residual = residual - alpha * image
+        if constrained:
+            residual = balanced(residual)
+        z = precondition(residual)
+        new = form.dot(residual, z)
+        if new <= goal:
+            break
+        direction = z + (new / rho) * direction
+        rho = new
+    return step, False

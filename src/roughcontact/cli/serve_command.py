@@ -1,0 +1,54 @@
+"""The command ``serve``: a page in the browser, on this machine alone."""
+
+from __future__ import annotations
+
+import webbrowser
+from pathlib import Path
+
+import typer
+
+from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.option_groups import argument, option
+
+__all__ = ["EXAMPLES", "serve"]
+
+EXAMPLES = {
+    "serve": """
+roughcontact serve
+roughcontact serve part.x3p
+roughcontact serve part.x3p --port 8765 --no-browser
+"""
+}
+
+
+def serve(
+    file: Path | None = argument("Measured heights to begin with.", "[FILE]", None),
+    *,
+    port: int = option("Port of this machine (default: one that is free).", "8765", default=0),
+    browser: bool = option("Whether a browser is opened.", None, "--browser/--no-browser", default=True),
+) -> None:
+    """Open a page on this machine: drop a file, move the load, see the contact; every number also as a command."""
+    with reported(file):
+        try:
+            from roughcontact.page.serve import serve as run
+        except ImportError as error:
+            if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):
+                raise
+            raise UsageError(
+                "the page needs Starlette and uvicorn: pip install 'roughcontact[page]'"
+            ) from error
+        if file is not None and not file.is_file():
+            raise UsageError(f"{file}: there is no such file")
+        if not 0 <= port < 2**16:
+            raise UsageError(f"--port: ports go from 1 to 65535, not {port}")
+
+        def opened(address: str) -> None:
+            typer.echo(address)
+            note("the page is for this machine and the user who has this address; Ctrl-C ends it")
+            if browser:
+                webbrowser.open(address)
+
+        try:
+            run(file, port, opened)
+        except OSError as error:
+            raise UsageError(f"--port: port {port} cannot be had: {error.strerror}") from error

@@ -1,0 +1,62 @@
+// Numbers as people read them, and as the command line takes them.
+
+const PREFIXES = { "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
+// Units whose prefix counts as often as they do: their name without it, and the power.
+const POWERS = { "m²": 2 };
+
+function scaleOf(value, unit) {
+  if (!unit || !Number.isFinite(value) || value === 0) return { factor: 1, unit };
+  const power = POWERS[unit] || 1;
+  // The hair keeps 1e-6, which floating point may put just below, at one micro.
+  let exponent = 3 * Math.floor((Math.log10(Math.abs(value) * (1 + 1e-9)) + 2 * (power - 1)) / (3 * power));
+  exponent = Math.min(Math.max(exponent, -12), unit.startsWith("m") ? 3 : 12);
+  return { factor: 10 ** (-exponent * power), unit: PREFIXES[exponent] + unit };
+}
+
+// The scale that suits the largest of some values.
+export function scaleFor(values, unit) {
+  let largest = 0;
+  for (const value of values) if (Number.isFinite(value)) largest = Math.max(largest, Math.abs(value));
+  return scaleOf(largest, unit);
+}
+
+export function digits(value, count = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return "∞";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) {
+    const [mantissa, power] = value.toExponential(count - 1).split("e");
+    return `${Number(mantissa)}·10${superscript(Number(power))}`;
+  }
+  return String(Number(value.toPrecision(count)));
+}
+
+function superscript(power) {
+  return String(power).replace(/./g, (c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] || "⁻");
+}
+
+export function written(value, unit, count = 4) {
+  if (value === null || !Number.isFinite(value)) return digits(value);
+  const { factor, unit: shown } = scaleOf(value, unit);
+  return `${digits(value * factor, count)} ${shown || ""}`.trim();
+}
+
+// A load as the command line takes it: three digits, a unit without letters beyond ASCII.
+export function loadText(value, unit) {
+  const rounded = Number(value.toPrecision(3));
+  const { factor, unit: shown } = scaleOf(rounded, unit);
+  return `${Number((rounded * factor).toPrecision(3))} ${shown.replace("µ", "u")}`;
+}
+
+// The number in a text such as "12.3 MPa", where it is one with a prefix that this page writes; else null.
+export function loadValue(text, unit) {
+  const found = /^\s*([\d.]+(?:e[+-]?\d+)?)\s*([a-zA-Zµ]*)\s*$/i.exec(text);
+  if (!found) return null;
+  const [, number, given] = found;
+  if (given === "") return Number(number);
+  if (!given.endsWith(unit)) return null;
+  const prefix = given.slice(0, given.length - unit.length).replace("u", "µ");
+  const power = Object.keys(PREFIXES).find((key) => PREFIXES[key] === prefix);
+  return power === undefined ? null : Number(number) * 10 ** Number(power);
+}

@@ -1,0 +1,63 @@
+"""How a computation is stopped from outside, between two lines of Python."""
+
+from __future__ import annotations
+
+import _thread
+import signal
+from dataclasses import dataclass
+
+__all__ = ["Stopped", "Stopping"]
+
+
+class Stopped(BaseException):
+    """The page no longer wants the answer; no ``except Exception`` on the way takes it for a failure."""
+
+
+@dataclass(slots=True)
+class Stopping:
+    """Which order is being worked on, and which one is no longer wanted.
+
+    One thread listens and calls `stop`, the main thread computes between `begin` and `end`. The exception is raised in
+    the main thread alone, and never while a message is written.
+    """
+
+    running: int | None = None
+    unwanted: int | None = None
+    interruptible: bool = False
+
+    def install(self) -> None:
+        """Take over the signal that interrupts a program."""
+        signal.signal(signal.SIGINT, self._interrupt)
+
+    def begin(self, number: int) -> None:
+        """Begin an order."""
+        self.running, self.interruptible = number, True
+        self.check()
+
+    def end(self) -> None:
+        """End it: from here on nothing is raised."""
+        self.interruptible, self.running = False, None
+
+    def pause(self) -> None:
+        """Raise nothing until `go_on`."""
+        self.interruptible = False
+
+    def go_on(self) -> None:
+        """Let the order be stopped again, at once if that was asked for meanwhile."""
+        self.interruptible = True
+        self.check()
+
+    def stop(self, number: int) -> None:
+        """Stop an order if it is being worked on, or as soon as it is begun."""
+        self.unwanted = number
+        if self.running == number:
+            _thread.interrupt_main()
+
+    def check(self) -> None:
+        """Raise `Stopped` if the order is no longer wanted."""
+        if self.interruptible and self.running is not None and self.running == self.unwanted:
+            self.unwanted = None  # said once: what was computed so far may still be sent
+            raise Stopped
+
+    def _interrupt(self, *_: object) -> None:
+        self.check()

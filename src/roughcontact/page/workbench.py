@@ -1,0 +1,247 @@
+"""What the recipes of a page stand for: surfaces, loads and curves, of which the last few are kept."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Hashable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from roughcontact.files.file_errors import SurfaceWarning
+from roughcontact.files.quantity import LENGTH, PRESSURE, has_unit, parse, parse_number
+from roughcontact.page.calls import calls_of
+from roughcontact.page.recipe import Bodies, FileSource, Loads, MadeSource, Recipe
+
+if TYPE_CHECKING:
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.solution import Solution
+    from roughcontact.surface.surface import Surface
+    from roughcontact.validation import Array
+
+__all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_loads"]
+
+T = TypeVar("T")
+_KEPT = 2  # of each: the one that is looked at, and the one before it
+_MOST_POINTS = 4096  # a side of a surface that is made: more is for the command line
+
+
+@dataclass(frozen=True, slots=True)
+class UploadedFile:
+    """Where a file lies, and how its user calls it."""
+
+    path: Path
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Workbench:
+    """What was computed last, by what it follows from; all of it can be computed again."""
+
+    kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
+
+    def read(
+        self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
+    ) -> tuple[Surface, list[str]]:
+        """Return the surface as the file holds it, or as it is made, and what the reader warns of."""
+        return self._once("read", source, lambda: _read(source, files))
+
+    def surface(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> Surface:
+        """Return the surface after its preparation."""
+
+        def prepared() -> Surface:
+            surface, _ = self.read(recipe.source, files)
+            for call in calls_of(recipe.preparation):
+                surface = call.apply(surface)
+            return surface
+
+        return self._once("surface", (recipe.source, recipe.preparation), prepared)
+
+    def solution(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> Solution:
+        """Return the loaded state; where the tolerance was missed, the best that was reached."""
+        import roughcontact as rc
+
+        load = recipe.load
+        if load is None:
+            raise ValueError("no load is given")
+
+        def pressed() -> Solution:
+            surface = self.surface(recipe, files)
+            given: dict[str, Any] = {load.control: load.value}
+            try:
+                return rc.press(
+                    surface, modulus_of(recipe.bodies), **given, hardness=hardness_of(recipe.bodies)
+                )
+            except rc.ConvergenceError as error:
+                return error.solution
+
+        return self._once("solution", replace(recipe, loads=None), pressed)
+
+    def span(
+        self, recipe: Recipe, files: Mapping[str, UploadedFile]
+    ) -> dict[str, tuple[float, float, float]]:
+        """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
+        surface = self.surface(recipe, files)
+        slope = self._once("slope", (recipe.source, recipe.preparation), lambda: _slope(surface))
+        stress, height = modulus_of(recipe.bodies) * slope, surface.rms
+        if not (stress > 0 and height > 0):
+            return {}
+        pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)
+        low, high, start = pressures
+        area = surface.grid.area
+        return {
+            "pressure": pressures,
+            "force": (low * area, high * area, start * area),
+            "depth": (1e-3 * height, 10 * height, height),
+        }
+
+    def path(self, recipe: Recipe, loads: Array, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
+        """Return the states of rising loads, each of which is computed when it is asked for."""
+        import roughcontact as rc
+
+        control = "force" if recipe.loads is None else recipe.loads.control
+        given: dict[str, Any] = {f"{control}s": loads, "hardness": hardness_of(recipe.bodies)}
+        return rc.loading_path(self.surface(recipe, files), modulus_of(recipe.bodies), **given)
+
+    def loads(self, recipe: Recipe, files: Mapping[str, UploadedFile]) -> tuple[Array, tuple[str, ...]]:
+        """Return the loads of a curve in SI, found where they are not given, and what a reader should know of them."""
+        import numpy as np
+
+        import roughcontact as rc
+
+        wanted = recipe.loads or Loads()
+        if wanted.values is not None:
+            return np.array(wanted.values), ()
+        if wanted.ends is not None:
+            return np.geomspace(*wanted.ends, wanted.count), ()
+
+        def found() -> tuple[Array, tuple[str, ...]]:
+            suitable = rc.load_range(
+                self.surface(recipe, files), modulus_of(recipe.bodies), hardness=hardness_of(recipe.bodies)
+            )
+            return suitable.forces, suitable.notes
+
+        return self._once("loads", without_loads(recipe), found)
+
+    def keep_curve(self, recipe: Recipe, loads: Array, curve: Curve) -> None:
+        """Keep a curve, for what is asked of it next."""
+        self._keep("curve", _curve_key(recipe, loads), curve)
+
+    def curve(self, recipe: Recipe, loads: Array) -> Curve | None:
+        """Return the curve of a surface, its bodies and loads, if it is kept."""
+        return self.kept.get("curve", {}).get(_curve_key(recipe, loads))
+
+    def _once(self, kind: str, key: Hashable, make: Callable[[], T]) -> T:
+        shelf = self.kept.setdefault(kind, {})
+        if key not in shelf:
+            self._keep(kind, key, make())
+        found: T = shelf[key]
+        return found
+
+    def _keep(self, kind: str, key: Hashable, value: object) -> None:
+        shelf = self.kept.setdefault(kind, {})
+        shelf.pop(key, None)
+        shelf[key] = value
+        while len(shelf) > _KEPT:
+            del shelf[next(iter(shelf))]
+
+
+def without_loads(recipe: Recipe) -> Recipe:
+    """Return what a curve follows from but for its loads."""
+    return replace(recipe, load=None, loads=None)
+
+
+def _curve_key(recipe: Recipe, loads: Array) -> Hashable:
+    control = "force" if recipe.loads is None else recipe.loads.control
+    return without_loads(recipe), control, tuple(loads)
+
+
+def modulus_of(bodies: Bodies) -> float:
+    """Return the reduced modulus [Pa]."""
+    import roughcontact as rc
+
+    if bodies.materials is not None:
+        rigid = rc.Solid(math.inf, 0.0)
+        first, second = (rigid if name == "rigid" else rc.handbook(name).solid for name in bodies.materials)
+        return rc.reduced_modulus(first, second)
+    if bodies.modulus is not None:
+        return _stiff(bodies.modulus, "the reduced modulus")
+    if bodies.young is None or bodies.poisson is None:
+        raise ValueError(
+            "give two materials, a reduced modulus, or Young's modulus and Poisson's ratio of a body"
+        )
+    first = rc.Solid(_stiff(bodies.young, "Young's modulus"), parse_number(bodies.poisson, "0.3"))
+    if bodies.young2 is None or bodies.poisson2 is None:
+        return rc.reduced_modulus(first)
+    return rc.reduced_modulus(
+        first, rc.Solid(_stiff(bodies.young2, "Young's modulus"), parse_number(bodies.poisson2, "0.3"))
+    )
+
+
+def hardness_of(bodies: Bodies) -> float | None:
+    """Return the hardness [Pa], if one is given: a number, or the name of a material."""
+    import roughcontact as rc
+
+    if bodies.hardness is None:
+        return None
+    if bodies.hardness[:1].isalpha():
+        return rc.handbook(bodies.hardness).hardness
+    return _stiff(bodies.hardness, "the hardness")
+
+
+def _slope(surface: Surface) -> float:
+    """Return the rms slope; 0 where no two neighbours are measured."""
+    import roughcontact as rc
+
+    try:
+        return float(rc.surface_moments(surface).rms_slope)
+    except ValueError:
+        return 0.0
+
+
+def _stiff(text: str, what: str) -> float:
+    """Return a modulus [Pa]; one without a unit is refused, since gigapascals are meant most often."""
+    if not has_unit(text):
+        raise ValueError(f"{what} needs its unit: write {text.strip()} GPa if gigapascals are meant")
+    return parse(text, PRESSURE)
+
+
+def _read(source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) -> tuple[Surface, list[str]]:
+    import roughcontact as rc
+
+    if isinstance(source, MadeSource):
+        return _made(source), []
+    if source.file not in files:
+        raise ValueError("the server has no such file any more: drop it again")
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("always", SurfaceWarning)
+        surface = rc.read(
+            files[source.file].path,
+            channel=source.channel,
+            unit=source.heights_in,
+            size=source.size,
+            periodic=source.periodic,
+        )
+    return surface, [str(each.message) for each in said]
+
+
+def _made(source: MadeSource) -> Surface:
+    """Return a self-affine surface, the one that ``surface make`` makes."""
+    import numpy as np
+
+    import roughcontact as rc
+
+    if not 2 <= source.points <= _MOST_POINTS:
+        raise ValueError(f"a surface has 2 to {_MOST_POINTS} points a side here, not {source.points}")
+    grid = rc.Grid(
+        (source.points, source.points), parse(source.size, LENGTH) / source.points, periodic=source.periodic
+    )
+    return rc.self_affine(
+        grid,
+        parse_number(source.hurst, "0.8"),
+        parse(source.rms, LENGTH),
+        np.random.default_rng(source.seed),
+        rolloff=None if source.rolloff is None else parse(source.rolloff, LENGTH),
+    )

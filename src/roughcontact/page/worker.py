@@ -1,0 +1,146 @@
+"""The process that computes for a page: orders in on standard input, messages out on standard output.
+
+It ends with the server, whose end it sees at once on standard input.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import logging
+import os
+import sys
+import threading
+import traceback
+from collections.abc import Mapping
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any, BinaryIO
+
+from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
+from roughcontact.page.order import Job, Order, Send
+from roughcontact.page.stopping import Stopped, Stopping
+from roughcontact.page.workbench import UploadedFile, Workbench
+
+__all__ = ["main", "perform"]
+
+_SHARE = 0.75  # of the memory that is free when it starts
+
+
+def main() -> None:
+    """Compute until standard input ends."""
+    orders: BinaryIO = os.fdopen(os.dup(0), "rb")
+    answers: BinaryIO = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what foreign readers print is no answer
+    stopping, inbox, bench = Stopping(), SimpleQueue[dict[str, Any]](), Workbench()
+    stopping.install()
+    threading.Thread(target=_listen, args=(orders, stopping, inbox), daemon=True).start()
+    logging.disable(logging.CRITICAL)
+    _warm_up()
+    _limit_memory()
+
+    def send(header: Mapping[str, Any], data: bytes = b"") -> None:
+        stopping.pause()
+        answers.write(packed(header, data))
+        answers.flush()
+        if stopping.running is not None:
+            stopping.go_on()
+
+    with contextlib.suppress(BrokenPipeError):
+        send({"type": "ready"})
+        while True:
+            perform(inbox.get(), bench, send, stopping)
+
+
+def perform(given: Mapping[str, Any], bench: Workbench, send: Send, stopping: Stopping) -> None:
+    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program."""
+    end: dict[str, Any] = {"type": "end", "how": "done"}
+    try:
+        stopping.begin(given["number"])
+        order = _order(given)
+        with contextlib.redirect_stdout(io.StringIO()):
+            _job(given["job"])(order, bench, send)
+    except Stopped:
+        end["how"] = "stopped"
+    except MemoryError:
+        bench.kept.clear()
+        end |= {
+            "how": "refused",
+            "message": "The memory does not suffice for that many points: crop or subsample.",
+        }
+    except Exception as error:
+        from roughcontact.page.refusal import refusal
+
+        end |= refusal(error)
+        if end["how"] == "mistake":
+            traceback.print_exc(file=sys.stderr)
+    finally:
+        stopping.end()
+    send(end)
+
+
+def _order(given: Mapping[str, Any]) -> Order:
+    from roughcontact.page.recipe import as_recipe
+
+    files = {key: UploadedFile(Path(each["path"]), each["name"]) for key, each in given["files"].items()}
+    return Order(as_recipe(given["recipe"]), files, given.get("more") or {})
+
+
+def _job(name: str) -> Job:
+    from roughcontact.page.curve_jobs import curve, theories
+    from roughcontact.page.export_job import export
+    from roughcontact.page.press_jobs import cut, press
+    from roughcontact.page.surface_jobs import look, study
+
+    jobs: dict[str, Job] = {
+        each.__name__: each for each in (look, study, press, cut, curve, theories, export)
+    }
+    if name not in jobs:
+        raise ValueError(f"there is no job {name!r}")
+    return jobs[name]
+
+
+def _listen(orders: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str, Any]]) -> None:
+    while len(start := orders.read(LENGTHS)) == LENGTHS:
+        given = header_of(orders.read(lengths_of(start)[0]))
+        if "stop" in given:
+            stopping.stop(given["stop"])
+        else:
+            inbox.put(given)
+    os._exit(0)  # the server is gone, whatever is being computed
+
+
+def _warm_up() -> None:
+    """Load what every order takes, and the machine code of the solvers."""
+    import numpy as np
+
+    import roughcontact as rc
+    from roughcontact.page.recipe import as_recipe
+    from roughcontact.plot.facts import solution_facts
+
+    _job("look")
+    as_recipe({"source": {"kind": "file", "file": ""}})
+    for points, repeats in ((512, False), (64, True)):  # 512: large enough for every method of the solvers
+        grid = rc.Grid((points, points), 1e-6, periodic=repeats)
+        surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+        for solution in rc.loading_path(surface.levelled("plane"), 1e11, pressures=[1e5, 1e7]):
+            solution_facts(solution)
+
+
+def _limit_memory() -> None:
+    """Let a file that asks for more memory than there is fail here, and not bring the machine to a halt."""
+    if sys.platform != "linux":  # elsewhere the address space says little
+        return
+    import resource
+
+    import psutil
+
+    from roughcontact.memory import free_memory
+
+    most = psutil.Process().memory_info().vms + int(_SHARE * free_memory())
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (most if hard < 0 else min(most, hard), hard))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""The law of adhesion and its border."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.adhesion.attraction import Attraction
+
+
+def test_the_attraction_is_the_slope_of_its_energy_and_does_the_work_of_adhesion():
+    law, gap, step = Attraction(0.05, 2e-9), np.linspace(0, 2e-8, 2001), 1e-13
+    slope = (law.energy(gap + step) - law.energy(gap - step)) / (2 * step)
+    # Third derivative of the energy times step^2/6, and rounding of the difference.
+    np.testing.assert_allclose(slope, law.traction(gap), atol=law.traction(gap)[0] * (1e-9 + 1e-16 * 2e4))
+    assert law.energy(np.zeros(1))[0] == -0.05
+    np.testing.assert_allclose(law.curvature(gap) * law.range, law.traction(gap), rtol=1e-15)
+
+
+def test_small_changes_of_the_energy_keep_their_digits():
+    law, gap = Attraction(0.05, 2e-9), np.array([0.0, 1e-9])
+    step = 1e-25
+    # exp(-step/range) differs from one by less than its rounding.
+    np.testing.assert_allclose(
+        law.energy_change(gap, np.full(2, step)), -law.traction(gap) * -step, rtol=1e-14
+    )
+    assert law.energy_change(np.array([np.inf]), np.array([1.0]))[0] == 0
+    assert law.energy_change(np.array([1.0]), np.array([-1.0]))[0] == -0.05  # from afar to the wall
+
+
+def test_numbers_of_the_law():
+    adhesion = rc.Adhesion(0.05, 2e-9)
+    assert adhesion.strength == 0.05 / 2e-9
+    assert math.isclose(adhesion.process_zone(1e9), 1e9 * 0.05 / (math.pi * (0.05 / 2e-9) ** 2))
+    assert math.isclose(adhesion.tabor(1e-6, 1e9) ** 3, 1e-6 * 0.05**2 / (1e18 * 8e-27))
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ((-1.0, 1e-9), "work of adhesion"),
+        ((math.nan, 1e-9), "work of adhesion"),
+        ((0.0, 1e-9), "zero everywhere"),
+        ((0.05, 0.0), "range of the attraction"),
+        ((0.05, "2nm"), "range of the attraction"),
+        ((0.05, 2e-9, "dugdale"), "one of 'exponential', not 'dugdale'"),
+    ],
+)
+def test_what_is_no_law_is_refused(given, told):
+    with pytest.raises(ValueError, match=told):
+        rc.Adhesion(*given)

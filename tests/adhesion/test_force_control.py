@@ -1,0 +1,90 @@
+"""Contact that sticks under prescribed forces: the depth is free."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.problem import separation_of
+from sticking import rough, smallest_by_matrices, sticky
+
+BODIES = {
+    "periodic": rough(24, periodic=True, slope=0.2, seed=1),
+    "free": rough(24, periodic=False, slope=0.2, seed=1),
+}
+
+
+def path(surface, adhesion, **loads):
+    return list(rc.loading_path(surface, 1.0, adhesion=adhesion, **loads))
+
+
+@pytest.mark.parametrize("kind", BODIES)
+def test_the_depth_of_a_force_is_that_which_causes_it(kind):
+    surface, adhesion = BODIES[kind], sticky(2.0)
+    for fraction in (0.7, 0.85):
+        given = rc.press(surface, 1.0, depth=fraction * separation_of(surface).mean(), adhesion=adhesion)
+        assert given.force > 0
+        found = rc.press(surface, 1.0, force=given.force, adhesion=adhesion)
+        assert found.status.converged
+        # Certified to 1e-8 of the largest traction; what is softest here answers some hundred times as much.
+        assert found.force == pytest.approx(given.force, rel=1e-8)
+        assert found.depth == pytest.approx(given.depth, rel=1e-6)
+        assert np.abs(found.pressure - given.pressure).max() <= 1e-6 * np.abs(given.pressure).max()
+
+
+@pytest.mark.parametrize("kind", BODIES)
+def test_forces_up_and_down_do_not_depend_on_the_step(kind):
+    surface, adhesion = BODIES[kind], sticky(2.0)
+    most = (
+        0.5
+        * rc.press(surface, 1.0, depth=0.4 * separation_of(surface).mean(), adhesion=adhesion).contact_area
+    )
+    up = np.linspace(0.0, 0.05 * most + 1.0, 5)
+    fine = np.linspace(0.0, 0.05 * most + 1.0, 17)
+    coarse = path(surface, adhesion, forces=np.r_[up, up[-2::-1]])
+    other = path(surface, adhesion, forces=np.r_[fine, fine[-2::-1]])[::4]
+    for one, two in zip(coarse, other, strict=True):
+        assert one.status.converged
+        assert one.stability > 0
+        assert one.depth == pytest.approx(two.depth, abs=1e-6 * adhesion.range)
+
+
+def test_a_sphere_is_pulled_off_by_the_largest_tension_of_its_curve():
+    rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    ball, adhesion = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings), rc.Adhesion(work=10e-3, range=4e-9)
+    loop = rc.adhesive_loop(ball, 1e8, adhesion, depth=10e-9, points=1000)
+    forces = np.r_[0.0, -np.linspace(0.5, 1.2, 15) * loop.pull_off_force, 0.0]
+    states = list(rc.loading_path(ball, 1e8, forces=forces, adhesion=adhesion))
+    jumps = [jump for state in states for jump in state.jumps]
+    pulled = [jump for jump in jumps if math.isinf(jump.lost)]
+    assert len(pulled) == 1
+    # The top of the curve lies between its highest point and one beside it, and is a kink where a ring lets go.
+    top = int(np.argmin(loop.force))
+    beside = np.abs(np.diff(loop.force[top - 1 : top + 2])).max()
+    assert -1e-9 <= -pulled[0].force_before / loop.pull_off_force - 1 <= beside / loop.pull_off_force
+    off = [state.depth == -math.inf for state in states]
+    assert off == [state.force == 0 and not state.contact.any() and k > 0 for k, state in enumerate(states)]
+    assert any(off)
+    assert not all(off)
+    assert states[-1].contact.any()  # without a force the bodies draw near again
+    assert states[-1].depth == pytest.approx(states[0].depth, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", BODIES)
+def test_stability_under_a_force_is_the_smallest_eigenvalue_with_the_depth_free(kind):
+    surface, adhesion = rough(16, periodic=kind == "periodic", slope=0.3, seed=2), sticky(3.0)
+    state = rc.press(surface, 1.0, force=1.0, adhesion=adhesion)
+    free = np.ones(state.blank.form.shape, bool)
+    free[state.blank.form.inside] = ~state.contact
+    curvature = np.zeros(free.shape)
+    curvature[state.blank.form.inside] = state.attraction.curvature(np.maximum(state.gap, 0.0))
+    wanted = smallest_by_matrices(state.blank.control.form, free, curvature)
+    assert wanted - 1e-9 <= state.stability <= wanted + 1e-3
+    at_depth = rc.press(surface, 1.0, depth=state.depth, adhesion=adhesion)
+    assert at_depth.stability >= state.stability - 1e-3  # with the depth held, fewer ways are open
+
+
+def test_a_path_cannot_begin_under_tension():
+    with pytest.raises(ValueError, match="cannot begin under the tension -1"):
+        rc.press(BODIES["free"], 1.0, force=-1.0, adhesion=sticky(2.0))

@@ -1,0 +1,41 @@
+"""Who is answered: this machine, this page, this key."""
+
+import pytest
+
+from roughcontact.page.guard import Guard
+
+GUARD = Guard(8765, "key")
+HOST, COOKIE = (b"host", b"127.0.0.1:8765"), (b"cookie", b"roughcontact-8765=key")
+
+
+def status(*headers, method="GET", path="/", query=""):
+    refused = GUARD.check(method, path, query, headers)
+    return None if refused is None else refused.status
+
+
+def test_the_key_in_the_address_or_in_the_cookie_is_enough():
+    assert status(HOST, query="token=key") is None
+    assert status(HOST, COOKIE) is None
+    assert status(HOST, COOKIE, (b"origin", b"http://127.0.0.1:8765"), method="POST", path="/order") is None
+
+
+@pytest.mark.parametrize("host", [b"evil.example:8765", b"127.0.0.1:80", b"127.0.0.1"])
+def test_another_host_is_refused(host):
+    assert status((b"host", host), COOKIE) == 400
+
+
+def test_two_hosts_and_none_are_refused():
+    assert status(HOST, HOST, COOKIE) == status(COOKIE) == 400
+
+
+@pytest.mark.parametrize(
+    "header", [(b"origin", b"http://evil.example"), (b"origin", b"null"), (b"sec-fetch-site", b"cross-site")]
+)
+def test_another_site_is_refused(header):
+    assert status(HOST, COOKIE, header, method="POST", path="/order") == 403
+
+
+def test_without_the_key_there_is_nothing():
+    assert status(HOST) == status(HOST, query="token=other") == 403
+    assert status(HOST, query="token=key", path="/order", method="POST") == 403
+    assert status(HOST, (b"cookie", b"roughcontact-8765=other")) == 403

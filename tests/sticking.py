@@ -1,0 +1,77 @@
+"""Rough surfaces that stick strongly, and a slow solver that shares nothing with the library's."""
+
+import numpy as np
+import scipy.linalg
+
+import roughcontact as rc
+
+
+def rough(cells, *, periodic, slope, seed):
+    """Return a surface of cells of size 1 with waves from the whole length down to eight cells."""
+    rng = np.random.default_rng(seed)
+    waves = 2 * np.pi * np.fft.fftfreq(cells)
+    q = np.hypot(waves[:, None], waves)
+    longest = 8 * np.pi / cells
+    gain = np.where((q > 0) & (q < np.pi / 4), np.maximum(q, longest) ** -1.8, 0.0)
+    heights = np.fft.ifft2(gain * np.fft.fft2(rng.standard_normal((cells, cells)))).real
+    steepness = np.sqrt(sum((g**2).mean() for g in np.gradient(heights)))
+    return rc.Surface(heights * slope / steepness, rc.Grid((cells, cells), 1.0, periodic))
+
+
+def sticky(length, *, reach=0.3):
+    """Return an adhesion whose Irwin length on a body of modulus 1 is so many cells."""
+    return rc.Adhesion(work=reach**2 / (np.pi * length), range=reach)
+
+
+def slow_path(operator, separation, adhesion, depths):
+    """Return the displacement at each depth of a free body, by steps that cannot leave a basin.
+
+    The attraction is taken at the last gap, and what is left is a convex contact problem, solved by matrices. The
+    inverse of the influence matrix being one of type M, such steps rise (the wall receding) or fall (approaching)
+    monotonically to the nearest equilibrium on that side, whatever the steps of the depth.
+    """
+    stiffness = np.linalg.inv(operator.as_matrix())
+    f = separation.ravel()
+    gap = np.maximum(f - depths[0], 0.0) + 1.0
+    answers = []
+    for depth in depths:
+        for _ in range(100_000):
+            pull = adhesion.work / adhesion.range * np.exp(-gap / adhesion.range)
+            new = contact(stiffness, f - depth, pull, gap)
+            moved = np.abs(new - gap).max()
+            gap = new
+            if moved <= 1e-13:
+                break
+        answers.append(gap.copy())
+    return answers
+
+
+def contact(stiffness, rest, pull, gap):
+    """Minimise ``1/2 (g - rest).K (g - rest) + pull.g`` over g >= 0 by changing the set of closed cells."""
+    closed = gap <= 0
+    for _ in range(1000):
+        free = ~closed
+        g = np.zeros(len(rest))
+        load = stiffness @ rest - pull
+        g[free] = np.linalg.solve(stiffness[np.ix_(free, free)], load[free])
+        reaction = stiffness @ g - load
+        new = (free & (g < 0)) | (closed & (reaction > 0))
+        if (new == closed).all():
+            return g
+        closed = new
+    raise AssertionError("the set of closed cells goes in circles")
+
+
+def smallest_by_matrices(form, free, curvature):
+    """Return the smallest eigenvalue of the pencil, by matrices."""
+    units = np.eye(free.size).reshape(-1, *free.shape)
+    matrix = np.array([form.stiffness(unit).ravel() for unit in units]).T
+    areas = np.broadcast_to(form.weights, free.shape).ravel()[free.ravel()]
+    chosen = np.ix_(free.ravel(), free.ravel())
+    elastic = areas[:, None] * matrix[chosen]
+    adhesive = np.diag(areas * curvature.ravel()[free.ravel()])
+    if form.mean_free:
+        inner = scipy.linalg.null_space(np.ones((1, free.sum())))
+        elastic, adhesive = inner.T @ elastic @ inner, inner.T @ adhesive @ inner
+    elastic = (elastic + elastic.T) / 2
+    return scipy.linalg.eigh(elastic - adhesive, elastic, eigvals_only=True)[0]
