@@ -29,6 +29,7 @@ TITLES = {
     "study": "Studies",
     "surface": "Surfaces",
     "theory": "Theory",
+    "thesis": "Figures of the thesis",
 }
 
 

@@ -5,8 +5,13 @@ python tests/public_names.py --lacking    those whose docstring lacks something,
 
 Public is what is reached without a leading underscore from `roughcontact.__all__`, from the modules that it names, and
 from the modules of these; of a class its methods and properties.
+
+Every function and class has an example of its own. A method has one, or the example of its class calls it; properties
+need none.
 """
 
+import ast
+import doctest
 import inspect
 import sys
 from collections.abc import Iterator
@@ -45,18 +50,19 @@ class PublicName:
         if isinstance(self.value, property | cached_property):
             return [] if self.value.__doc__ else ["GL08 a docstring"]
         lacks = _of_class(self.value) if inspect.isclass(self.value) else _of_function(self.value)
-        doc = _parsed(self.value)
-        if self._wants_example(doc) and not doc["Examples"]:
+        if not _example(self.value) and not self._is_shown_by_its_class():
             lacks.append("EX01 an example")
         return lacks
 
-    def _wants_example(self, doc: NumpyDocString) -> bool:
-        """Return whether it is a function or class of the package itself, or a function of `theory` or `mdr`."""
-        of_package = self.path.count(".") == 1
-        if inspect.isclass(self.value):
-            return of_package and bool(doc["Parameters"]) and not _never_called(self.value)
-        is_method = "." in inspect.unwrap(self.value).__qualname__
-        return of_package or (self.room in ("theory", "mdr") and not is_method)
+    def _is_shown_by_its_class(self) -> bool:
+        """Return whether it is a method that its class's example calls, or one of a protocol, which has no body."""
+        function = inspect.unwrap(self.value)
+        owner = getattr(sys.modules[function.__module__], function.__qualname__.partition(".")[0])
+        if not inspect.isclass(owner) or inspect.isclass(self.value):
+            return False
+        shown = ast.Module(_example(owner), [])
+        used = {node.attr for node in ast.walk(shown) if isinstance(node, ast.Attribute)}
+        return function.__name__ in used or bool(getattr(owner, "_is_protocol", False) and shown.body)
 
 
 def public_names() -> list[PublicName]:
@@ -88,6 +94,12 @@ def _reached(path: str, module: ModuleType) -> Iterator[tuple[str, Any]]:
                     inspect.isfunction(what) or isinstance(what, property | cached_property)
                 ):
                     yield f"{here}.{member}", what
+
+
+def _example(value: Any) -> list[ast.stmt]:
+    """Return the statements of the example of a class or function."""
+    shown = doctest.DocTestParser().get_examples(inspect.getdoc(value) or "")
+    return ast.parse("".join(each.source for each in shown)).body
 
 
 def _parsed(value: Any) -> NumpyDocString:

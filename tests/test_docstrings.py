@@ -2,6 +2,7 @@
 
 import doctest
 
+import matplotlib.pyplot as plt
 import pytest
 
 from public_names import PublicName, public_names
@@ -27,7 +28,10 @@ def test_public_docstrings_are_complete(room):
 def test_examples(test, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # what an example writes
     report = []
-    doctest.DocTestRunner(optionflags=FLAGS).run(test, out=report.append)
+    try:
+        doctest.DocTestRunner(optionflags=FLAGS).run(test, out=report.append)
+    finally:
+        plt.close("all")
     assert not report, "".join(report)
 
 
@@ -62,6 +66,35 @@ class Described:
         return 1
 
 
+class Shown:
+    """A class whose example calls one of its methods.
+
+    Examples
+    --------
+    >>> from test_docstrings import Shown
+    >>> Shown().called()
+    1
+    """
+
+    def called(self):
+        """Return one.
+
+        Returns
+        -------
+        int
+        """
+        return 1
+
+    def uncalled(self):
+        """Return two.
+
+        Returns
+        -------
+        int
+        """
+        return 2
+
+
 def described(first, second):
     """Return one of two.
 
@@ -84,6 +117,9 @@ def undescribed():
         (undescribed, ["GL08", "EX01"]),
         (Described, ["PR01", "PR02", "EX01"]),
         (Described.bare, ["GL08"]),
+        (Shown, []),
+        (Shown.called, []),
+        (Shown.uncalled, ["EX01"]),
     ],
 )
 def test_what_is_lacking_is_seen(value, codes):

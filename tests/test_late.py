@@ -24,7 +24,7 @@ print(rc.theory.hertz.point(radius=1.0, modulus=1.0, force=1.0).depth)
 """
 
 
-@pytest.mark.parametrize("package", [rc, rc.theory, rc.mdr])
+@pytest.mark.parametrize("package", [rc, rc.theory, rc.mdr, rc.plot, rc.thesis])
 def test_each_name_is_there_once(package):
     names = list(late_names(package.__spec__))
     assert len(names) == len(set(names))
@@ -42,9 +42,7 @@ def test_another_name_is_refused_with_those_that_there_are():
 def test_without_texts_all_is_imported_at_once(tmp_path):
     """As in bundles of programs, which hold compiled modules alone."""
     target = tmp_path / "roughcontact"
-    shutil.copytree(
-        Path(rc.__file__).parent, target, ignore=shutil.ignore_patterns("__pycache__", "thesis", "cli")
-    )
+    shutil.copytree(Path(rc.__file__).parent, target, ignore=shutil.ignore_patterns("__pycache__", "cli"))
     assert compileall.compile_dir(target, quiet=1, legacy=True)
     for text in target.rglob("*.py"):
         text.unlink()

@@ -1,5 +1,6 @@
 """What a release says in several places is the same in all of them."""
 
+import importlib
 import re
 import tomllib
 from pathlib import Path
@@ -30,6 +31,16 @@ def test_the_recipe_has_the_dependencies_of_the_package():
     run = RECIPE[RECIPE.index("  run:\n") : RECIPE.index("tests:\n")]
     found = set(re.findall(r"^    - (\S+) >=(\S+)$", run, re.MULTILINE))
     assert found == {(CONDA_NAMES.get(name, name), bound) for name, bound in wanted}
+
+
+def test_each_dependency_says_what_it_weighs_and_what_it_is_for(monkeypatch):
+    monkeypatch.syspath_prepend(HOME / "benchmarks")
+    purposes = importlib.import_module("weights").PURPOSES
+    named = {re.match(r"[\w-]+", text)[0] for text in PROJECT["project"]["dependencies"]}
+    assert purposes.keys() == named
+    page = (HOME / "docs" / "release.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([\w-]+) \| [\d.]+ \| .* \| (.*) \|$", page, re.MULTILINE)
+    assert dict(rows) == purposes
 
 
 def test_the_workflow_does_what_the_check_of_a_checkout_does():

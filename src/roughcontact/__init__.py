@@ -17,6 +17,7 @@ if TYPE_CHECKING or _LATE is None:
         statistics as statistics,
         study as study,
         theory as theory,
+        thesis as thesis,
     )
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
@@ -151,8 +152,10 @@ if TYPE_CHECKING or _LATE is None:
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]
 
 
-def __getattr__(name: str) -> Any:
-    return open_name(globals(), _LATE, name)
+if not TYPE_CHECKING:  # to which it would be a module that has any name
+
+    def __getattr__(name: str) -> Any:
+        return open_name(globals(), _LATE, name)
 
 
 def __dir__() -> list[str]:

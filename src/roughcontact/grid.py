@@ -125,6 +125,12 @@ class Grid:
         -------
         Grid
             Cells of the same size, free along every axis.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.Grid((4, 8), 1e-6, periodic=True).window((slice(0, 2), slice(2, 8)))
+        Grid(shape=(2, 6), spacing=(1e-06, 1e-06), periodic=(False, False))
         """
         shape = tuple(len(range(*part.indices(n))) for part, n in zip(slices, self.shape, strict=True))
         return self._of_cells(shape, self.spacing)
@@ -141,6 +147,12 @@ class Grid:
         -------
         Grid
             Of one axis; the spacing is the area of a cell [m^2].
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.Grid((4, 8), 2e-6).listed(3).spacing
+        (4e-12,)
         """
         return self._of_cells((count,), (self.cell_area,))
 
@@ -211,6 +223,12 @@ class RadialGrid:
         ------
         ValueError
             If the number of rings is not a positive whole one, or the radius not positive and finite.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.RadialGrid.uniform(4, 1e-3).radii.tolist()
+        [0.000125, 0.000375, 0.000625, 0.000875]
         """
         numbers = _is_real(rings) and _is_real(radius)
         if not (numbers and rings >= 1 and rings % 1 == 0 and 0 < radius < math.inf):
@@ -294,6 +312,12 @@ class RadialGrid:
         -------
         RadialGrid
             The rings in the slice.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.RadialGrid.uniform(4, 1e-3).window((slice(1, 3),)).edges.tolist()
+        [0.00025, 0.0005, 0.00075]
         """
         start, stop, _ = slices[0].indices(self.size)
         return RadialGrid(self.edges[start : stop + 1])

@@ -41,6 +41,14 @@ def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | N
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> surface.plot(spikes=rc.find_spikes(surface)).get_xlabel()
+    'x [µm]'
     """
     from roughcontact.plot.maps import height_map
     from roughcontact.plot.profile_plot import profile_curve
@@ -69,6 +77,13 @@ def plot_solution(
     ------
     ValueError
         If the field is another.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> solution.plot(field="contact").get_xlabel()
+    'x [µm]'
     """
     from roughcontact.plot import maps, profile_plot
 
@@ -111,6 +126,16 @@ def plot_curve(
     ------
     ValueError
         If the quantity is another, or a law is given that is not about it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> curve = rc.loading_curve(surface, 1e9, forces=np.geomspace(1e-4, 1e-2, 9))
+    >>> axes = curve.plot(quantity="contact_area", theories=rc.loading_laws(surface, 1e9, "persson"))
+    >>> axes.get_xscale(), axes.get_ylabel()
+    ('log', 'contact area [µm²]')
     """
     from roughcontact.plot import curves
 
@@ -149,6 +174,14 @@ def plot_loop(
     ------
     ValueError
         If the quantity is another.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> [loop.plot(quantity=each).get_xlabel() for each in ("depth", "stiffness", "bearing")]
+    ['depth [nm]', 'nominal pressure [MPa]', 'area above the height [%]']
     """
     from roughcontact.plot import loops
 

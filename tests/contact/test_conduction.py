@@ -174,13 +174,24 @@ def test_a_curve_that_leaves_out_its_plastic_cells_does_not_know():
         with_conductance(dataset, Conductors((1e-8, 1e-8)), of="depth")
 
 
+def test_of_the_dataset_of_a_curve_it_is_further_columns():
+    grid = rc.Grid((8, 8), 1e-6)
+    curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])
+    for of in ("interface", "total"):
+        found = rc.conductance(curve, conductivities=(50.0, 200.0), of=of)
+        dataset = rc.conductance(curve.to_dataset(), conductivities=(50.0, 200.0), of=of)
+        assert set(dataset.data_vars) == set(curve.to_dataset().data_vars) | set(found)
+        for name, values in found.items():
+            np.testing.assert_array_equal(dataset[name], values)
+            assert dataset[name].attrs["units"]
+
+
 def test_an_insulator_has_a_picture():
     """Its resistance is infinite, and has no place on the axis."""
-    from roughcontact.contact.conduction import Conductors, with_conductance
     from roughcontact.plot.canvas import resistance_figure
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2])
     for of in ("interface", "total"):
-        dataset = with_conductance(curve.to_dataset(), Conductors(conductivities=(1.0, 0.0)), of)
+        dataset = rc.conductance(curve.to_dataset(), conductivities=(1.0, 0.0), of=of)
         resistance_figure(dataset).canvas.draw()

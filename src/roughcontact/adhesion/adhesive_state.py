@@ -79,6 +79,17 @@ class AdhesiveState:
         Instabilities on the way from the state before.
     products : int
         Products with the stiffness or the compliance of the body since the state before.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> state = rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> f"{state.force * 1e9:.0f} nN at a depth of zero, on {state.contact.sum()} rings"
+    '-440 nN at a depth of zero, on 34 rings'
+    >>> state.residual < 1e-8, state.stability > 0
+    (True, True)
     """
 
     blank: Blank

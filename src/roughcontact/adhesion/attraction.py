@@ -95,6 +95,13 @@ class Adhesion:
         -------
         float
             Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> adhesion = rc.Adhesion(work=50e-3, range=2e-9)
+        >>> f"{adhesion.tabor(radius=1e-5, modulus=1e9):.2f}, on rubber {adhesion.tabor(radius=1e-5, modulus=1e6):.0f}"
+        '1.46, on rubber 146'
         """
         w = float(np.max(self.work))
         return float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))

@@ -46,6 +46,16 @@ class Jump:
         Whether the depth (or force) was growing.
     ambiguous : bool
         Whether two integrations of the gradient flow ended in different states.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> jumps = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9).jumps
+    >>> first, last = jumps[0], jumps[-1]
+    >>> f"in at {first.depth * 1e9:.0f} nm, off at {last.depth * 1e9:.0f} nm", f"{last.lost * 1e18:.0f} aJ are lost"
+    ('in at -7 nm, off at -8 nm', '170 aJ are lost')
     """
 
     depth: float

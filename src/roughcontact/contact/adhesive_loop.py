@@ -43,6 +43,15 @@ class AdhesiveLoop:
         Every instability, in order.
     unresolved : bool
         Whether the attraction varies from cell to cell, so that the lattice traps the states.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9)
+    >>> f"pulled off at {loop.pull_off_force * 1e9:.0f} nN, {loop.lost * 1e18:.0f} aJ are lost", loop.ambiguous
+    ('pulled off at 495 nN, 478 aJ are lost', False)
     """
 
     depth: Array

@@ -50,6 +50,14 @@ class StressPeak:
     resolved : bool
         Whether it lies at least two cells below the surface. Nearer to it the stress is that of
         uniformly loaded cells, and a finer grid has another.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> peak = rc.largest_von_mises(rc.press(ball, 1e9, force=5e-3), 0.3)
+    >>> f"{peak.von_mises / 1e6:.0f} MPa, {peak.depth * 1e6:.1f} um deep", peak.resolved
+    ('28 MPa, 3.5 um deep', True)
     """
 
     von_mises: float

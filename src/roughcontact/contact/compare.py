@@ -59,6 +59,25 @@ class Comparison:
         Where the computed curve is to be relied upon.
     computed, predicted : mapping of str to array, shape (n,)
         By quantity, in the units of the curve. Predictions are NaN where the theory does not hold.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((128, 128), 1e-6, periodic=True)
+    >>> rng = np.random.default_rng(1)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=rng, rolloff=3.2e-5, short_cutoff=8e-6)
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 9))
+    >>> comparison = curve.compare(*rc.loading_laws(surface, 1e9, ["persson"]), ["contact_area", "stiffness"])
+    >>> comparison.ratio("contact_area").round(2)
+    array([0.8 , 0.77, 0.76, 0.76, 0.77, 0.77, 0.79, 0.81, 0.84])
+    >>> f"off by {comparison.deviation('contact_area'):.0%} on {comparison.common('contact_area').sum()} loads"
+    'off by 25% on 9 loads'
+    >>> computed, predicted = comparison.local_exponents("contact_area")[0]
+    >>> print(f"area ~ F^{computed.exponent:.2f}, by Persson F^{predicted.exponent:.2f}")
+    area ~ F^1.03, by Persson F^0.99
+    >>> comparison.words() in repr(comparison), comparison.to_record()["theory"]
+    (True, 'Persson')
     """
 
     name: str

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
@@ -75,20 +75,37 @@ class Conductors:
         return found
 
 
+@overload
 def conductance(
     contact: Curve | Solution,
     *,
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
     of: Literal["interface", "total"] = "interface",
-) -> dict[str, Array]:
+) -> dict[str, Array]: ...
+@overload
+def conductance(
+    contact: xarray.Dataset,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    of: Literal["interface", "total"] = "interface",
+) -> xarray.Dataset: ...
+def conductance(
+    contact: Curve | Solution | xarray.Dataset,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    of: Literal["interface", "total"] = "interface",
+) -> dict[str, Array] | xarray.Dataset:
     """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
     Parameters
     ----------
-    contact : Curve or Solution
+    contact : Curve, Solution or Dataset
         Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that give way conduct like the
-        others: the stiffness is that of unloading.
+        others: the stiffness is that of unloading. A dataset is that of a curve, ``curve.to_dataset()`` or as it was
+        read from a file.
     resistivities, conductivities : tuple of float
         At least one of the two, see ``Conductors``.
     of : {"interface", "total"}
@@ -98,12 +115,13 @@ def conductance(
 
     Returns
     -------
-    dict of str to array
+    dict of str to array, or Dataset
         ``electrical_conductance`` [S] and ``electrical_resistance`` [ohm], ``thermal_conductance`` [W/K] and
         ``thermal_resistance`` [K/W], what was asked for: along the curve, or one number. Of the interface also over the
         nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm m^2],
         ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films, gas
-        and radiation carry nothing here.
+        and radiation carry nothing here. Of a dataset, this dataset with these as further columns, as
+        `roughcontact.plot.resistance_curve` draws them.
 
     Raises
     ------
@@ -124,9 +142,11 @@ def conductance(
     materials = Conductors(resistivities, conductivities)
     _require_part(of)
     if not isinstance(contact, Curve | Solution):
-        raise ValueError(
-            f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
-        )
+        if not hasattr(contact, "data_vars"):
+            raise ValueError(
+                f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
+            )
+        return with_conductance(contact, materials, of)
     if isinstance(contact, Solution):
         contact = contact.flattened  # plastic cells conduct as well
     scales = contact.problem if isinstance(contact, Solution) else contact

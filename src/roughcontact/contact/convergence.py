@@ -11,7 +11,18 @@ __all__ = ["ConvergenceError"]
 
 
 class ConvergenceError(RuntimeError):
-    """A solve that missed its tolerance; `solution` is the best that was reached."""
+    """A solve that missed its tolerance; `solution` is the best that was reached.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> try:
+    ...     rc.press(ball, 1e9, force=1e-3, solver=rc.PolonskyKeer(max_steps=3))
+    ... except rc.ConvergenceError as error:
+    ...     print(error.solution.status.message)
+    The solver ran out of steps above the tolerance; allow it more steps.
+    """
 
     def __init__(self, solution: Solution) -> None:
         super().__init__(solution)  # in `args`, so that the error can be pickled

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
-from roughcontact.contact.dataset import curve_dataframe
+from roughcontact.contact.dataset import curve_dataframe, curve_dataset, curve_record
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
@@ -28,8 +28,6 @@ from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, Mask, number
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughcontact.theory.law import Basis
 
 __all__ = ["Curve", "collect"]
@@ -72,6 +70,17 @@ class Curve:
         Pressure that no cell exceeds [Pa]; cells that reach it have no part in the stiffness.
     flow : FlowCurve, optional
         What flows along the curve, and the stiffness of unloading; where there is a hardness.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
+    >>> curve
+    Curve(9 of 9 points resolved, force 0.01 to 0.1 N)
+    >>> [round(each.exponent, 2) for each in curve.local_exponents("contact_area")]  # of Hertz 2/3
+    [0.67, 0.68]
     """
 
     force: Array
@@ -185,6 +194,15 @@ class Curve:
         ValueError
             If the window is not a force and a larger one, fewer than three points lie in it, or the resolved points
             span less than a decade of force.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+        >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
+        >>> f"k ~ F^{curve.fit().exponent:.2f}"  # of Hertz 1/3
+        'k ~ F^0.34'
         """
         if window is None:
             inside = self._range_of_fit()
@@ -259,6 +277,14 @@ class Curve:
         ValueError
             If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
             is that of a line contact, or if the theory was made for another modulus, area or rms height.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+        >>> curve = rc.loading_curve(ball, 1e9, forces=[2e-4, 1e-3, 5e-3])
+        >>> curve.compare(rc.theory.hertz.law(radius=1e-4, modulus=1e9)).ratio("depth").round(3)
+        array([1.042, 1.015, 1.006])
         """
         if not hasattr(theory, "quantities"):
             raise ValueError(
@@ -314,30 +340,8 @@ class Curve:
         unit = unit_of("force", self.geometry)
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.contact.dataset import curve_dataset
-
-        return curve_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the curve as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-        """
-        from roughcontact.contact.dataset import curve_record
-
-        return curve_record(self)
-
+    to_dataset = curve_dataset
+    to_record = curve_record
     to_dataframe = curve_dataframe
     plot = plot_curve
     _repr_html_ = curve_html

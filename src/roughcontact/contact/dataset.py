@@ -43,11 +43,26 @@ _SOLUTION_SCALARS = (
 
 
 def curve_dataset(curve: Curve) -> xarray.Dataset:
-    """Return a loading curve as a dataset.
+    """Return the curve as an `xarray.Dataset` with units and long names.
 
-    Every array of the curve is a variable along ``load``; the secant stiffness, which belongs to
-    pairs of neighbours, lies along ``interval``; the scales are variables without a dimension, or
-    along ``axis`` (y, then x). Each carries ``units`` and ``long_name``. On a line the units are per length.
+    Parameters
+    ----------
+    curve : Curve
+
+    Returns
+    -------
+    xarray.Dataset
+        Every array of the curve is a variable along ``load``; the secant stiffness, which belongs to
+        pairs of neighbours, lies along ``interval``; the scales are variables without a dimension, or
+        along ``axis`` (y, then x). Each carries ``units`` and ``long_name``. On a line the units are per length.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> dataset = rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]).to_dataset()
+    >>> print(dataset["stiffness"].round().values, dataset["stiffness"].attrs["units"])
+    [ 8493. 10325.] N m-1
     """
     kind = curve.geometry
     data = {name: variable(name, ("load",), getattr(curve, name), kind) for name in _CURVE_ARRAYS}
@@ -105,6 +120,14 @@ def curve_dataframe(curve: Curve) -> pandas.DataFrame:
     DataFrame
         Columns by the names of the quantities, with ``resolved`` and ``status``; units by column stand in
         ``attrs["units"]``.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> frame = rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]).to_dataframe()
+    >>> frame["force"].round(6).tolist(), frame.attrs["units"]["force"], bool(frame["resolved"].any())
+    ([0.001, 0.002], 'N', False)
     """
     dataset = curve_dataset(curve)
     columns = dataset[[name for name, values in dataset.items() if values.dims == ("load",)]]
@@ -114,9 +137,25 @@ def curve_dataframe(curve: Curve) -> pandas.DataFrame:
 
 
 def curve_record(curve: Curve) -> dict[str, Any]:
-    """Return a loading curve as plain numbers, words and lists that JSON can hold.
+    """Return the curve as plain values, for JSON.
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Parameters
+    ----------
+    curve : Curve
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them: it knows neither NaN nor infinity, and both become None.
+        Units stand once, under ``"units"``.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> record = rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]).to_record()
+    >>> [round(force, 6) for force in record["force"]], record["units"]["force"], record["status"][0]
+    ([0.001, 0.002], 'N', 'converged')
     """
     names = (*_CURVE_ARRAYS, "secant_stiffness", *CURVE_SCALES, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(curve, name)) for name in names}

@@ -106,6 +106,14 @@ class Flow:
         Returns
         -------
         Flow
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> flow = rc.press(ball, 1e11, force=0.2, hardness=2e9).flow
+        >>> type(flow.on_host().depth).__name__
+        'ndarray'
         """
         uniform = isinstance(self.hardness, int | float)
         hardness = self.hardness if uniform else on_host(self.hardness)

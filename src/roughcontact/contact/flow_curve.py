@@ -31,6 +31,16 @@ class FlowCurve:
     unloading_stiffness, unloading_interfacial_stiffness : array, shape (n,)
         ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact
         answer [N/m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e11, forces=[0.05, 0.1, 0.2], hardness=2e9)
+    >>> (curve.flow.flow_volume * 1e18).round(2).tolist()  # [um^3]
+    [0.0, 0.38, 3.27]
+    >>> bool((curve.flow.unloading_stiffness >= curve.stiffness).all())
+    True
     """
 
     plastic_area: Array

@@ -38,6 +38,14 @@ def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array
     ------
     ValueError
         If there is not a bin.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> density, edges = solution.pressure_histogram(bins=4)  # of Hertz' pressures the large ones are frequent
+    >>> (density * edges[1]).round(2)
+    array([0.13, 0.13, 0.33, 0.4 ])
     """
     return _density(solution, solution.pressure, solution.contact, bins)
 
@@ -65,6 +73,14 @@ def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     ------
     ValueError
         If there is not a bin.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> density, edges = solution.gap_histogram(bins=4)  # of the open cells
+    >>> (density * edges[1]).round(2)
+    array([0.39, 0.38, 0.18, 0.05])
     """
     return _density(solution, solution.gap, ~solution.contact & solution.problem.measured, bins)
 

@@ -40,6 +40,18 @@ class InterfaceTable:
         Whether the map was pressed as a part of an endless surface.
     hardness : float
         Pressure that no cell exceeds [Pa].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> table = rc.interface_table(rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6)))
+    >>> f"closed by {table.overclosure[0] * 1e9:.0f} to {table.overclosure[-1] * 1e9:.0f} nm"
+    'closed by 55 to 179 nm'
+    >>> f"straight lines lie up to {table.chord_error:.1%} above", table.to_dataset()["mean_gap"].attrs["units"]
+    ('straight lines lie up to 2.7% above', 'm')
     """
 
     pressure: Array

@@ -52,6 +52,16 @@ class Loop:
         Depth at which the flattened surface is touched without force [m]: what stays of the approach.
     residual_gap : float
         Mean gap of the flattened surface at that touch [m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> f"{loop.dissipated_work * 1e9:.1f} of {loop.work * 1e9:.1f} nJ are lost", loop.converged
+    ('6.5 of 25.7 nJ are lost', True)
+    >>> loop.to_dataset()["residual_depth"].attrs["units"]
+    'm'
     """
 
     loading: Curve
@@ -118,6 +128,14 @@ class Loop:
         -------
         dict
             Numbers, texts and lists of them, as JSON takes them.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+        >>> f"{loop.to_record()['residual_depth'] * 1e9:.0f} nm"
+        '78 nm'
         """
         from roughcontact.contact.loop_dataset import loop_record
 

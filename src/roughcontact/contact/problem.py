@@ -195,6 +195,15 @@ class ContactProblem:
         ------
         ValueError
             If the control cannot be met.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((32, 32), 1e-6)
+        >>> gap = -rc.shapes.paraboloid(grid, radius=1e-4).heights
+        >>> problem = rc.ContactProblem(gap - gap.min(), rc.half_space(grid, 1e9), rc.Force(1e-3))
+        >>> problem.under(rc.Depth(1e-7)).control
+        Depth(value=1e-07)
         """
         other = replace(self, control=control)
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
@@ -211,6 +220,15 @@ class ContactProblem:
         Returns
         -------
         ContactProblem
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> problem = rc.press(ball, 1e11, force=0.2, hardness=2e9).problem
+        >>> raised = problem.raised(1e-8)
+        >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
+        '10.0 nm nearer'
         """
         return self._moved(self.separation - rise, rise=self.rise + rise)
 
@@ -226,6 +244,15 @@ class ContactProblem:
         -------
         ContactProblem
             Without a hardness, up to that load.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> pressed = rc.press(ball, 1e11, force=0.2, hardness=2e9)
+        >>> elastic = pressed.problem.after(pressed.flow)
+        >>> elastic.hardness, elastic.surface.provenance[-1][:9]
+        (inf, 'flattened')
         """
         surface = None if self.surface is None else flow.flatten(self.surface)
         separation = self.separation + flow.depth
@@ -274,6 +301,15 @@ class ContactProblem:
         -------
         object
             What `compute` returned first.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+        >>> problem = rc.press(ball, 1e9, force=1e-3).problem
+        >>> first = problem.once("deepest", lambda: float(problem.separation.max()))
+        >>> problem.once("deepest", lambda: None) == first  # what was computed first
+        True
         """
         if name not in self._memo:
             self._memo.setdefault(name, compute())  # of threads that ask at once all get the first

@@ -60,6 +60,17 @@ class Solution:
         the exact operator with this pressure.
     steps : int
         Products with the operator that the solve took on its finest grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> f"{solution.stiffness:.0f} N/m on {solution.contact_area * 1e12:.0f} um^2", solution.residual < 1e-8
+    ('8493 N/m on 60 um^2', True)
+    >>> solution.on_host().spots.count, solution.to_record()["units"]["force"]
+    (1, 'N')
+    >>> solution.to_dataset()["gap"].attrs["units"]
+    'm'
     """
 
     problem: ContactProblem

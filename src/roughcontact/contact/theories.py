@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -27,7 +27,10 @@ __all__ = ["facts_for", "loading_laws", "persson_pressures"]
 
 
 def loading_laws(
-    surface: Surface, modulus: float | Solid | tuple[Solid, Solid], names: str | Sequence[str], **knowns: Any
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    names: str | Sequence[str],
+    **knowns: Unpack[laws.Knowns],
 ) -> list[LoadingLaw]:
     """Return theories of the contact of a surface, to be compared with its loading curve by `Curve.compare`.
 
@@ -83,7 +86,7 @@ def loading_laws(
     return [replace(law, made_for=basis) for law in found]
 
 
-def facts_for(surface: Surface, names: Sequence[str], **knowns: Any) -> dict[str, Any]:
+def facts_for(surface: Surface, names: Sequence[str], **knowns: Unpack[laws.Knowns]) -> dict[str, Any]:
     """Return what theories of these names need to know of a surface: the `knowns`, and the rest from its heights.
 
     The keys are those of `roughcontact.theory.laws.SurfaceFacts`.

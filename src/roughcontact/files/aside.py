@@ -12,7 +12,19 @@ __all__ = ["WriteError", "output_folder", "require_target", "written_aside"]
 
 
 class WriteError(ValueError):
-    """A result cannot be written where it was asked for; the message names the path and the remedy."""
+    """A result cannot be written where it was asked for; the message names the path and the remedy.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.Surface(np.zeros((4, 4)), rc.Grid((4, 4), 1e-6))
+    >>> try:
+    ...     rc.write(surface, "part.docx")
+    ... except rc.WriteError as error:
+    ...     print(error)
+    cannot write part.docx: a Surface is written as one of .npz, .nc, .x3p, .txt, .npy, .vti
+    """
 
 
 @contextmanager

@@ -27,6 +27,15 @@ class ReadError(ValueError):
         What is wrong, with the value that is wrong.
     remedy : str
         What the reader of the message can do about it.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> try:
+    ...     rc.read("part.x3p")
+    ... except rc.ReadError as error:
+    ...     print(error)
+    part.x3p: it cannot be opened (No such file or directory); check the path and the permissions
     """
 
     file: str
@@ -38,4 +47,17 @@ class ReadError(ValueError):
 
 
 class SurfaceWarning(UserWarning):
-    """A file was read, but something about it deserves a second look."""
+    """A file was read, but something about it deserves a second look.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rc.write(rc.self_affine(rc.Grid((8, 8), 1.0), 0.8, 0.1, np.random.default_rng(1)), "map.npz")
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always", rc.SurfaceWarning)
+    ...     surface = rc.read("map.npz")
+    >>> print(str(caught[0].message).partition(";")[0])
+    map.npz: a surface of 8 m x 8 m is unusual
+    """

@@ -43,6 +43,17 @@ class SlipCurve:
     status : tuple of Status
     capacity : float
         Largest force that friction holds, mu P [N].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> curve = rc.slide_curve(pressed, rubber, friction=0.5, forces=rc.load_cycle(0.25e-3, steps=2))
+    >>> f"{len(curve)} loads, {curve.dissipated_energy[-1] * 1e9:.3f} nJ lost"
+    '10 loads, 0.028 nJ lost'
+    >>> curve.to_dataset()["tangential_displacement"].attrs["units"], len(curve.to_record()["stick_area"])
+    ('m', 10)
     """
 
     force: Array

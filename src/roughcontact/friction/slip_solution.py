@@ -59,6 +59,19 @@ class TangentialSolution:
     step_residual : float
         The same by all of the slip of this step. Only where the bodies slide under a given force is it another number:
         what slipped across the force before the slide was steady, which no finite displacement opposes to the traction.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> state = rc.slide(pressed, rubber, friction=0.5, force=0.25e-3)
+    >>> f"{state.sticking.sum()} cells stick, {state.slipping.sum()} slip: {state.displacement[0] * 1e9:.0f} nm"
+    '32 cells stick, 20 slip: 408 nm'
+    >>> state.on_host() is state, state.to_dataset()["slip"].attrs["units"]
+    (True, 'm')
+    >>> f"{state.to_record()['dissipated']:.2g} {state.to_record()['units']['dissipated']}"
+    '5.5e-12 J'
     """
 
     problem: SlipProblem

@@ -37,6 +37,17 @@ class TangentialStiffness:
         diagonal for the whole of a periodic grid.
     residual : float
         Largest error of the unit displacements.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> strip = np.zeros((16, 16), bool)
+    >>> strip[6:10, 2:14] = True  # four by twelve cells, the longer side along x
+    >>> stiffness = rc.tangential_stiffness(strip, rc.Grid((16, 16), 1e-6), rc.Solid(1e9, 0.3))
+    >>> values, directions = stiffness.principal
+    >>> values.round(), abs(directions[0]).round(6)
+    (array([7048., 7654.]), array([1., 0.]))
     """
 
     matrix: Array

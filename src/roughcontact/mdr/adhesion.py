@@ -43,6 +43,14 @@ class PullOff:
         [N], tension negative.
     depth, contact_radius : float
         [m].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import adhesion, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> soft, stiff = ball.pull_off(), ball.pull_off(machine_stiffness=float("inf"))
+    >>> f"{-soft.force * 1e3:.2f} mN under a force, {-stiff.force * 1e3:.2f} mN under a depth"  # 5/9 of it
+    '2.36 mN under a force, 1.31 mN under a depth'
     """
 
     force: float
@@ -61,6 +69,24 @@ class JKRContact:
         Reduced modulus E* [Pa].
     work : float
         Work of adhesion w [J/m^2].
+
+    Examples
+    --------
+    >>> import math
+    >>> from roughcontact.mdr import adhesion, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> last = ball.pull_off()
+    >>> round(last.force / (math.pi * 0.05 * 1e-2), 6)  # -(3/2) pi w R of Johnson, Kendall and Roberts
+    -1.5
+    >>> a = last.contact_radius
+    >>> round(float(ball.force(a) / last.force), 9), round(float(ball.depth(a) / last.depth), 9)
+    (1.0, 1.0)
+    >>> bool(abs(ball.force_slope(a)) < 1e-9 * ball.modulus * a), bool(ball.depth_slope(a) > 0)
+    (True, True)
+    >>> round(ball.at(a).force / last.force, 9), f"springs longer by {float(ball.elongation(a)) * 1e9:.0f} nm"
+    (1.0, 'springs longer by 90 nm')
+    >>> f"{ball.energy(a, last.depth) * 1e9:.3f} nJ"
+    '-0.043 nJ'
     """
 
     profile: Profile
@@ -228,6 +254,17 @@ class Control:
     adhesion : JKRContact
     machine_stiffness : float
         c = d + F/stiffness [m] for a positive stiffness, d itself for an infinite one; for 0 c = F [N].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import adhesion, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> control = adhesion.Control(ball, machine_stiffness=0.0)  # the force is given
+    >>> radii, forces = control.extrema()
+    >>> round(float(forces.min() / ball.pull_off().force), 9)
+    1.0
+    >>> bool(control.slope(2 * radii[1]) > 0), bool(control.level(2 * radii[1]) > forces[1])
+    (True, True)
     """
 
     adhesion: JKRContact

@@ -32,6 +32,14 @@ class AdhesivePath:
         [m].
     dissipated : array, shape (n,)
         Energy lost in snaps up to each state [J]; infinite from a tear under a given force on, which nothing stops.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import adhesion, adhesive_path, indenter
+    >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
+    >>> path = adhesive_path.adhesive_path(ball, depths=[0.0, 1e-7, -1e-6])
+    >>> path.released.tolist(), f"{path.dissipated[-1] * 1e9:.2f} nJ lost in the snaps"
+    ([False, False, True], '0.10 nJ lost in the snaps')
     """
 
     force: Array

@@ -33,6 +33,15 @@ class LineSpectrum:
     ------
     ValueError
         If the factor is not positive, or the spectrum is no function, or that of a line or of profiles.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import equivalent_line
+    >>> surface = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> line = equivalent_line.LineSpectrum(surface)
+    >>> f"{line.moments().rms_height * 1e6:.6f} um", f"{line(1e5) / surface(1e5) / 1e5:.4f}"  # factor pi
+    ('1.000000 um', '3.1416')
     """
 
     surface: Callable[[Array], Array]
@@ -105,6 +114,19 @@ class TabulatedSpectrum:
     ------
     ValueError
         If it is the spectrum of profiles, or fewer than two bins with power lie in the band.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import equivalent_line
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> spectrum = rc.power_spectrum(rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1)))
+    >>> measured = equivalent_line.TabulatedSpectrum(spectrum)
+    >>> bool(np.allclose(measured(spectrum.wavenumber[10:12]), spectrum.density[10:12]))
+    True
+    >>> measured(np.array([1e9])).tolist()  # beyond its band
+    [0.0]
     """
 
     spectrum: PowerSpectrum

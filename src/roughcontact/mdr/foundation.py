@@ -30,6 +30,16 @@ class Foundation:
         Of one axis: a spring for each cell.
     modulus : float
         Reduced modulus E* [Pa].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> springs = rc.foundation(rc.Grid(4, 1e-6), 1e9)
+    >>> springs.apply(np.array([0.0, 1.0, 2.0, 0.0])).tolist(), springs.as_matrix().diagonal().tolist()
+    ([0.0, 1e-09, 2e-09, 0.0], [1e-09, 1e-09, 1e-09, 1e-09])
+    >>> springs.restrict((slice(0, 3),)).grid.shape, springs.submatrix(np.array([0, 3])).grid.shape
+    ((3,), (2,))
     """
 
     grid: Grid

@@ -31,6 +31,16 @@ class Indentation:
         Approach since first touch d [m].
     contact_radius : float
         a [m].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> pressed = indentation.indent(indenter.paraboloid(1e-2), 1e11, force=1.0)
+    >>> a = pressed.contact_radius
+    >>> f"{float(pressed.pressure(0.0)) / 1e6:.0f} MPa, a gap of {float(pressed.gap(2 * a)) * 1e9:.0f} nm at 2 a"
+    '268 MPa, a gap of 217 nm at 2 a'
+    >>> round(float(pressed.displacement(0.0) / pressed.depth), 6)
+    1.0
     """
 
     profile: Profile
@@ -124,6 +134,15 @@ class IndentationCurve:
         Reduced modulus E* [Pa].
     depth, contact_radius : array, shape (n,)
         [m], in the order of the loads.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> curve = indentation.indentation_curve(indenter.paraboloid(1e-2), 1e11, forces=[1.0, 8.0])
+    >>> curve
+    IndentationCurve(2 points, force 1 to 8 N)
+    >>> (curve.depth[1] / curve.depth[0]).round(6).item(), curve[1]  # as F^(2/3)
+    (4.0, Indentation(force 8 N, depth 7.114e-07 m, contact radius 8.434e-05 m))
     """
 
     profile: Profile

@@ -26,7 +26,18 @@ ROUNDING = 1e-12  # of the largest value: what a fall must exceed to count
 
 
 class ElasticCurve(Protocol):
-    """What the transfer asks of a curve: `Curve` and `IndentationCurve` have it."""
+    """What the transfer asks of a curve: `Curve` and `IndentationCurve` have it.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import indentation, indenter
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> computed = rc.loading_curve(ball, 1e9, forces=[1e-2])
+    >>> exact = indentation.indentation_curve(indenter.paraboloid(1e-4), 1e9, forces=[1e-2])
+    >>> [f"{each.depth[0] * 1e9:.0f} nm, {each.contact_area[0] * 1e12:.0f} um^2" for each in (computed, exact)]
+    ['823 nm, 260 um^2', '825 nm, 259 um^2']
+    """
 
     @property
     def force(self) -> Array:
@@ -57,6 +68,16 @@ class Transfer:
         [N], [m], [m^2].
     elastic_force : array, shape (n,)
         Force of the elastic contact of the same depth [N]: where to look up everything else on the curve.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indentation, indenter, lee_radok, viscoelastic
+    >>> curve = indentation.indentation_curve(indenter.paraboloid(1e-2), 1e9, forces=np.geomspace(1e-3, 1e3, 61))
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = lee_radok.transfer(curve, soft, [0.0, 100.0], forces=[1.0, 1.0])
+    >>> round(float(held.contact_area[1] / held.contact_area[0]), 2)  # 10^(2/3)
+    4.64
     """
 
     time: Array

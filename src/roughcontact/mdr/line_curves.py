@@ -41,6 +41,25 @@ class LineCurves:
         Width of a spring [m].
     points : int
         Springs in a line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> from roughcontact.mdr import equivalent_line, line_curves, random_lines, rough_line
+    >>> surface = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3).scaled(1e-6)
+    >>> grid, line = rc.Grid(1024, 1e-3 / 1024, periodic=True), equivalent_line.line_spectrum(surface)
+    >>> forces = np.geomspace(1e-3, 7.0, 12)  # up to 0.07 E* h L
+    >>> parts = [
+    ...     rough_line.loading_curves(heights, grid.spacing[0], 1e11, forces=forces)
+    ...     for seed in (0, 1)
+    ...     for heights in random_lines.rough_lines(grid, line, np.random.default_rng(seed), 20, rms=1e-6)
+    ... ]
+    >>> curves = line_curves.LineCurves.joined(parts)
+    >>> f"{curves.resolved().sum()} of 12 loads resolved, k ~ F^{curves.fit().exponent:.2f} of {len(curves)} lines"
+    '6 of 12 loads resolved, k ~ F^0.53 of 40 lines'
+    >>> bool((curves.mean_stiffness() >= curves.mean_stiffness("geometric")).all())
+    True
     """
 
     force: Array

@@ -34,6 +34,17 @@ class SlidingCurves:
         Force along the line [N], averaged over a period, as the normal force is.
     contact_length : array, shape (lines, speeds)
         Length in contact [m].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import sliding_friction
+    >>> heights = 1e-6 * np.cos(2 * np.pi * np.arange(256) / 64)
+    >>> curves = sliding_friction.sliding_friction(
+    ...     heights, 1e-6, 1e7, relaxation_time=1e-3, force=1e-3, speeds=[1e-3, 1e-1]
+    ... )
+    >>> curves.friction_coefficient.round(4).tolist(), (curves.dissipated_power * 1e6).round(3).tolist()  # [uW]
+    ([[0.007, 0.0403]], [[0.007, 4.034]])
     """
 
     speed: Array

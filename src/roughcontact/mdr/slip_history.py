@@ -36,6 +36,15 @@ class SlipHistory:
         [m].
     dissipated : array, shape (n,)
         Energy lost by slip up to each state [J].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, slip_history
+    >>> history = slip_history.slip_history(
+    ...     indenter.paraboloid(1e-2), 1e11, 8e10, 0.3, normal_force=[1.0] * 5, force=[0.0, 0.15, 0.0, -0.15, 0.15]
+    ... )
+    >>> len(history), f"{history.dissipated[-1] * 1e9:.2f} nJ lost"
+    (5, '0.70 nJ lost')
     """
 
     normal_force: Array

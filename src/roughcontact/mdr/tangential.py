@@ -31,6 +31,17 @@ class PartialSlip:
         Reduced shear modulus G* [Pa]: 2 G* a is the tangential stiffness of a disc that sticks (thesis, eq. 4.5).
     friction : float
         Coefficient of friction mu.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indentation, indenter, tangential
+    >>> pressed = indentation.indent(indenter.paraboloid(1e-2), 1e11, force=1.0)
+    >>> slip = tangential.partial_slip(pressed, 8e10, 0.3, force=0.15)
+    >>> slip
+    PartialSlip(tangential force 0.15 N, displacement 2.468e-08 m, stick radius 3.347e-05 of 4.217e-05 m)
+    >>> edge = 0.99 * pressed.contact_radius  # there it slips: the traction is mu p
+    >>> round(float(slip.traction(edge) / pressed.pressure(edge)), 6)
+    0.3
     """
 
     indentation: Indentation

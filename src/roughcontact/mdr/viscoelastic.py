@@ -45,6 +45,13 @@ class Creep:
         1/eta_0 [1/(Pa s)].
     compliances, times : tuple of float
         J_j [1/Pa] and theta_j [s].
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> creep = viscoelastic.standard_solid(1e8, 1e9, 1.0).creep()
+    >>> [round(float(creep(t)) * 1e9, 3) for t in (0.0, 1000.0)], creep.times  # 1/E_0 and 1/E_inf; tau E_0/E_inf
+    ([1.0, 10.0], (10.0,))
     """
 
     instantaneous: float
@@ -78,6 +85,13 @@ class Viscoelastic:
     ------
     ValueError
         If a number is negative, two times are equal, or nothing resists.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import viscoelastic
+    >>> rubber = viscoelastic.Viscoelastic(equilibrium=1e6, moduli=(4e6, 5e6), times=(0.1, 1.0))
+    >>> rubber.instantaneous, round(float(rubber.relaxation(100.0))), round(float(rubber.creep()(0.0)) * 1e6, 6)
+    (10000000.0, 1000000, 0.1)
     """
 
     equilibrium: float = 0.0

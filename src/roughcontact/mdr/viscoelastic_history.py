@@ -37,6 +37,16 @@ class ViscoelasticHistory:
         Of the body [m], against the surface before first touch.
     contact_radius : array, shape (n,)
         [m], drawn on from the springs outside.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = viscoelastic_history.depth_history(
+    ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
+    ... )
+    >>> len(held), (held.contact_radius * 1e6).round().tolist(), held.force.round(3).tolist()
+    (3, [0.0, 316.0, 316.0], [0.0, 4.216, 0.422])
     """
 
     time: Array

@@ -46,6 +46,13 @@ def solution_figure(solution: Solution) -> Figure:
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-2)
+    >>> rc.plot.solution_figure(solution).get_suptitle()
+    'force 10 mN,  depth 823 nm,  stiffness 18 kN/m,  contact 6.35 % in 1 spot'
     """
     solution = solution.on_host()
     grid = solution.problem.grid
@@ -85,6 +92,14 @@ def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Dens
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-2)
+    >>> figure = rc.plot.pressure_distribution_figure(solution)
+    >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
+    ('pressure [MPa]', 'part of the nominal area [1/MPa]')
     """
     figure = Figure(figsize=(5.6, 4.0), layout="constrained")
     pressure_distribution(solution, figure.subplots(), theories=theories)
@@ -105,6 +120,16 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
+    >>> figure = rc.plot.curve_figure(curve, curve.fit(), [rc.theory.hertz.law(radius=1e-4, modulus=1e9)])
+    >>> [axes.get_ylabel() for axes in figure.axes[:3]]
+    ['stiffness [kN/m]', 'contact area [µm²]', 'depth [µm]']
     """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "depth"]], width_ratios=(1.6, 1))
@@ -135,6 +160,17 @@ def areal_figure(
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6))
+    >>> figure = rc.plot.areal_figure(curve, theories=rc.loading_laws(surface, 1e9, "persson"))
+    >>> [axes.get_xlabel() for axes in figure.axes[:3]]
+    ['nominal pressure [MPa]', 'nominal pressure [MPa]', 'nominal pressure [MPa]']
     """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "gap"]], width_ratios=(1.6, 1))
@@ -152,11 +188,22 @@ def resistance_figure(dataset: xarray.Dataset) -> Figure:
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.conductance` returns it.
+        As `roughcontact.conductance` returns it of the dataset of a curve.
 
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6)).to_dataset()
+    >>> both = rc.conductance(curve, resistivities=(1.7e-8, 2.7e-8), conductivities=(400.0, 240.0))
+    >>> [axes.get_xlabel() for axes in rc.plot.resistance_figure(both).axes]
+    ['nominal pressure [MPa]', 'nominal pressure [MPa]']
     """
     names = ("electrical_resistance", "thermal_resistance")
     areal = [f"{name}_per_area" for name in names if f"{name}_per_area" in dataset]
@@ -179,6 +226,14 @@ def surface_figure(surface: Surface, spikes: Spikes | None = None) -> Figure:
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> [axes.get_xlabel() for axes in rc.plot.surface_figure(surface, rc.find_spikes(surface)).axes[:2]]
+    ['x [µm]', 'height above the mean [nm]']
     """
     figure = Figure(figsize=(9.6, 4.2), layout="constrained")
     heights, distribution = figure.subplots(1, 2, width_ratios=(1.25, 1))
@@ -202,6 +257,15 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
     ------
     WriteError
         If the ending is another or the file cannot be written.
+
+    Examples
+    --------
+    >>> import pathlib
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-2)
+    >>> rc.plot.save(solution.plot().figure, "pressure.png")
+    >>> pathlib.Path("pressure.png").stat().st_size > 1000
+    True
     """
     ending = require_picture(path)
     with written_aside(path) as aside:

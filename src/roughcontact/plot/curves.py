@@ -71,6 +71,16 @@ def stiffness_curve(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
+    >>> axes = rc.plot.stiffness_curve(curve, law=curve.fit())
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('force [mN]', 'stiffness [kN/m]')
     """
     axes = axes_for(ax)
     x, y = _draw(axes, curve, "stiffness")
@@ -109,6 +119,16 @@ def area_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] 
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
+    >>> axes = rc.plot.area_curve(curve, theories=[rc.theory.hertz.law(radius=1e-4, modulus=1e9)])
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('force [mN]', 'contact area [µm²]')
     """
     axes = axes_for(ax)
     x, y = _draw(axes, curve, "contact_area")
@@ -131,6 +151,15 @@ def depth_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law]
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.depth_curve(rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9)))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('force [mN]', 'depth [µm]')
     """
     axes = axes_for(ax)
     _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
@@ -169,6 +198,18 @@ def areal_curve(
     ------
     ValueError
         If the quantity is another.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6))
+    >>> bar = rc.plot.Scale(1e-5, "bar")
+    >>> axes = rc.plot.areal_curve(curve, quantity="mean_gap", units={"nominal_pressure": bar})
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('nominal pressure [bar]', 'mean gap [nm]')
     """
     require(quantity in PER_AREA, f"quantity must be one of {', '.join(PER_AREA)}, not {quantity!r}")
     axes = axes_for(ax)
@@ -203,7 +244,7 @@ def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None)
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.conductance` returns it.
+        As `roughcontact.conductance` returns it of the dataset of a curve.
     name : str
         Of the resistance in it, such as ``"electrical_resistance_per_area"``.
     ax : Axes, optional
@@ -212,6 +253,17 @@ def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None)
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6))
+    >>> heat = rc.conductance(curve.to_dataset(), conductivities=(50.0, 200.0))
+    >>> rc.plot.resistance_curve(heat, "thermal_resistance_per_area").get_ylabel()
+    'thermal resistance per area [mm²·K/W]'
     """
     axes = axes_for(ax)
     load = "nominal_pressure" if name.endswith("_per_area") else "force"

@@ -62,6 +62,15 @@ def pressure_distribution(
     ------
     ValueError
         If nothing is in contact.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-2)
+    >>> peak = solution.pressure.max()  # Hertz: the density of p is 2 p/p0^2
+    >>> axes = rc.plot.pressure_distribution(solution, theories={"Hertz": lambda p: 2 * p / peak**2 * (p < peak)})
+    >>> axes.get_xlabel(), [text.get_text() for text in axes.get_legend().get_texts()]
+    ('pressure [MPa]', ['computed, 6.35 % in contact', 'Hertz'])
     """
     solution = solution.on_host()
     grid, unit = solution.problem.grid, unit_of("pressure", solution.problem.geometry)
@@ -106,6 +115,15 @@ def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int =
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> axes = rc.plot.height_distribution(surface, bins=40)
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('height above the mean [nm]', 'probability density [1/nm]')
     """
     axes = axes_for(ax)
     heights = surface.heights[surface.measured]

@@ -22,6 +22,12 @@ class Scale:
         Numbers in `unit` over those in SI.
     unit : str
         As it is printed.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.plot.Scale(1e-6, "MPa")  # a pressure in Pa times 1e-6 is in MPa
+    Scale(factor=1e-06, unit='MPa')
     """
 
     factor: float

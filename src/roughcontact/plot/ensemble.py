@@ -56,6 +56,18 @@ def mean_curves(
     ------
     ValueError
         If there is more than one dimension of groups.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> force = xarray.DataArray(np.geomspace(1e-3, 1e-1, 7), dims="load", name="force", attrs={"units": "N"})
+    >>> samples = xarray.DataArray(np.outer([0.9, 1.0, 1.1], force**0.6), dims=("sample", "load"), name="stiffness")
+    >>> mean, error = rc.statistics.mean(samples), rc.statistics.standard_error(samples)
+    >>> axes = rc.plot.mean_curves(force, mean, error=error)
+    >>> axes.get_xscale(), len(axes.lines)
+    ('log', 1)
     """
     points = force.dims[-1]
     groups = [d for d in mean.dims if d != points]
@@ -115,6 +127,20 @@ def fitted_values(
     ------
     ValueError
         If there are other dimensions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> force = np.geomspace(1e-3, 1e-1, 7)
+    >>> stiffness = [np.outer([0.9, 1.0, 1.1], force**power) for power in (0.6, 0.55)]
+    >>> dims = {"dimensionless_force": "load", "dimensionless_stiffness": ("hurst", "sample", "load")}
+    >>> curves = xarray.Dataset({name: (dims[name], each) for name, each in zip(dims, (force, stiffness))})
+    >>> window = rc.statistics.force_window(1e-3, 1e-1)
+    >>> laws = rc.statistics.fit_power_laws(curves, window, rng=np.random.default_rng(1))
+    >>> rc.plot.fitted_values(laws.assign_coords(hurst=[0.67, 0.82]), along="hurst").get_ylabel()
+    'exponent'
     """
     if fits[name].dims != (along,):
         raise ValueError(

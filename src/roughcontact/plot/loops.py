@@ -46,6 +46,14 @@ def depth_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.depth_loop(rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2]))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('depth [nm]', 'force [mN]')
     """
     axes, kind = axes_for(ax), loop.loading.geometry
     x = scale(float(np.abs(loop.loading.depth).max()), VARIABLES["depth"].unit)
@@ -76,6 +84,14 @@ def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.stiffness_loop(rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2]))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('nominal pressure [MPa]', 'interfacial stiffness per area K/A0 [N/µm/mm²]')
     """
     axes, kind = axes_for(ax), loop.loading.geometry
     load, stiff = "nominal_pressure", "interfacial_stiffness_per_area"
@@ -118,6 +134,14 @@ def bearing_curves(surface: Body, flow: Flow, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.bearing_curves(ball, rc.press(ball, 1e11, force=0.2, hardness=2e9).flow)
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('area above the height [%]', 'height above the mean [µm]')
     """
     axes = axes_for(ax)
     curves = {"before": bearing_of(surface), "after": bearing_of(flow.flatten(surface))}
@@ -153,6 +177,14 @@ def loop_figure(loop: Loop) -> Figure:
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> [axes.get_xlabel() for axes in rc.plot.loop_figure(loop).axes]
+    ['depth [nm]', 'nominal pressure [MPa]']
     """
     figure = Figure(figsize=(9.6, 4.2), layout="constrained")
     first, second = figure.subplots(1, 2)
@@ -174,6 +206,14 @@ def flattened_figure(surface: Body, flow: Flow) -> Figure:
     Returns
     -------
     Figure
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> figure = rc.plot.flattened_figure(ball, rc.press(ball, 1e11, force=0.2, hardness=2e9).flow)
+    >>> [axes.get_xlabel() for axes in figure.axes[:2]]
+    ['x [µm]', 'area above the height [%]']
     """
     figure = Figure(figsize=(9.6, 4.2), layout="constrained")
     heights, bearing = figure.subplots(1, 2, width_ratios=(1.25, 1))

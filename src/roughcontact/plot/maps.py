@@ -50,6 +50,15 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
     ------
     ValueError
         If the surface is a profile.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> axes = rc.plot.height_map(surface, spikes=rc.find_spikes(surface))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('x [µm]', 'y [µm]')
     """
     window = part(surface.grid, None)
     axes = axes_for(ax)
@@ -85,6 +94,14 @@ def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window |
     ------
     ValueError
         If the solution is that of a line or of rings.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.pressure_map(rc.press(ball, 1e9, force=1e-2), window=(slice(16, 48), slice(16, 48)))
+    >>> [float(x) for x in axes.get_xlim()], axes.get_xlabel()
+    ([16.0, 48.0], 'x [µm]')
     """
     solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
@@ -130,6 +147,14 @@ def contact_map(
     ------
     ValueError
         If the solution is that of a line or of rings.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> axes = rc.plot.contact_map(rc.press(ball, 1e9, force=1e-2), frame=(slice(16, 48), slice(16, 48)))
+    >>> [float(x) for x in axes.get_xlim()], axes.get_xlabel()  # the whole map, with a frame about its middle
+    ([0.0, 64.0], 'x [µm]')
     """
     solution = solution.on_host()
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)

@@ -48,6 +48,15 @@ def profile_curve(
     ------
     ValueError
         If there is no such row.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> axes = rc.plot.profile_curve(surface, row=20)
+    >>> axes.get_ylabel(), len(axes.lines[0].get_xdata())
+    ('height [nm]', 64)
     """
     heights = surface.heights
     marked = None if spikes is None else spikes.mask
@@ -94,6 +103,15 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     ------
     ValueError
         If the solution is that of a surface.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.RadialGrid.uniform(128, 1e-4)
+    >>> ball = rc.RadialProfile(-(grid.radii**2) / 2e-2, grid)
+    >>> axes = rc.plot.contact_profile(rc.press(ball, 1e9, force=1e-2))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('r [µm]', 'height over the flat [nm]')
     """
     solution, axes = _of_line(solution), axes_for(ax, _FLAT)
     problem = solution.problem
@@ -131,6 +149,15 @@ def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     ------
     ValueError
         If the solution is that of a surface.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.RadialGrid.uniform(128, 1e-4)
+    >>> ball = rc.RadialProfile(-(grid.radii**2) / 2e-2, grid)
+    >>> axes = rc.plot.pressure_profile(rc.press(ball, 1e9, force=1e-2))
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('r [µm]', 'pressure [MPa]')
     """
     solution, axes = _of_line(solution), axes_for(ax, _FLAT)
     unit = unit_of("pressure", solution.problem.geometry)

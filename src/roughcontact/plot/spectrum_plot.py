@@ -65,6 +65,17 @@ def spectrum_curve(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> spectrum = rc.power_spectrum(surface)
+    >>> axes = rc.plot.spectrum_curve(spectrum, law=rc.fit_spectrum(spectrum))
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
+    ['measured', 'H = 0.806 ± 0.025']
     """
     axes = axes_for(ax)
     shown = spectrum.rebinned(_DRAWN)

@@ -52,6 +52,14 @@ def von_mises_section(
     ------
     ValueError
         If the solution is not that of a half-space under a surface, nothing is in contact, or the row is not one.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4), 1e9, force=1e-2)
+    >>> axes = rc.plot.von_mises_section(solution, 0.3, row=32, deepest=2e-5)
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('x [µm]', 'depth [µm]')
     """
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)

@@ -41,6 +41,20 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     ------
     ValueError
         If the study has no such quantity or parameter, or the quantity lies along other dimensions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=3, parameters=fixed, table={"hurst": [0.6, 0.8]})
+    >>> rc.study.run(study, "few").done
+    6
+    >>> with rc.study.Store.open("few") as store:
+    ...     found = rc.statistics.averages(rc.study.export(store), rng=np.random.default_rng(1))
+    >>> figure = rc.plot.study_figure(found, "dimensionless_stiffness")
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]  # a curve for each Hurst exponent
+    ['0.6', '0.8']
     """
     name = f"{quantity}_mean"
     if name not in averaged:

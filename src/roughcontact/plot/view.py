@@ -45,6 +45,14 @@ def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = Tr
     ------
     ValueError
         If the surface is a line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> rc.plot.surface_view(surface).get_zlabel()
+    'height [nm]'
     """
     if surface.grid.ndim != 2:
         raise ValueError("a profile has no view from aside: draw it with profile_curve")

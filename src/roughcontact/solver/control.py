@@ -127,7 +127,16 @@ def checked_tolerance(tolerance: Any) -> float:
 
 
 class Status(Enum):
-    """The outcome of a solve; `message` says it in a sentence."""
+    """The outcome of a solve; `message` says it in a sentence.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.Status.CONVERGED.converged, rc.Status.MAX_STEPS.converged
+    (True, False)
+    >>> rc.Status.MAX_STEPS.message
+    'The solver ran out of steps above the tolerance; allow it more steps.'
+    """
 
     CONVERGED = "converged"
     NO_CONTACT = "no contact"

@@ -67,6 +67,17 @@ class PolonskyKeer:
         -------
         State
             Pressure, depth, status, residual and number of products.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((32, 32), 1e-6)
+        >>> gap = -rc.shapes.paraboloid(grid, radius=1e-4).heights
+        >>> problem = rc.ContactProblem(gap - gap.min(), rc.half_space(grid, 1e9), rc.Force(1e-3))
+        >>> state = rc.PolonskyKeer().run(problem.operator, problem.separation, problem.terms, np.zeros(grid.shape))
+        >>> state.status.converged, f"{state.depth * 1e9:.0f} nm"
+        (True, '175 nm')
         """
         xp = namespace(separation)
         optimality = Optimality.of(operator, terms, xp)

@@ -34,6 +34,13 @@ def sample_dimensions(dataset: xarray.Dataset) -> tuple[str, ...]:
     -------
     tuple of str
         ``sample``, and ``line`` where each sample is many lines.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.sample_dimensions(xarray.Dataset({"stiffness": (("hurst", "sample"), [[1.0, 2.0, 3.0]])}))
+    ('sample',)
     """
     return tuple(name for name in _SAMPLES if name in dataset.sizes)
 
@@ -72,6 +79,19 @@ def averages(
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=3, parameters=fixed, table={"hurst": [0.6, 0.8]})
+    >>> rc.study.run(study, "few").done
+    6
+    >>> with rc.study.Store.open("few") as store:
+    ...     found = rc.statistics.averages(rc.study.export(store), rng=np.random.default_rng(1))
+    >>> dict(found["stiffness_mean"].sizes), found["cases"].values.tolist()
+    ({'hurst': 2, 'load': 3}, [3, 3])
     """
     over = sample_dimensions(dataset) if samples is None else dimensions(samples)
     if not over or any(d not in dataset.sizes for d in over):
@@ -109,6 +129,19 @@ def combinations(averaged: xarray.Dataset) -> Iterator[tuple[dict[str, Any], xar
     ------
     tuple of dict and Dataset
         In the order of the study.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=3, parameters=fixed, table={"hurst": [0.6, 0.8]})
+    >>> rc.study.run(study, "few").done
+    6
+    >>> with rc.study.Store.open("few") as store:
+    ...     found = rc.statistics.averages(rc.study.export(store), rng=np.random.default_rng(1))
+    >>> [(varied["hurst"], f"{point['rms_slope_mean']:.4f}") for varied, point in rc.statistics.combinations(found)]
+    [(0.6, '0.0140'), (0.8, '0.0119')]
     """
     cases = averaged["cases"]
     for place in np.ndindex(cases.shape):

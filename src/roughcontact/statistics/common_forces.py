@@ -48,6 +48,15 @@ def on_common(
     ------
     ValueError
         If the dataset has no such variable along `along`, or a value is not above zero.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> curves = {"dimensionless_force": ("load", [0.01, 0.04]), "dimensionless_stiffness": ("load", [0.1, 0.2])}
+    >>> found = rc.statistics.on_common(xarray.Dataset(curves), [0.01, 0.02, 0.08])
+    >>> found["dimensionless_stiffness"].round(3).values.tolist()  # NaN beyond the last load
+    [0.1, 0.141, nan]
     """
     import xarray
 

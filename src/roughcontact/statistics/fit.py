@@ -100,6 +100,19 @@ def fit_power_laws(
     ValueError
         If a variable is missing, samples stand at forces of their own (see `roughcontact.statistics.on_common`), or
         window, mean or level is not one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> force = np.geomspace(1e-3, 1e-1, 7)
+    >>> stiffness = ("sample", "load"), np.outer([0.9, 1.0, 1.1], force**0.6)
+    >>> curves = xarray.Dataset({"dimensionless_force": ("load", force), "dimensionless_stiffness": stiffness})
+    >>> window = rc.statistics.force_window(1e-3, 1e-1)
+    >>> laws = rc.statistics.fit_power_laws(curves, window, rng=np.random.default_rng(1))
+    >>> laws["exponent"].round(6).item(), laws["prefactor_error"].round(3).item()
+    (0.6, 0.048)
     """
     require(0 < level < 1, f"the level of an interval lies between 0 and 1, not at {level}")
     import xarray
@@ -144,6 +157,20 @@ def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset
     -------
     Dataset
         ``stiffness``, k/(E* L), and ``stiffness_error``, along the ensembles and the forces.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> force = np.geomspace(1e-3, 1e-1, 7)
+    >>> stiffness = ("sample", "load"), np.outer([0.9, 1.0, 1.1], force**0.6)
+    >>> curves = xarray.Dataset({"dimensionless_force": ("load", force), "dimensionless_stiffness": stiffness})
+    >>> window = rc.statistics.force_window(1e-3, 1e-1)
+    >>> laws = rc.statistics.fit_power_laws(curves, window, rng=np.random.default_rng(1))
+    >>> found = rc.statistics.law_at(laws, 0.01)
+    >>> f"{found['stiffness'].item():.4f} +- {found['stiffness_error'].item():.4f}"
+    '0.0631 +- 0.0030'
     """
     import xarray
 

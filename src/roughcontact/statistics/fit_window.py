@@ -80,11 +80,21 @@ def force_window(lowest: float, highest: float) -> Window:
     ------
     ValueError
         If the forces do not go from one to a larger one.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.statistics.force_window(1e-4, 0.07).rule
+    'force from 0.0001 to 0.07'
     """
     return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
 
 
-def resolved_window(cell: Any, full_contact_stiffness: Any, highest: float = FORCE_LIMIT) -> Window:
+def resolved_window(
+    cell: float | xarray.DataArray,
+    full_contact_stiffness: float | xarray.DataArray,
+    highest: float = FORCE_LIMIT,
+) -> Window:
     """Return the window of the thesis: stiffness above 20 cells (section 4.3), force up to 0.07 (section 4.5).
 
     Parameters
@@ -99,6 +109,12 @@ def resolved_window(cell: Any, full_contact_stiffness: Any, highest: float = FOR
     -------
     Window
         Stiffness and force without dimension.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.statistics.resolved_window(1 / 512, 1.0).stiffness  # of 512 springs
+    (0.0390625, 0.9)
     """
     rule = (
         f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "

@@ -39,6 +39,15 @@ class PowerLaw:
     bend, bend_error : float
         Change of the exponent from the lowest force of the window to the highest, by the parabola through the
         logarithms, and its standard error; infinite of three points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> law = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9)).fit()
+    >>> f"k ~ F^{law.exponent:.2f}, {law.stiffness(2e-2) / 1e3:.1f} N/mm at 20 mN", law.straight
+    ('k ~ F^0.34, 22.8 N/mm at 20 mN', True)
     """
 
     exponent: float

@@ -50,6 +50,14 @@ def mean(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> x
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> stiffness = xarray.DataArray([1.0, 2.0, 6.0], dims="sample", name="stiffness", attrs={"units": "N/m"})
+    >>> rc.statistics.mean(stiffness).item()
+    3.0
     """
     return _along(values, samples, mean_over_samples, "mean of {}")
 
@@ -73,6 +81,13 @@ def geometric_mean(values: xarray.DataArray, samples: str | Sequence[str] = "sam
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.geometric_mean(xarray.DataArray([1.0, 2.0, 4.0], dims="sample")).item()
+    2.0
     """
     return _along(values, samples, lambda v: mean_over_samples(v, "geometric"), "geometric mean of {}")
 
@@ -96,6 +111,13 @@ def standard_deviation(values: xarray.DataArray, samples: str | Sequence[str] = 
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.standard_deviation(xarray.DataArray([1.0, 2.0, 3.0], dims="sample")).item()
+    1.0
     """
     return _along(values, samples, _deviation, "standard deviation of {}")
 
@@ -119,6 +141,13 @@ def standard_error(values: xarray.DataArray, samples: str | Sequence[str] = "sam
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.standard_error(xarray.DataArray([1.0, 2.0, 3.0, 4.0, 5.0], dims="sample")).round(3).item()
+    0.707
     """
     return _along(values, samples, lambda v: _deviation(v) / np.sqrt(_there(v)), "standard error of {}")
 
@@ -142,6 +171,13 @@ def scatter(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.scatter(xarray.DataArray([1.0, 2.0, 3.0], dims="sample")).item()
+    0.5
     """
 
     def ratio(v: Array) -> Array:
@@ -171,6 +207,14 @@ def count(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -> 
     ------
     ValueError
         If no samples lie along a dimension.
+
+    Examples
+    --------
+    >>> import math
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> rc.statistics.count(xarray.DataArray([1.0, math.nan, 3.0], dims="sample")).item()
+    2
     """
     return _along(values, samples, _there, "number of samples of {}", "1")
 
@@ -207,6 +251,14 @@ def summary(
     ------
     ValueError
         If the dataset has no such variable or dimension, or the variable holds words.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> dataset = xarray.Dataset({"stiffness": (("hurst", "sample"), [[1.0, 2.0, 3.0], [2.0, 4.0, 6.0]])})
+    >>> rc.statistics.summary(dataset)["stiffness_mean"].values.tolist()
+    [2.0, 4.0]
     """
     over = dimensions(samples)
     if absent := [d for d in over if d not in dataset.sizes]:

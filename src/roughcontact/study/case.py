@@ -23,7 +23,16 @@ __all__ = ["Area", "Case", "Energy", "Force", "Length", "Parameters", "Positive"
 
 
 class Parameters(Checked):
-    """The parameters of a case: a model whose fields have types and limits; unknown names are refused."""
+    """The parameters of a case: a model whose fields have types and limits; unknown names are refused.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> class Block(rc.study.Parameters):
+    ...     side: rc.study.Positive[rc.study.Length]
+    >>> Block(side="2 mm").side
+    0.002
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +54,19 @@ class Case:
         certificate of the case (its largest value).
     fields : tuple of str
         Variables of the record that are large: kept in a NetCDF file of their own, beside the database.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> class Dice(rc.study.Parameters):
+    ...     sides: int = 6
+    >>> def throw(parameters: Dice, rng: np.random.Generator) -> xarray.Dataset:
+    ...     return xarray.Dataset({"eyes": rng.integers(1, parameters.sides, endpoint=True)})
+    >>> case = rc.study.Case("dice", version=1, parameters=Dice, run=throw)  # named as "mycases:case" in a study
+    >>> 1 <= case.run(Dice(), np.random.default_rng(1))["eyes"].item() <= 6
+    True
     """
 
     name: str

@@ -52,6 +52,18 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     ------
     StoreError
         If a record is damaged.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed, table={"hurst": [0.6, 0.8]})
+    >>> rc.study.run(study, "few").done
+    4
+    >>> with rc.study.Store.open("few") as store:
+    ...     dataset = rc.study.export(store)
+    >>> dict(dataset["stiffness"].sizes), dataset["stiffness"].attrs["units"]
+    ({'hurst': 2, 'sample': 2, 'load': 3}, 'N m-1')
     """
     return assemble(store.study, store.rows(), seconds=seconds)
 

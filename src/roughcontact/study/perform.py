@@ -36,6 +36,14 @@ def perform(task: Task) -> Outcome:
     -------
     Outcome
         The record, or the reason why there is none.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> task = next(rc.study.Study(name="few", case="curve", parameters=fixed).tasks())
+    >>> rc.study.perform(task).record["residual"].max().item() < 1e-8
+    True
     """
     start = time.perf_counter()
     try:

@@ -33,6 +33,14 @@ class Range(Checked):
         Difference from one value to the next; downwards where `stop` lies below `start`.
     spacing : "linear" or "log"
         Even differences or even ratios.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.study.Range(start=0.2, stop=0.8, step=0.2).values(float)
+    (0.2, 0.4, 0.6, 0.8)
+    >>> rc.study.Range(start=1, stop=100, count=3, spacing="log").values(float)
+    (1.0, 10.0, 100.0)
     """
 
     start: float | str

@@ -126,6 +126,17 @@ class Row:
         Certificate.
     text : str or None
         The record as JSON.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> rc.study.run(rc.study.Study(name="few", case="curve", parameters=fixed), "few").done
+    1
+    >>> with rc.study.Store.open("few") as store:
+    ...     [row] = store.rows()
+    >>> row.status, row.parameters["rms"], row.record["stiffness"].sizes["load"]
+    ('done', 1e-06, 3)
     """
 
     key: str
@@ -156,6 +167,12 @@ class Row:
         -------
         Row or None
             None if they do not fit their checksum.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.study.Row.of(("key", 0, "{}", "failed", "why", 1.0, "0.1.0", None, None, "another checksum")) is None
+        True
         """
         *content, found = values
         if found != checksum(tuple(content)):

@@ -56,6 +56,18 @@ def run(
     ------
     StoreError
         If the folder cannot be used, see `Store.open`, or takes no more; what was stored before is safe.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
+    >>> summary = rc.study.run(study, "few")
+    >>> summary.done, summary.left
+    (2, 0)
+    >>> rc.study.run(study.with_samples(3), "few", on_outcome=lambda outcome: print("a case more")).done
+    a case more
+    3
     """
     start = time.monotonic()
     with Store.open(folder, study) as store:

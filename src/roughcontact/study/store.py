@@ -51,6 +51,19 @@ class Store:
         To the database of the folder.
     held : ExitStack
         What is released when the store is closed.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
+    >>> task = next(study.tasks())
+    >>> with rc.study.Store.open("few", study) as store:
+    ...     store.add(task, rc.study.perform(task))
+    ...     print(store.summary().left, store.outdated(), task.key in store.done_keys(), len(store.failed_keys()))
+    ...     print([row.status for row in store.rows()], store.failed())
+    1 0 True 0
+    ['done'] ()
     """
 
     __slots__ = ("_connection", "_held", "folder", "study")
@@ -115,7 +128,17 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Let go of the folder."""
+        """Let go of the folder.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+        >>> store = rc.study.Store.open("few", rc.study.Study(name="few", case="curve", parameters=fixed))
+        >>> store.summary().left
+        1
+        >>> store.close()  # as the end of a with statement does
+        """
         self._held.close()
 
     def add(self, task: Task, outcome: Outcome) -> None:
@@ -224,6 +247,17 @@ class Store:
         ------
         StoreError
             If the case has no fields.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+        >>> with rc.study.Store.open("few", rc.study.Study(name="few", case="curve", parameters=fixed)) as store:
+        ...     try:
+        ...         store.fields("a key")  # this case keeps none
+        ...     except rc.study.StoreError as error:
+        ...         print(error.problem.partition(",")[0])
+        there are no fields of the case a key
         """
         return read_fields(self.folder, key)
 

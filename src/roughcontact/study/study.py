@@ -121,6 +121,19 @@ class Study(Checked):
     ------
     StudyError
         If it makes no sense; the case is asked whether it takes all of the parameters.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed, table={"hurst": [0.6, 0.8]})
+    >>> len(study.combinations()), len(list(study.tasks())), len(list(study.with_samples(5).tasks()))
+    (2, 4, 10)
+    >>> study.write("few.toml")
+    >>> rc.study.Study.read("few.toml") == study
+    True
+    >>> study.to_toml().splitlines()[:2]
+    ['name = "few"', 'case = "curve"']
     """
 
     name: Annotated[str, AfterValidator(_study_name)]

@@ -23,7 +23,17 @@ _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class StudyError(ValueError):
-    """A study that makes no sense; the message names the value and the remedy."""
+    """A study that makes no sense; the message names the value and the remedy.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> try:
+    ...     rc.study.Study(name="few", case="curve", parameters={"hurts": 0.8})
+    ... except rc.study.StudyError as error:
+    ...     print(str(error).partition("?")[0] + "?")
+    parameters: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
+    """
 
 
 class StoreError(ValueError):
@@ -36,6 +46,15 @@ class StoreError(ValueError):
         What is wrong.
     remedy : str
         What the reader of the message can do about it.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> try:
+    ...     rc.study.Store.open("nowhere")
+    ... except rc.study.StoreError as error:
+    ...     print(error.problem, "-", error.remedy)
+    there is no study.toml in it - name the folder that a study was run in
     """
 
     def __init__(self, folder: str | os.PathLike[str], problem: str, remedy: str) -> None:

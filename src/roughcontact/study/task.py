@@ -31,6 +31,14 @@ class Task:
     seed, sample : int
         The generator of the sample is made of these two alone, so that samples are paired across parameters and
         depend neither on order nor on executor.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> first, second = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed).tasks()
+    >>> first.sample, second.sample, len(first.key), first.parameters.rms
+    (0, 1, 64, 1e-06)
     """
 
     key: str
@@ -54,6 +62,15 @@ class Outcome:
         Why it failed, empty otherwise.
     seconds : float
         Wall time of the computation.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> task = next(rc.study.Study(name="few", case="curve", parameters=fixed).tasks())
+    >>> outcome = rc.study.perform(task)
+    >>> outcome.key == task.key, outcome.message, outcome.record.sizes["load"]
+    (True, '', 3)
     """
 
     key: str
@@ -66,7 +83,20 @@ Perform = Callable[[Task], Outcome]
 
 
 class Executor(Protocol):
-    """Where tasks are computed."""
+    """Where tasks are computed.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> class Backwards:  # the last case first
+    ...     workers = 1
+    ...     def outcomes(self, perform, tasks):
+    ...         yield from map(perform, reversed(list(tasks)))
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
+    >>> rc.study.run(study, "few", Backwards()).done
+    2
+    """
 
     @property
     def workers(self) -> int:
@@ -107,6 +137,13 @@ class Summary:
         Cases.
     seconds : float
         Time that the run has taken.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> summary = rc.study.Summary(done=3, failed=0, left=2).after(failed=True, seconds=4.0)
+    >>> summary.total, summary.left, summary.with_failed_left().left
+    (5, 1, 2)
     """
 
     done: int

@@ -42,6 +42,16 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     ------
     ValueError
         If there is no such `kind`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> tilted = rough.with_heights(rough.heights + 0.01 * grid.coordinates[1], "tilted by 0.01 along x")
+    >>> f"rms {tilted.rms * 1e9:.0f} nm, {tilted.levelled().rms * 1e9:.0f} nm without the tilt"
+    'rms 191 nm, 94 nm without the tilt'
     """
     require(kind in _TRENDS, f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
     degree, line = _TRENDS[kind]
@@ -72,6 +82,16 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
     -----
     Differences of heights are made small, not distances normal to the form: for caps much flatter than half a
     sphere the two agree.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6)
+    >>> rough = rc.self_affine(grid, hurst=0.8, rms=1e-8, rng=np.random.default_rng(1))
+    >>> lens = rough + rc.shapes.sphere(grid, radius=1e-3)
+    >>> f"rms {lens.rms * 1e9:.0f} nm, {lens.without_form('sphere').rms * 1e9:.0f} nm without the sphere"
+    'rms 217 nm, 9 nm without the sphere'
     """
     if isinstance(form, str):
         trend, words = round_form(surface.heights, surface.grid.spacing, form)

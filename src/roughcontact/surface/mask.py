@@ -50,6 +50,13 @@ def masked(
     ------
     ValueError
         If there is not one region, it has no cell, or no measured point is left.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> ball.masked(below=-2e-6).missing, ball.masked(ellipse=(slice(0, 64), slice(0, 64)), outside=True).missing
+    (2832, 868)
     """
     heights = surface.heights
     given = [box is not None, ellipse is not None, below is not None or above is not None]

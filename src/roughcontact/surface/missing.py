@@ -36,6 +36,14 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     ------
     ValueError
         If there is no such `method`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> surface = rc.Surface(np.array([[1e-6, 1e-6, 1e-6], [3e-6, np.nan, 3e-6]]), rc.Grid((2, 3), 1e-6))
+    >>> f"{surface.filled().heights[1, 1] * 1e6:.2f} um"
+    '2.33 um'
     """
     require(method in ("harmonic", "nearest"), f"method must be 'harmonic' or 'nearest', not {method!r}")
     if surface.missing == 0:

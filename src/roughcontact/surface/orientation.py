@@ -26,6 +26,13 @@ def transposed(surface: Surface) -> Surface:
     -------
     Surface
         On the grid with its axes exchanged.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rc.Surface(np.array([[0.0, 1e-6, 2e-6]]), rc.Grid((1, 3), (2e-6, 1e-6))).transposed().grid
+    Grid(shape=(3, 1), spacing=(1e-06, 2e-06), periodic=(False, False))
     """
     return surface.with_heights(surface.heights.T, "transposed", _exchanged(surface.grid))
 
@@ -48,6 +55,14 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
     ------
     ValueError
         If the grid has no such axis.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rc.Surface(np.array([[0.0, 1e-6], [2e-6, 3e-6]]), rc.Grid((2, 2), 1e-6)).flipped("y").heights
+    array([[2.e-06, 3.e-06],
+           [0.e+00, 1.e-06]])
     """
     axes = {"x": -1} | ({"y": 0} if surface.grid.ndim == 2 else {})
     require(axis in axes, f"axis must be one of {', '.join(axes)}, not {axis!r}")
@@ -74,6 +89,13 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     ------
     ValueError
         If the surface is a line, or `quarters` is not a whole number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rc.Surface(np.array([[0.0, 1e-6, 2e-6]]), rc.Grid((1, 3), (2e-6, 1e-6))).rotated().grid
+    Grid(shape=(3, 1), spacing=(1e-06, 2e-06), periodic=(False, False))
     """
     require(surface.grid.ndim == 2, "only a surface of two axes can be turned; flip a line")
     grid = _exchanged(surface.grid) if quarters % 2 else surface.grid

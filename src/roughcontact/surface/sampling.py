@@ -37,6 +37,13 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
     ------
     ValueError
         If there is not one slice for each axis, a slice has a step, is empty, or holds no measured point.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> ball.cropped(slice(16, 48), slice(0, 32)).grid.lengths
+    (3.2e-05, 3.2e-05)
     """
     grid = surface.grid
     ranges = cell_ranges(grid, parts, "a crop")
@@ -76,6 +83,14 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
     -----
     The points are the middle ones of blocks of `factor` cells (for an even factor the one before the middle: half
     an old cell to the upper left). Cells at the end that fill no block are left out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> rough.downsampled(2).grid.shape, f"{rough.downsampled(2).rms / rough.rms:.3f}"
+    ((32, 32), '0.986')
     """
     grid = surface.grid
     factors = _factors(grid, factor)
@@ -119,6 +134,13 @@ def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
     -----
     A wave of length l along an axis is transmitted by sin(pi k d/l) / (k sin(pi d/l)) with k cells of size d a
     pixel: for waves much longer than a cell the sinc of the pixel. Cells at the end that fill no block are left out.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> ball.averaged(4).grid
+    Grid(shape=(16, 16), spacing=(4e-06, 4e-06), periodic=(False, False))
     """
     grid = surface.grid
     factors = _factors(grid, factor)

@@ -10,15 +10,15 @@ image of the centre. On a grid of one axis a shape is its profile.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
 
 from roughcontact.grid import Grid
+from roughcontact.surface.about_centre import RIM, Centre, from_centre, placed, plane, positive, squared
+from roughcontact.surface.flat_punches import flat_disc, flat_ring, flat_square, flat_triangle
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, moderate, number, numeric, require
+from roughcontact.validation import Array, moderate, numeric
 
 __all__ = [
     "cone",
@@ -32,11 +32,6 @@ __all__ = [
     "sphere",
     "wave",
 ]
-
-# Rounding must not decide on which side of a rim a cell lies.
-_RIM = 1e-9
-
-Centre = Sequence[float] | float | None
 
 
 @numeric
@@ -59,9 +54,16 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     ------
     ValueError
         If `radius` is not positive or `centre` does not fit the grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> f"{rc.press(ball, 1e9, force=1e-2).contact_area * 1e12:.0f} um^2"  # Hertz: 260
+    '260 um^2'
     """
-    _positive(radius=radius)
-    return Surface(-_squared(grid, centre) / (2 * radius), grid, (f"paraboloid, radius {radius:g} m",))
+    positive(radius=radius)
+    return Surface(-squared(grid, centre) / (2 * radius), grid, (f"paraboloid, radius {radius:g} m",))
 
 
 @numeric
@@ -84,9 +86,16 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     ------
     ValueError
         If `radius` is not positive, `centre` does not fit the grid, or no cell holds a part of the sphere.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.sphere(rc.Grid((64, 64), 1e-6), radius=3e-5)
+    >>> ball.missing, f"{ball.heights[32, 60] * 1e6:.1f} um"  # beyond the equator there is none
+    (1268, '-20.6 um')
     """
-    _positive(radius=radius)
-    return _placed(_round(_squared(grid, centre), radius), grid, f"sphere, radius {radius:g} m")
+    positive(radius=radius)
+    return placed(_round(squared(grid, centre), radius), grid, f"sphere, radius {radius:g} m")
 
 
 @numeric
@@ -112,14 +121,21 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     ------
     ValueError
         If `radius` is not positive, the grid has one axis, or no cell holds a part of the cylinder.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> bar = rc.shapes.cylinder(rc.Grid((32, 32), 1e-6), radius=1e-4, axis="x")
+    >>> f"{bar.heights[0, 0] * 1e6:.2f} um at the edge", bool((bar.heights[0] == bar.heights[0, 0]).all())
+    ('-1.21 um at the edge', True)
     """
-    _positive(radius=radius)
-    y, x = _plane(grid, centre)
+    positive(radius=radius)
+    y, x = plane(grid, centre)
     across = {"x": y, "y": x}.get(axis)
     if across is None:
         raise ValueError(f"axis must be 'x' or 'y', not {axis!r}")
     heights = np.broadcast_to(_round(across**2, radius), grid.shape)
-    return _placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
+    return placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
 
 
 @numeric
@@ -142,9 +158,15 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     ------
     ValueError
         If `slope` is not positive or `centre` does not fit the grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> f"{rc.shapes.cone(rc.Grid((32, 32), 1e-6), slope=0.1).heights[16, 0] * 1e6:.2f} um"
+    '-1.55 um'
     """
-    _positive(slope=slope)
-    return Surface(-slope * np.sqrt(_squared(grid, centre)), grid, (f"cone, slope {slope:g}",))
+    positive(slope=slope)
+    return Surface(-slope * np.sqrt(squared(grid, centre)), grid, (f"cone, slope {slope:g}",))
 
 
 @numeric
@@ -169,130 +191,18 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
     ------
     ValueError
         If `exponent` or `coefficient` is not positive or `centre` does not fit the grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> body = rc.shapes.power_law(rc.Grid((32, 32), 1e-6), exponent=4, coefficient=1e12)
+    >>> f"{body.heights[16, 0] * 1e6:.2f} um"
+    '-0.06 um'
     """
-    _positive(exponent=exponent, coefficient=coefficient)
-    heights = -coefficient * _squared(grid, centre) ** (exponent / 2)
+    positive(exponent=exponent, coefficient=coefficient)
+    heights = -coefficient * squared(grid, centre) ** (exponent / 2)
     line = f"power law, exponent {exponent:g}, coefficient {coefficient:g} m^(1-n)"
     return Surface(heights, grid, (line,))
-
-
-@numeric
-def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
-    """Return a flat round punch: 0 in the cells whose centre lies in the disc, absent elsewhere.
-
-    Parameters
-    ----------
-    grid : Grid
-        Of two axes.
-    radius : float
-        Radius [m].
-    centre : tuple of float, optional
-        Its centre ``(y, x)`` [m]; by default the middle of the grid.
-
-    Returns
-    -------
-    Surface
-
-    Raises
-    ------
-    ValueError
-        If `radius` is not positive, the grid has one axis, or no cell centre lies in the punch.
-    """
-    return flat_ring(grid, 0.0, radius, centre)
-
-
-@numeric
-def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> Surface:
-    """Return a flat ring punch: 0 in the cells whose centre lies between two radii, absent elsewhere.
-
-    Parameters
-    ----------
-    grid : Grid
-        Of two axes.
-    inner, outer : float
-        Radii, ``0 <= inner < outer`` [m].
-    centre : tuple of float, optional
-        Its centre ``(y, x)`` [m]; by default the middle of the grid.
-
-    Returns
-    -------
-    Surface
-
-    Raises
-    ------
-    ValueError
-        If the radii are out of order, the grid has one axis, or no cell centre lies in the punch.
-    """
-    _positive(outer=outer)
-    if not 0 <= inner < outer:
-        raise ValueError(f"the inner radius must lie between 0 and the outer one {outer} m, not {inner}")
-    y, x = _plane(grid, centre)
-    squared = y**2 + x**2
-    inside = (squared >= inner * inner * (1 - _RIM)) & (squared <= outer * outer * (1 + _RIM))
-    name = f"flat ring, radii {inner:g} m and {outer:g} m" if inner else f"flat disc, radius {outer:g} m"
-    return _placed(np.where(inside, 0.0, np.nan), grid, name)
-
-
-@numeric
-def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
-    """Return a flat square punch with sides along x and y: 0 in the cells whose centre lies in it, absent elsewhere.
-
-    Of two sides that run through cell centres the first one counts, so that a side of n cells covers n cells.
-
-    Parameters
-    ----------
-    grid : Grid
-        Of two axes.
-    side : float
-        Length of a side [m].
-    centre : tuple of float, optional
-        Its centre ``(y, x)`` [m]; by default the middle of the grid.
-
-    Returns
-    -------
-    Surface
-
-    Raises
-    ------
-    ValueError
-        If `side` is not positive, the grid has one axis, or no cell centre lies in the punch.
-    """
-    _positive(side=side)
-    y, x = (part + _RIM * step for part, step in zip(_plane(grid, centre), grid.spacing, strict=True))
-    inside = (y >= -side / 2) & (y < side / 2) & (x >= -side / 2) & (x < side / 2)
-    return _placed(np.where(inside, 0.0, np.nan), grid, f"flat square, side {side:g} m")
-
-
-@numeric
-def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
-    """Return a flat equilateral punch: 0 in the cells whose centre lies in the triangle, absent elsewhere.
-
-    One side lies along x; the corner across from it points to the first row.
-
-    Parameters
-    ----------
-    grid : Grid
-        Of two axes.
-    side : float
-        Length of a side [m].
-    centre : tuple of float, optional
-        Its centroid ``(y, x)`` [m]; by default the middle of the grid.
-
-    Returns
-    -------
-    Surface
-
-    Raises
-    ------
-    ValueError
-        If `side` is not positive, the grid has one axis, or no cell centre lies in the punch.
-    """
-    _positive(side=side)
-    y, x = _plane(grid, centre)
-    # The three sides are equally far from the centroid.
-    inradius = side / (2 * math.sqrt(3)) * (1 + _RIM)
-    inside = (y <= inradius) & (np.abs(x) * math.sqrt(3) / 2 - y / 2 <= inradius)
-    return _placed(np.where(inside, 0.0, np.nan), grid, f"flat equilateral triangle, side {side:g} m")
 
 
 @numeric
@@ -326,12 +236,19 @@ def wave(
     ------
     ValueError
         If `amplitude` or `wavelength` is not positive, or the waves do not fit a periodic grid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> waves = rc.shapes.wave(rc.Grid((64, 64), 1e-6, periodic=True), amplitude=1e-7, wavelength=3.2e-5)
+    >>> f"{waves.rms * 1e9:.1f} nm"  # amplitude over sqrt(2)
+    '70.7 nm'
     """
-    _positive(amplitude=amplitude, wavelength=moderate(wavelength, "wavelength [m]"))
+    positive(amplitude=amplitude, wavelength=moderate(wavelength, "wavelength [m]"))
     wanted = {"x": (-1,), "y": (-2,), "both": (-2, -1)}.get(axis)
     if wanted is None or (grid.ndim == 1 and axis != "x"):
         raise ValueError(f"axis must be 'x', 'y' or 'both', on a line 'x', not {axis!r}")
-    parts, heights = _from_centre(grid, centre), np.zeros(grid.shape)
+    parts, heights = from_centre(grid, centre), np.zeros(grid.shape)
     for which in wanted:
         waves = grid.lengths[which] / wavelength
         if grid.periodic[which] and abs(waves - round(waves)) > 1e-9 * waves:
@@ -344,50 +261,8 @@ def wave(
     return Surface(heights, grid, (line,))
 
 
-def _from_centre(grid: Grid, centre: Centre) -> tuple[Array, ...]:
-    """Return the coordinates of the cells less those of the centre [m], an open mesh ``(y, x)`` or ``(x,)``."""
-    if centre is None:
-        centre = [length / 2 for length in grid.lengths]
-    given = np.atleast_1d(number(centre, "centre [m]"))
-    if given.shape != (grid.ndim,) or not np.isfinite(given).all():
-        raise ValueError(f"centre needs {grid.ndim} finite coordinates [m], not {centre}")
-    parts = []
-    for n, step, c, periodic in zip(grid.shape, grid.spacing, given, grid.periodic, strict=True):
-        part = (np.arange(n) + 0.5) * step - c
-        if periodic:
-            part -= n * step * np.round(part / (n * step))
-        parts.append(part)
-    return tuple(np.meshgrid(*parts, indexing="ij", sparse=True))
-
-
-def _plane(grid: Grid, centre: Centre) -> tuple[Array, Array]:
-    """Return the coordinates ``(y, x)`` on a grid of two axes."""
-    require(grid.ndim == 2, "this shape needs a grid of two axes, not a line")
-    y, x = _from_centre(grid, centre)
-    return y, x
-
-
-def _squared(grid: Grid, centre: Centre) -> Array:
-    """Return the squared distance from the centre [m^2], shape ``grid.shape``."""
-    total = np.zeros(grid.shape)
-    for part in _from_centre(grid, centre):
-        total += part**2
-    return total
-
-
 def _round(squared: Array, radius: float) -> Array:
     """Return sqrt(R^2 - r^2) - R without its cancellation at the apex; NaN beyond R."""
     square = radius * radius  # infinite where a power would overflow
-    inside = np.where(squared <= square * (1 + _RIM), np.minimum(squared, square), np.nan)
+    inside = np.where(squared <= square * (1 + RIM), np.minimum(squared, square), np.nan)
     return np.asarray(-inside / (radius + np.sqrt(square - inside)))
-
-
-def _placed(heights: Array, grid: Grid, name: str) -> Surface:
-    if np.isnan(heights).all():
-        raise ValueError(f"no cell centre lies in the {name}: refine the grid or move the centre")
-    return Surface(heights, grid, (name,))
-
-
-def _positive(**values: float) -> None:
-    for name, value in values.items():
-        require(math.isfinite(value) and value > 0, f"{name} must be positive and finite, not {value}")

@@ -45,6 +45,17 @@ class Spikes:
     height : array, shape (count,)
         By how much that cell stands above the median of the cells around the spike [m], negative below; the
         largest come first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> heights = rough.heights.copy()
+    >>> heights[20, 30:32] += 1e-5
+    >>> spikes = rc.find_spikes(rc.Surface(heights, rough.grid))
+    >>> spikes.places.tolist(), f"{spikes.height[0] * 1e6:.0f} um high"
+    ([[20, 30]], '10 um high')
     """
 
     mask: Mask
@@ -122,6 +133,16 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
     ------
     ValueError
         If `to` is neither.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> heights = rough.heights.copy()
+    >>> heights[20, 30:32] += 1e-5
+    >>> rc.Surface(heights, rough.grid).despiked().missing
+    2
     """
     require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}")
     spikes = find_spikes(surface)

@@ -47,6 +47,14 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     or u^2 / 2R. Points of the grid alone touch the tip. Missing points touch nothing and stay missing. Time grows
     with the number of cells below the tip up to the range of the heights, area times 2 pi R range / cell; a
     paraboloid is done axis by axis.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> waves = rc.shapes.wave(rc.Grid((32, 128), 1e-7, periodic=True), 1e-6, wavelength=3.2e-6)
+    >>> scanned = waves.scanned(tip_radius=1e-6)
+    >>> f"{waves.heights.min() * 1e6:.1f} um deep, {scanned.heights.min() * 1e6:.1f} um to a tip of 1 um"
+    '-2.0 um deep, -1.3 um to a tip of 1 um'
     """
     if not (math.isfinite(tip_radius) and tip_radius > 0):
         raise ValueError(f"tip_radius must be positive and finite [m], not {tip_radius}")

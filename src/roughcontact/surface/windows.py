@@ -69,6 +69,14 @@ def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> S
     ------
     ValueError
         If there is no such `window`, or `share` lies outside 0 to 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> rough.tapered("hann").provenance[-1]
+    'hann window, mean square times 0.140625'
     """
     heights = surface.heights - np.nanmean(surface.heights)
     loss = 1.0

@@ -50,6 +50,8 @@ class AdhesiveWave:
     >>> wave = AdhesiveWave(amplitude=1e-7, wavelength=1e-5, modulus=1e9, work=0.05)
     >>> f"alpha {wave.number:.3f}, at half contact {float(wave.mean_pressure(2.5e-6)) / 1e6:.2f} MPa"
     'alpha 0.101, at half contact 12.55 MPa'
+    >>> f"{float(wave.depth(2.5e-6)) * 1e9:.1f} nm deep"
+    '77.7 nm deep'
     """
 
     amplitude: float

@@ -44,6 +44,15 @@ class Asperities:
     ------
     ValueError
         If the arrays are not of one length, not finite, a radius is not positive, or two summits are in one place.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import asperities
+    >>> x, y = np.array([0.0, 1e-3]), np.zeros(2)
+    >>> summits = asperities.Asperities(x, y, np.array([0.0, -1e-6]), np.full(2, 1e-3), modulus=1e9)
+    >>> summits.fall.tolist(), asperities.press(summits, depth=5e-7).count  # the lower one is not reached
+    ([0.0, 1e-06], 1)
     """
 
     x: Array
@@ -94,6 +103,16 @@ class AsperityContact:
         that of the summits alone, an interfacial stiffness.
     interaction : bool
         Whether summits push each other down.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory import asperities
+    >>> x, flat = np.array([0.0, 1e-4]), np.zeros(2)
+    >>> two = asperities.Asperities(x, flat, flat, np.full(2, 1e-3), 1e9)
+    >>> alone, together = (asperities.press(two, force=0.1, interaction=each) for each in (False, True))
+    >>> together.count, f"{together.depth / alone.depth:.2f} times as deep, since each lowers the other"
+    (2, '1.14 times as deep, since each lowers the other')
     """
 
     asperities: Asperities

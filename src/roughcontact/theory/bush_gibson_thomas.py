@@ -51,6 +51,21 @@ class Summits:
     ------
     ValueError
         If there is no such surface, see `nayak.bandwidth` and `nayak.free_variance`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import bush_gibson_thomas as bgt
+    >>> summits = bgt.Summits(rc.Moments(1e-12, 0.005, 1e9), modulus=1e11)
+    >>> height = summits.separation(1e6)  # of the flat above the mean plane, at 1 MPa
+    >>> f"{float(height) * 1e6:.2f} um, {float(summits.pressure(height)):.6g} Pa"
+    '3.33 um, 1e+06 Pa'
+    >>> f"A/A0 = {float(summits.contact_fraction(height)):.2e}"
+    'A/A0 = 1.64e-04'
+    >>> f"{float(summits.spot_density(height)) * 1e-6:.0f} spots/mm^2"
+    '8 spots/mm^2'
+    >>> f"{float(summits.stiffness(height)) * 1e-12:.1f} N/um/mm^2, {float(summits.energy(height)):.3f} J/m^2"
+    '3.7 N/um/mm^2, 0.254 J/m^2'
     """
 
     moments: ProfileMoments

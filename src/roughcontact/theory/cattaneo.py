@@ -44,6 +44,16 @@ class SlippingSphere:
     >>> sphere = cattaneo.SlippingSphere(force=1.0, radius=1e-2, modulus=1e11, friction=0.3, ratio=1.2)
     >>> round(float(sphere.stick_radius(0.15) / sphere.contact_radius), 4)  # (1/2)^(1/3) at half of mu P
     0.7937
+    >>> edge = 0.9 * sphere.contact_radius  # there it slips: the traction is mu p
+    >>> round(float(sphere.traction(edge, 0.15) / sphere.peak_pressure), 4)  # 0.3 (1 - 0.9^2)^(1/2)
+    0.1308
+    >>> pulled, back = sphere.displacement(0.15), sphere.reversed_displacement(0.0, 0.15)
+    >>> f"{float(pulled) * 1e9:.2f} nm, and {float(back) * 1e9:.2f} nm when the force is taken away"
+    '23.69 nm, and 1.34 nm when the force is taken away'
+    >>> round(float(sphere.stiffness(0.15) / sphere.stiffness(0.0)), 4)
+    0.7937
+    >>> f"{float(sphere.cycle_loss(0.15)) * 1e9:.3f} nJ a cycle"
+    '0.541 nJ a cycle'
     """
 
     force: float

@@ -49,6 +49,15 @@ class Cell:
     ------
     ValueError
         If a number is out of range.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import finite_size
+    >>> cell = finite_size.Cell(0.8, rms=1e-6, length=1e-3)
+    >>> round(float(cell.stiffness(16.0, 1e11) / cell.stiffness(1.0, 1e11)), 3)  # 16^(1/1.8)
+    4.666
+    >>> f"{cell.crossover_force(1e11, decay=1e-6):.2f} N"
+    '87.93 N'
     """
 
     hurst: float

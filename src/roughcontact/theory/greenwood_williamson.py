@@ -40,6 +40,14 @@ class Asperity:
         softens is no axisymmetric asperity and has no contact area.
     modulus : float
         Reduced modulus E* [Pa].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import greenwood_williamson, hertz
+    >>> sphere = greenwood_williamson.Asperity.hertz(1e-2, 1e11)
+    >>> d = hertz.point(1e11, radius=1e-2, force=1.0).depth
+    >>> round(float(sphere.coefficient * d**sphere.exponent), 9)  # the force
+    1.0
     """
 
     coefficient: float
@@ -99,6 +107,22 @@ class Population:
     ------
     ValueError
         If it is not an Asperity, or a number is out of range.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import greenwood_williamson
+    >>> sphere = greenwood_williamson.Asperity.hertz(2e-5, 1e11)
+    >>> summits = greenwood_williamson.Population(sphere, density=6e9, std=1e-6)
+    >>> height = summits.separation(1e6)  # of the flat above the mean of the summits, at 1 MPa
+    >>> f"{float(height) * 1e6:.2f} um, {float(summits.pressure(height)):.6g} Pa"
+    '2.98 um, 1e+06 Pa'
+    >>> f"A/A0 = {float(summits.contact_fraction(height)):.2e}"
+    'A/A0 = 1.52e-04'
+    >>> f"{float(summits.spot_density(height)) * 1e-6:.0f} spots/mm^2"
+    '9 spots/mm^2'
+    >>> f"{float(summits.stiffness(height)) * 1e-12:.1f} N/um/mm^2, {float(summits.energy(height)):.3f} J/m^2"
+    '3.6 N/um/mm^2, 0.260 J/m^2'
     """
 
     asperity: Asperity

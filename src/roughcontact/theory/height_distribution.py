@@ -53,6 +53,17 @@ class HeightDistribution:
         int_0^u Phi(z) (u - z) dz [m]: how far the line reaches above the depth u in the mean; array in, array out.
     source : str
         Equation.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import height_distribution
+    >>> even = height_distribution.from_density(lambda z: 1e6)  # as many heights at every depth
+    >>> F = even.force(1e-7, 1e-3, 1e11)
+    >>> f"{float(F):.3f} N at {float(even.depth(F, 1e-3, 1e11)) * 1e9:.3f} nm"
+    '0.500 N at 100.000 nm'
+    >>> law = even.law(1e-3, 1e11)
+    >>> f"{float(even.stiffness(1e-7, 1e-3, 1e11)):.0f} N/m", f"{float(law.predict('stiffness', F)):.0f} N/m"
+    ('10000000 N/m', '10000000 N/m')
     """
 
     name: str

@@ -6,11 +6,14 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.validation import Array, number
+
+if TYPE_CHECKING:
+    from roughcontact.theory.waves import Spectrum
 
 __all__ = ["Basis", "LoadingLaw", "composed", "over_area"]
 
@@ -29,12 +32,22 @@ class Basis:
         Root mean square of the heights [m].
     spectrum : Waves, measured or continuous spectrum, optional
         That the law took from the surface; None if it needs none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((32, 32), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> [law] = rc.loading_laws(surface, 1e9, "persson")
+    >>> f"{law.made_for.area * 1e12:.0f} um^2, rms {law.made_for.rms * 1e9:.0f} nm"
+    '1024 um^2, rms 100 nm'
     """
 
     modulus: float
     area: float
     rms: float
-    spectrum: Any = None
+    spectrum: Spectrum | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,6 +71,17 @@ class LoadingLaw:
         it unless that is asked for.
     plastic : bool
         Whether its stiffness counts spots that have yielded, which that of a curve under a hardness leaves out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.theory.law import LoadingLaw
+    >>> spring = LoadingLaw("spring", "Hooke", {"depth": lambda force: force / 1e6}, domain=(0.0, 10.0))
+    >>> spring.predict("depth", np.array([1.0, 20.0]))
+    array([1.e-06,    nan])
+    >>> law = spring.derived("depth", {"elastic_energy": lambda depth: 1e6 * depth**2 / 2})
+    >>> law, float(law.predict("elastic_energy", 1.0))
+    (LoadingLaw(spring: elastic_energy), 5e-07)
     """
 
     name: str
@@ -86,6 +110,15 @@ class LoadingLaw:
         ------
         ValueError
             If the theory does not predict the quantity, or a force is not a number.
+
+        Examples
+        --------
+        >>> from roughcontact.theory import hertz
+        >>> law = hertz.law(radius=1e-2, modulus=1e11)
+        >>> f"{float(law.predict('stiffness', 1.0)) / 1e6:.2f} N/um"
+        '8.43 N/um'
+        >>> (law.predict("contact_area", [1.0, 8.0]) * 1e12).round()  # [um^2], as F^(2/3)
+        array([ 5587., 22349.])
         """
         if quantity not in self.quantities:
             raise ValueError(

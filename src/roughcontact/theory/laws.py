@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from types import MappingProxyType
-from typing import Any
+from typing import TypedDict, Unpack
 
 from roughcontact.theory import (
     bush_gibson_thomas,
@@ -58,6 +58,15 @@ class SurfaceFacts:
         Radius of curvature of the surface at large [m].
     hardness : float, optional
         Indentation hardness of the softer body [Pa].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import laws
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> facts = laws.SurfaceFacts(area=1e-6, spectrum=spectrum).completed()
+    >>> f"length {facts.length:.0e} m, rms {facts.rms:.2e} m, slope {facts.moments.rms_slope:.3f}"
+    'length 1e-03 m, rms 1.00e-06 m, slope 0.029'
     """
 
     modulus: float | None = None
@@ -90,6 +99,20 @@ class SurfaceFacts:
         return replace(self, area=area, length=length, moments=moments, rms=rms, rolloff=rolloff)
 
 
+class Knowns(TypedDict, total=False):
+    """The fields of `SurfaceFacts` but the modulus as keywords, as editors complete them."""
+
+    area: float
+    length: float
+    spectrum: Spectrum
+    moments: ProfileMoments
+    rms: float
+    hurst: float
+    rolloff: float
+    radius: float
+    hardness: float
+
+
 @dataclass(frozen=True, slots=True)
 class NamedLaw:
     """A law that can be had by name.
@@ -102,6 +125,12 @@ class NamedLaw:
         The facts that it wants, in the order in which `make` takes them.
     make : callable
         Returns the `LoadingLaw`.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import laws
+    >>> laws.LAWS["persson"].about, laws.LAWS["persson"].needs
+    ('nominally flat, many contacts (Persson)', ('spectrum', 'modulus', 'area'))
     """
 
     about: str
@@ -189,15 +218,17 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
 )
 
 
-def named(name: str, **knowns: Any) -> LoadingLaw:
+def named(name: str, *, modulus: float | None = None, **knowns: Unpack[Knowns]) -> LoadingLaw:
     """Return a loading law by its name.
 
     Parameters
     ----------
     name : str
         One of ``LAWS``.
+    modulus : float, optional
+        Reduced modulus E* [Pa].
     **knowns
-        The fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
+        The other fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
 
     Returns
     -------
@@ -217,7 +248,7 @@ def named(name: str, **knowns: Any) -> LoadingLaw:
     require(name in LAWS, f"there is no law named {name!r}; there are {', '.join(LAWS)}")
     if strange := knowns.keys() - {field.name for field in fields(SurfaceFacts)}:
         raise ValueError(f"no law asks for {', '.join(sorted(strange))}")
-    law, facts = LAWS[name], SurfaceFacts(**knowns).completed()
+    law, facts = LAWS[name], SurfaceFacts(modulus, **knowns).completed()
     wanted = {need: getattr(facts, need) for need in law.needs}
     if missing := [need for need, value in wanted.items() if value is None]:
         raise ValueError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")

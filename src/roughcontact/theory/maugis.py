@@ -54,6 +54,11 @@ class DugdaleSphere:
     >>> sphere = DugdaleSphere(radius=1e-5, modulus=1e8, work=10e-3, strength=2.5e6)
     >>> f"lambda {sphere.number:.2f}, pull-off {sphere.pull_off_force / (math.pi * 10e-3 * 1e-5):.3f} pi w R"
     'lambda 1.31, pull-off 1.569 pi w R'
+    >>> a = 2e-7
+    >>> f"{float(sphere.force(a)) * 1e9:.0f} nN at {float(sphere.depth(a)) * 1e9:.1f} nm"
+    '-445 nN at -6.5 nm'
+    >>> f"attracted up to {float(sphere.zone_radius(a)) * 1e9:.0f} nm", round(DugdaleSphere.of_number(2.0).number, 9)
+    ('attracted up to 290 nm', 2.0)
     """
 
     radius: float

@@ -31,7 +31,16 @@ __all__ = [
 
 
 class ElasticSolid(Protocol):
-    """What is asked of a body; `roughcontact.Solid` is one."""
+    """What is asked of a body; `roughcontact.Solid` is one.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import mindlin
+    >>> steel = rc.Solid(210e9, 0.3)
+    >>> f"{steel.shear_modulus / 1e9:.1f} GPa", round(mindlin.pair_ratio(steel), 4)
+    ('80.8 GPa', 1.2143)
+    """
 
     @property
     def shear_modulus(self) -> float:

@@ -35,6 +35,14 @@ class SummitStatistics:
         Standard deviation of summit heights [m].
     mean_height : float
         Mean of summit heights above the mean plane of the surface [m].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import nayak
+    >>> mean = nayak.summits(rc.Moments(1e-12, 0.005, 1e9))
+    >>> f"{mean.density * 1e-6:.0f} summits/mm^2 of radius {mean.radius * 1e6:.0f} um"
+    '6126 summits/mm^2 of radius 21 um'
     """
 
     density: float

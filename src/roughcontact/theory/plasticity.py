@@ -32,6 +32,14 @@ class PlasticityIndex:
         Contact is elastic at any usual load if the index is lower.
     plastic_above : float
         Contact is plastic at the lightest load if it is higher; infinite where the source states none.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> from roughcontact.theory import plasticity
+    >>> index = plasticity.asperity_index(rc.Moments(1e-12, 0.005, 1e9), 1e11, 8e10)
+    >>> f"{index.value:.2f}", index.elastic_below, index.plastic_above, index.regime
+    ('0.27', 0.6, 1.0, 'elastic')
     """
 
     value: float

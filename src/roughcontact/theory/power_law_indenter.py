@@ -66,6 +66,15 @@ class PowerLawContact:
         Normal force F [N].
     stiffness : float or array
         dF/dd [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import power_law_indenter
+    >>> cone = power_law_indenter.contact(1e11, exponent=1, coefficient=0.1, force=1.0)
+    >>> f"{cone.contact_radius * 1e6:.1f} um", f"{float(cone.pressure(0.5 * cone.contact_radius)) / 1e9:.2f} GPa"
+    ('8.0 um', '6.58 GPa')
+    >>> round(float(cone.displacement(0.0) / cone.depth), 6)
+    1.0
     """
 
     modulus: Array

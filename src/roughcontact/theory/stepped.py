@@ -44,10 +44,16 @@ class SteppedIndenter:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from roughcontact.theory import stepped
     >>> steps = stepped.SteppedIndenter(radius=1e-6, height=1e-8, ratio=2.0, hurst=1.0)
-    >>> [round(float(r) * 1e6, 6) for r in steps.radii(3)]  # [um]
+    >>> (steps.radii(3) * 1e6).round(6).tolist(), (steps.heights(3) * 1e9).round(6).tolist()  # [um] and [nm]
+    ([1.0, 2.0, 4.0], [10.0, 20.0, 40.0])
+    >>> force, stiffness = steps.corners(3, 1e11)  # where the next step touches
+    >>> (stiffness / 2e11 * 1e6).round(6).tolist()  # radii [um]
     [1.0, 2.0, 4.0]
+    >>> bool(np.allclose(steps.stiffness(0.99 * force, 3, 1e11), stiffness))
+    True
     """
 
     radius: float

@@ -159,6 +159,8 @@ class Hierarchy:
     >>> import numpy as np
     >>> from roughcontact.theory import two_cosines
     >>> waves = two_cosines.Hierarchy(amplitude=1e-6, wavenumber=1e3, ratio=10.0, hurst=1.0)
+    >>> waves.amplitudes(2).round(9).tolist(), waves.wavenumbers(2).round(3).tolist()
+    ([1e-06, 1e-07], [1000.0, 10000.0])
     >>> force, stiffness = waves.corners(2, 1e11)
     >>> round(float(np.diff(np.log(stiffness))[0] / np.diff(np.log(force))[0]), 6)  # k ~ F^(1/(H+1))
     0.5

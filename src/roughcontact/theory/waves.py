@@ -20,7 +20,15 @@ MERGED = 1e-3  # waves of a grid whose wavenumbers differ by less than this part
 
 
 class ContinuousSpectrum(Protocol):
-    """A continuous isotropic spectrum; `roughcontact.SelfAffineSpectrum` is one."""
+    """A continuous isotropic spectrum; `roughcontact.SelfAffineSpectrum` is one.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
+    >>> f"{spectrum.q_min:.0f} to {spectrum.q_max:.0f} rad/m, C2D {float(spectrum(1e5)):.2e} m^4 at 1e5"
+    '6283 to 628319 rad/m, C2D 3.04e-25 m^4 at 1e5'
+    """
 
     @property
     def q_min(self) -> float:
@@ -35,7 +43,17 @@ class ContinuousSpectrum(Protocol):
 
 
 class MeasuredSpectrum(Protocol):
-    """A spectrum in bins; `roughcontact.PowerSpectrum` is one."""
+    """A spectrum in bins; `roughcontact.PowerSpectrum` is one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> spectrum = rc.power_spectrum(rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1)))
+    >>> spectrum.kind, spectrum.density.shape == spectrum.wavenumber.shape
+    ('C2D', True)
+    """
 
     @property
     def wavenumber(self) -> Array:
@@ -90,11 +108,20 @@ class Waves:
 
     Examples
     --------
+    >>> import numpy as np
     >>> import roughcontact as rc
     >>> from roughcontact.theory.waves import Waves
-    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
-    >>> round(Waves.of_spectrum(spectrum).m0 / spectrum.moments().m0, 6)
-    1.0
+    >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=6.4e-5, short_cutoff=4e-6).scaled(1e-6)
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.synthesise(grid, spectrum, np.random.default_rng(1), rms=1e-6)
+    >>> waves = [
+    ...     Waves.of_spectrum(spectrum),
+    ...     Waves.of_heights(surface.heights, grid.spacing),  # the very waves of a surface
+    ...     Waves.of_measured(rc.power_spectrum(surface)),
+    ...     Waves.of_bands(np.array([1e5, 1e6]), np.array([1e-12, 1e-14])),
+    ... ]
+    >>> [f"{each.rms_slope:.2f}" for each in waves], Waves.of(spectrum).m0 == waves[0].m0
+    (['0.28', '0.22', '0.21', '0.14'], True)
     """
 
     wavenumber: Array

@@ -10,13 +10,13 @@ from __future__ import annotations
 import pkgutil
 import re
 from importlib import import_module
+from pathlib import Path
 from typing import Any, Literal, Protocol, TypeGuard, cast
 
 import matplotlib
 import xarray
 from matplotlib.figure import Figure
 
-import roughcontact.thesis
 from roughcontact.study.study import Study
 from roughcontact.thesis.drawing import STYLE, TICK
 from roughcontact.thesis.verdict import Verdict
@@ -50,7 +50,7 @@ def _figures() -> dict[str, str]:
 
     The module ``fig27_exponent`` is the figure ``fig27``.
     """
-    names = (each.name for each in pkgutil.iter_modules(roughcontact.thesis.__path__))
+    names = (each.name for each in pkgutil.iter_modules([str(Path(__file__).parent)]))
     found = filter(None, map(_FIGURE.fullmatch, names))
     ordered = sorted(found, key=lambda match: (int(match[2] or 1000), match[0]))
     return {match[1].replace("_", "-"): f"roughcontact.thesis.{match[0]}" for match in ordered}
@@ -71,31 +71,93 @@ class FigureModule(Protocol):
 
 
 class SimpleFigure(FigureModule, Protocol):
-    """What the module of a figure holds that is computed from a seed."""
+    """What the module of a figure holds that is computed from a seed.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig6")
+    >>> found.SEED, len(found.case()) == len(found.EXPONENTS)
+    (4, True)
+    """
 
     SEED: int
 
     def case(self, seed: int = ...) -> Any:
-        """Return what is drawn: the same for the same seed."""
+        """Return what is drawn: the same for the same seed.
+
+        Parameters
+        ----------
+        seed : int
+            Of the random numbers; by default ``SEED``.
+
+        Returns
+        -------
+        object
+            What the figure draws.
+        """
 
 
 class EnsembleFigure(FigureModule, Protocol):
-    """What the module of a figure holds that stands on studies."""
+    """What the module of a figure holds that stands on studies.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig27")
+    >>> [study.case for study in found.studies("small")]
+    ['curve', 'lines']
+    """
 
     def studies(self, scale: Scale) -> Studies:
-        """Return the studies; those that figures share have one name and are run once."""
+        """Return the studies; those that figures share have one name and are run once.
+
+        Parameters
+        ----------
+        scale : {"small", "thesis"}
+            Two minutes on two cores at most, or the counts of the thesis.
+
+        Returns
+        -------
+        tuple of Study
+        """
 
     def averages(self, *datasets: xarray.Dataset) -> xarray.Dataset:
-        """Return what is drawn, small, from what the studies export, in their order."""
+        """Return what is drawn, small, from what the studies export, in their order.
+
+        Parameters
+        ----------
+        *datasets : Dataset
+            Of each study, as `roughcontact.study.export` makes it.
+
+        Returns
+        -------
+        Dataset
+        """
 
 
 def module(name: str) -> SimpleFigure | EnsembleFigure:
     """Return the module of the figure `name`.
 
+    Parameters
+    ----------
+    name : str
+        One of ``FIGURES``, such as ``"fig6"``.
+
+    Returns
+    -------
+    SimpleFigure or EnsembleFigure
+
     Raises
     ------
     ValueError
         If there is no such figure.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.thesis.module("fig17").TITLE
+    'stiffness of the stepped indenter against load, schematic and computed'
     """
     if name not in FIGURES:
         raise ValueError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}")
@@ -103,12 +165,48 @@ def module(name: str) -> SimpleFigure | EnsembleFigure:
 
 
 def is_ensemble(found: SimpleFigure | EnsembleFigure) -> TypeGuard[EnsembleFigure]:
-    """Return whether a figure stands on studies."""
+    """Return whether a figure stands on studies.
+
+    Parameters
+    ----------
+    found : SimpleFigure or EnsembleFigure
+        Of `module`.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> [rc.thesis.is_ensemble(rc.thesis.module(name)) for name in ("fig6", "fig27")]
+    [False, True]
+    """
     return hasattr(found, "studies")
 
 
-def drawn(found: FigureModule, data: Any) -> Figure:
-    """Return the picture of what a figure shows."""
+def drawn(found: FigureModule, data: object) -> Figure:
+    """Return the picture of what a figure shows.
+
+    Parameters
+    ----------
+    found : FigureModule
+        Of `module`.
+    data : object
+        What it shows: of a simple figure ``found.case(seed)``, of an ensemble its averages, see `averages_of`.
+
+    Returns
+    -------
+    Figure
+        Of Matplotlib, without pyplot; `roughcontact.plot.save` writes it.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig4")
+    >>> len(rc.thesis.drawn(found, found.case(seed=2)).axes)
+    4
+    """
     picture = Figure(figsize=found.SIZE, layout="constrained")
     with matplotlib.rc_context(STYLE):
         found.draw(picture, data)
@@ -117,8 +215,27 @@ def drawn(found: FigureModule, data: Any) -> Figure:
     return picture
 
 
-def verdicts(found: FigureModule, data: Any) -> tuple[Verdict, ...]:
-    """Return what a figure shows beside what the thesis says; empty where the text holds no number."""
+def verdicts(found: FigureModule, data: object) -> tuple[Verdict, ...]:
+    """Return what a figure shows beside what the thesis says; empty where the text holds no number.
+
+    Parameters
+    ----------
+    found : FigureModule
+        Of `module`.
+    data : object
+        What it shows, see `drawn`.
+
+    Returns
+    -------
+    tuple of Verdict
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig20")
+    >>> [verdict.word for verdict in rc.thesis.verdicts(found, found.case())]
+    ['holds', 'does not hold', 'holds']
+    """
     judge = getattr(found, "verdicts", None)
     return () if judge is None else tuple(judge(data))
 
@@ -132,10 +249,27 @@ def findings(found: FigureModule, data: Any) -> str:
 def figure(name: str, seed: int | None = None) -> Figure:
     """Return the simple figure `name`, computed and drawn.
 
+    Parameters
+    ----------
+    name : str
+        One of ``FIGURES`` that stands on no ensemble.
+    seed : int, optional
+        Of the random numbers; by default the figure's own.
+
+    Returns
+    -------
+    Figure
+        Of Matplotlib, without pyplot; `roughcontact.plot.save` writes it.
+
     Raises
     ------
     ValueError
-        If there is no such figure, or it stands on studies: see `roughcontact.thesis.ensembles.averages_of`.
+        If there is no such figure, or it stands on studies: see `averages_of`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.plot.save(rc.thesis.figure("fig4"), "fig4.png")
     """
     found = module(name)
     if is_ensemble(found):

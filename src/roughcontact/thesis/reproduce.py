@@ -23,7 +23,28 @@ STUDIES = "studies"
 
 
 def planned(found: EnsembleFigure, scale: Scale = "small", seed: int | None = None) -> Studies:
-    """Return the studies of a figure; another `seed` than their own gives them another name, and so another store."""
+    """Return the studies of a figure; another `seed` than their own gives them another name, and so another store.
+
+    Parameters
+    ----------
+    found : EnsembleFigure
+        Of `module`.
+    scale : {"small", "thesis"}
+        Two minutes on two cores at most, or the counts of the thesis.
+    seed : int, optional
+        By default that of each study.
+
+    Returns
+    -------
+    tuple of Study
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig27")
+    >>> [(study.name, study.samples) for study in rc.thesis.planned(found, "thesis")]
+    [('squares', 50), ('lines', 20)]
+    """
     studies = found.studies(scale)
     if seed is None:
         return studies
@@ -43,7 +64,31 @@ def run_study(
     executor: Executor,
     on_progress: Callable[[Summary], None] | None = None,
 ) -> Summary:
-    """Run a study in its store under `folder`; what is done already is not done again."""
+    """Run a study in its store under `folder`; what is done already is not done again.
+
+    Parameters
+    ----------
+    study : Study
+        One of `planned`.
+    folder : path-like
+        Its folder ``studies`` holds a store a study.
+    executor : Executor
+        Such as `roughcontact.study.Processes`.
+    on_progress : callable, optional
+        Is told after every case how many are done.
+
+    Returns
+    -------
+    Summary
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)  # or one of planned
+    >>> rc.thesis.run_study(study, "figures", rc.study.Serial()).done
+    2
+    """
     return run(study, store_of(folder, study), executor, on_progress=on_progress)
 
 
@@ -53,10 +98,36 @@ def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLi
     Attributes say what that was, an entry a study: ``studies`` as TOML, ``cases_done``, ``cases_failed`` and
     ``cases_missing``, and ``cases_seconds``, the time that its cases took together.
 
+    Parameters
+    ----------
+    found : EnsembleFigure
+        Of `module`.
+    studies : tuple of Study
+        Those that were `planned`.
+    folder : path-like
+        Where they were run, see `run_study`.
+
+    Returns
+    -------
+    Dataset
+
     Raises
     ------
     ValueError
         If there is no such store.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig18")
+    >>> studies = rc.thesis.planned(found)
+    >>> [(study.case, study.samples) for study in studies]
+    [('curve', 10), ('lines', 4)]
+    >>> try:
+    ...     rc.thesis.averages_of(found, studies, "figures")
+    ... except ValueError as error:
+    ...     print(error)
+    the study 'squares-small' was not run in figures: run it first
     """
     exports = tuple(_exports(studies, folder))
     return found.averages(*exports).assign_attrs(_origin(exports))

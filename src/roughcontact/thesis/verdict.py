@@ -48,6 +48,14 @@ class Verdict:
     ruling : Ruling
         The verdict, and how it was reached.
     kind : str
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> found = rc.thesis.module("fig41")
+    >>> [verdict] = rc.thesis.verdicts(found, found.case())
+    >>> verdict.source, verdict.word
+    ('section A.1.1, fig. 41', 'holds')
     """
 
     claim: str

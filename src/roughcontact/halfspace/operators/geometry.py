@@ -14,6 +14,15 @@ class Geometry(Enum):
 
     On a line every force, stiffness, energy and contact area is per unit length along the cylinder; on a
     Winkler foundation forces are forces, the pressure is a force per length, and areas are lengths.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grids = rc.Grid((8, 8), 1e-6), rc.Grid(8, 1e-6), rc.RadialGrid.uniform(8, 1e-6)
+    >>> [rc.Geometry.of(grid).value for grid in grids]
+    ['surface', 'line', 'ring']
+    >>> rc.Geometry.RING.axes
+    ('r',)
     """
 
     SURFACE = "surface"

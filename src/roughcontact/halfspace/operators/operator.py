@@ -56,6 +56,17 @@ class Operator(Protocol):
 
     These five members are enough for any solve. What else an operator can do, it states by an attribute
     ``capabilities``, a `Capabilities`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> body = rc.half_space(rc.Grid((8, 8), 1e-6), 1e9)
+    >>> isinstance(body, rc.Operator), body.restrict((slice(0, 4), slice(0, 4))).grid.shape
+    (True, (4, 4))
+    >>> pressure = np.full((8, 8), 1e6)
+    >>> bool(np.allclose(body.as_matrix() @ pressure.ravel(), body.apply(pressure).ravel()))
+    True
     """
 
     @property

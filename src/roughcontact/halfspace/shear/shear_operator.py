@@ -32,6 +32,19 @@ class ShearOperator(Protocol):
     body 1. The map is symmetric; on a free grid positive definite, on a periodic one semidefinite, since a constant
     traction moves nothing. One whose sum is not
     exact states the exact one in its `Capabilities`, by which answers are certified.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> bodies = rc.shear_half_space(rc.Grid((8, 8), 1e-6), rc.Solid(1e9, 0.3))
+    >>> isinstance(bodies, rc.ShearOperator), bodies.restrict((slice(0, 4), slice(0, 4))).grid.shape
+    (True, (4, 4))
+    >>> traction = np.zeros((2, 8, 8))
+    >>> traction[0] = 1e6  # along x
+    >>> along, across = bodies.apply(traction)
+    >>> f"{along.mean() * 1e9:.0f} nm along, {abs(across).max() * 1e9:.1f} nm across", bodies.as_matrix().shape
+    ('8 nm along, 0.5 nm across', (128, 128))
     """
 
     @property

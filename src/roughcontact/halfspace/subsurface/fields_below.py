@@ -40,6 +40,14 @@ class Stress:
         Normal stresses; z points into the body.
     xy, xz, yz : arrays of that shape
         Shear stresses.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> stress = rc.below(solution, 5e-6, 0.3)
+    >>> [f"{field.max() / 1e6:.1f} MPa" for field in (stress.von_mises, stress.largest_shear, -stress.zz)]
+    ['10.7 MPa', '5.3 MPa', '10.9 MPa']
     """
 
     grid: Grid
@@ -87,6 +95,14 @@ class Displacement:
     x, y, z : arrays, shape ``(ny, nx)``, or ``(nz, ny, nx)`` for several depths
         Along the axes; z points into the body. On a free grid they vanish far away, on a periodic one their means
         vanish on the surface.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> moved = rc.displacement_below(solution, [0.0, 5e-6, 20e-6], rc.Solid(1e9, 0.3))
+    >>> (moved.z.max(axis=(1, 2)) * 1e9).round().tolist()  # nm, of the surface and below it
+    [159.0, 80.0, 24.0]
     """
 
     grid: Grid

@@ -47,6 +47,12 @@ def find_case(name: str) -> Case:
     ------
     StudyError
         If there is no such case.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rc.study.find_case("curve").parameters.model_fields["loads"].default
+    30
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:

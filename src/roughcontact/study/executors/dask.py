@@ -47,6 +47,14 @@ class Dask:
     A task whose worker dies is tried again. One that the scheduler gives up after several deaths is computed once more
     at the end, with nothing else beside it, and has failed if its workers die again. When the iterator is closed, the
     workers of a foreign scheduler finish what they are computing, and it is forgotten.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> executor = rc.study.Dask(workers=2)
+    >>> executor.workers
+    2
+    >>> outcomes = executor.outcomes(rc.study.perform, [])  # or rc.study.run(study, "folder", executor)
     """
 
     def __init__(

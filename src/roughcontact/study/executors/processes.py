@@ -32,6 +32,13 @@ class Processes:
     -----
     A worker that dies (killed, out of memory, crashed) is replaced, and its task tried again: at once, and should a
     worker die of it once more, at the end with nothing else beside it. A task whose third worker dies has failed.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> executor = rc.study.Processes(2)  # rc.study.run(study, "folder", executor), or its outcomes one by one
+    >>> executor.workers, list(executor.outcomes(rc.study.perform, []))
+    (2, [])
     """
 
     def __init__(self, workers: int | None = None) -> None:

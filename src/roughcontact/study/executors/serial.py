@@ -14,7 +14,17 @@ __all__ = ["Serial"]
 
 @dataclass(frozen=True, slots=True)
 class Serial:
-    """Compute one task after the other, in this process: for trying, and for small studies."""
+    """Compute one task after the other, in this process: for trying, and for small studies.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
+    >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
+    >>> executor = rc.study.Serial()
+    >>> executor.workers, [outcome.message for outcome in executor.outcomes(rc.study.perform, study.tasks())]
+    (1, ['', ''])
+    """
 
     @property
     def workers(self) -> int:

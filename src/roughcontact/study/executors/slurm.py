@@ -43,6 +43,15 @@ class Slurm:
     Notes
     -----
     A job that has ended, at its time limit for example, is submitted again. Otherwise as `Dask`.
+
+    Examples
+    --------
+    Where jobs can be submitted:
+
+    >>> import roughcontact as rc
+    >>> executor = rc.study.Slurm(48, cores=24, memory="48 GB", walltime="04:00:00")  # doctest: +SKIP
+    >>> rc.study.run(rc.study.Study.read("hurst.toml"), "hurst", executor)  # doctest: +SKIP
+    >>> outcomes = executor.outcomes(rc.study.perform, [])  # doctest: +SKIP
     """
 
     def __init__(self, workers: int, **options: Any) -> None:

@@ -57,6 +57,16 @@ class HurstFit:
         Wavenumbers [rad/m] that the fit has seen; for a structure function 2 pi over its lags.
     freedom : int
         Independent deviations that the misfit is the mean of.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1), rolloff=2e-5)
+    >>> fit = rc.hurst_exponent(surface)
+    >>> f"H = {fit.hurst:.2f} +- {fit.standard_error:.2f}, roll-off at {fit.rolloff * 1e6:.0f} um"
+    'H = 0.80 +- 0.03, roll-off at 20 um'
     """
 
     hurst: float

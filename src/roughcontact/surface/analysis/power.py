@@ -106,6 +106,16 @@ class PowerSpectrum:
         ------
         ValueError
             If no bin lies in the band.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> spectrum = rc.power_spectrum(rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1)))
+        >>> band = spectrum.within(q_max=1e6)
+        >>> bool(band.wavenumber.max() <= 1e6), f"{band.q_max:.0e} rad/m"
+        (True, '1e+06 rad/m')
         """
         low = self.q_min if q_min is None else q_min
         high = self.q_max if q_max is None else q_max
@@ -128,6 +138,15 @@ class PowerSpectrum:
         Returns
         -------
         PowerSpectrum
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> spectrum = rc.power_spectrum(rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1)))
+        >>> f"{spectrum.selected(spectrum.wavelength < 1e-5).wavelength.max() * 1e6:.1f} um"
+        '9.1 um'
         """
         arrays = {name: getattr(self, name)[keep] for name in _ARRAYS}
         return replace(self, **arrays)
@@ -152,6 +171,16 @@ class PowerSpectrum:
         ------
         ValueError
             If `per_decade` is not positive.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+        >>> fine = rc.power_spectrum(surface)
+        >>> fine.wavenumber.size, fine.rebinned(5).wavenumber.size
+        (32, 8)
         """
         require(per_decade > 0, f"per_decade must be positive, not {per_decade}")
         logs = np.log(self.wavenumber)

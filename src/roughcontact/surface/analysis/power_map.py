@@ -30,6 +30,16 @@ class PowerMap:
         Wavenumbers along x [rad/m], from zero up.
     columns : int
         The nx of the surface, even or odd.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> waves = rc.power_map(rc.shapes.wave(grid, 1e-6, wavelength=16e-6))
+    >>> qy, qx, density = waves.centred()
+    >>> qx[density.max(axis=0) > 0.1 * density.max()].round(-2)  # +-2 pi/16 um
+    array([-392700.,  392700.])
     """
 
     density: Array

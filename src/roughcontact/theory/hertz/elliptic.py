@@ -39,6 +39,16 @@ class EllipticContact:
         Pressure p0 in the centre [Pa]; the mean is 2/3 of it.
     stiffness : float or array
         dF/dd [N/m]: that of a flat punch of the same ellipse.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> contact = hertz.elliptic(1e11, radii=(1e-2, 2e-2), force=1.0)
+    >>> a, b = contact.semi_axes
+    >>> f"{a * 1e6:.1f} and {b * 1e6:.1f} um", f"{contact.pressure(0.6 * a, 0.0) / contact.max_pressure:.6f}"
+    ('37.3 and 59.2 um', '0.800000')
+    >>> f"{contact.displacement(0.0, 0.0) / contact.depth:.6f}"
+    '1.000000'
     """
 
     modulus: Array

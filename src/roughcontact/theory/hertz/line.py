@@ -44,6 +44,16 @@ class LineContact:
         Pressure p0 in the middle [Pa]; the mean is pi/4 of it.
     reference_length : float or None
         Distance L from a line load at which its displacement is zero [m]; None leaves depths open.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> contact = hertz.line(1e11, radius=1e-2, force=1e4, reference_length=1e-2)
+    >>> a = contact.half_width
+    >>> f"{a * 1e6:.1f} um", f"{contact.pressure(0.6 * a) / contact.max_pressure:.6f}"  # (1 - 0.6^2)^(1/2)
+    ('35.7 um', '0.800000')
+    >>> f"{contact.displacement(0.0) / contact.depth:.6f}"
+    '1.000000'
     """
 
     modulus: Array

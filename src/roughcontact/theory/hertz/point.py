@@ -48,6 +48,17 @@ class PointContact:
         Pressure p0 in the centre [Pa]; the mean is 2/3 of it.
     stiffness : float or array
         dF/dd [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import hertz
+    >>> contact = hertz.point(1e11, radius=1e-2, force=1.0)
+    >>> f"{contact.contact_radius * 1e6:.1f} um", f"{contact.max_pressure / 1e6:.0f} MPa"
+    ('42.2 um', '268 MPa')
+    >>> f"{contact.pressure(0.6 * contact.contact_radius) / contact.max_pressure:.6f}"  # (1 - 0.6^2)^(1/2)
+    '0.800000'
+    >>> f"{contact.displacement(0.0) / contact.depth:.6f}"
+    '1.000000'
     """
 
     modulus: Array

@@ -24,6 +24,12 @@ class Computed:
         A bound on its error, judged by refinement.
     how : str
         How it was computed.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import punch
+    >>> punch.SQUARE.value, punch.SQUARE.uncertainty  # k/(E* L)
+    (1.152298, 1e-06)
     """
 
     value: float

@@ -1,0 +1,80 @@
+"""What each dependency weighs on disk, and what it is for: the table of docs/release.md.
+
+python benchmarks/weights.py    in an environment that holds the package and what it needs
+"""
+
+from __future__ import annotations
+
+from importlib.metadata import distribution
+from pathlib import Path
+
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+PURPOSES = {
+    "numpy": "arrays",
+    "scipy": "Fourier transforms, linear algebra, special functions",
+    "llvmlite": "machine code of the sums for the processor at hand; without it NumPy and SciPy do them",
+    "array-api-compat": "heights on a GPU, of PyTorch or CuPy",
+    "threadpoolctl": "one thread of linear algebra where more would be slower",
+    "psutil": "how much memory is free, before it is taken",
+    "typer": "the command line",
+    "rich": "its tables and progress",
+    "pint": "units in files and on the command line",
+    "matplotlib": "pictures: `--out` of every command, `plot`",
+    "xarray": "answers with units and names: `curve.nc`, `to_dataset`, `to_dataframe`; averages of studies",
+    "h5netcdf": "NetCDF files, read and written",
+    "h5py": "HDF5 below them",
+    "pydantic": "study files: what they may hold, in words",
+    "filelock": "one writer for the store of a study",
+    "platformdirs": "the user's folder for caches, where machine code is kept",
+}
+
+
+def needed(name: str) -> set[str]:
+    """Return the names of what a distribution needs in this environment, without extras."""
+    texts = distribution(name).requires or []
+    found = (Requirement(text) for text in texts)
+    return {
+        canonicalize_name(each.name)
+        for each in found
+        if not each.marker or each.marker.evaluate({"extra": ""})
+    }
+
+
+def closure(names: set[str]) -> set[str]:
+    """Return the names with those of all that they need."""
+    found: set[str] = set()
+    while left := names - found:
+        found |= left
+        names = names.union(*(needed(name) for name in left))
+    return found
+
+
+def size(name: str) -> float:
+    """Return what the files of a distribution take on disk [MB], compiled modules included."""
+    paths = (Path(str(each.locate())) for each in distribution(name).files or ())
+    return sum(path.stat().st_size for path in paths if path.is_file()) / 1e6
+
+
+def table() -> list[str]:
+    """Return the table, the heaviest first."""
+    direct = needed("roughcontact")
+    rows = []
+    for name in direct:
+        brought = closure({name}) - closure(direct - {name}) - {name}
+        rows.append(
+            (size(name), sum(map(size, brought)), name, ", ".join(sorted(brought, key=size)[::-1][:3]))
+        )
+    lines = ["| dependency | MB | and brings | MB | for |", "|---|---|---|---|---|"]
+    for own, more, name, brought in sorted(rows, reverse=True):
+        lines.append(
+            f"| {name} | {own:.1f} | {brought} | {f'{more:.1f}' if brought else ''} | {PURPOSES[name]} |"
+        )
+    everything = closure(direct)
+    lines.append(f"| all {len(everything)} | {sum(map(size, everything)):.0f} | | | |")
+    return lines
+
+
+if __name__ == "__main__":
+    print("\n".join(table()))

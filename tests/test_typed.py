@@ -1,0 +1,68 @@
+"""What editors and type checkers know of the public names."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+import roughcontact as rc
+from public_names import public_names
+from roughcontact.theory.laws import Knowns, SurfaceFacts
+
+# What has no type: tables of pandas, views of mpl_toolkits, options of Dask's cluster, entries of a study's file, and
+# what a figure of the thesis draws, each its own.
+UNTYPED = {
+    "roughcontact.Curve.to_dataframe",
+    "roughcontact.plot.surface_view",
+    "roughcontact.study.Range.values",
+    "roughcontact.study.Slurm",
+    "roughcontact.thesis.SimpleFigure.case",
+}
+WRONG = (
+    "roughcontact.Curv",
+    "roughcontact.theory.hurtz",
+    "roughcontact.theory.hertz.pint",
+    "roughcontact.mdr.x",
+)
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_the_types_of_all_public_names_are_known(pytestconfig, tmp_path):
+    """As mypy reveals them in a script of a user, in which it also sees a misspelt name."""
+    paths = [name.path for name in public_names()]
+    lines = ["import roughcontact", *(f"reveal_type({path})" for path in [*paths, *WRONG])]
+    script = tmp_path / "script.py"
+    script.write_text("\n".join(lines), encoding="utf-8")
+    cache = pytestconfig.cache.mkdir("mypy")  # of libraries, which take most of the time
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--config-file=",
+        "--cache-dir",
+        str(cache),
+        str(script),
+    ]
+    environment = os.environ | {"MYPYPATH": str(Path(rc.__file__).parent.parent)}
+    answer = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=tmp_path).stdout
+    revealed = {
+        paths[int(line) - 2]: what
+        for line, what in re.findall(r':(\d+): note: Revealed type is "(.*)"$', answer, re.MULTILINE)
+        if int(line) - 2 < len(paths)
+    }
+    assert revealed.keys() == set(paths)
+    # A whole type that is Any; parts of NumPy's own types are.
+    unknown = {path for path, what in revealed.items() if re.search(r"(^|-> |: |\| )Any( \||$|,|\))", what)}
+    assert unknown == UNTYPED
+    refused = re.findall(r":(\d+): error: .*\[attr-defined\]$", answer, re.MULTILINE)
+    assert [int(line) - 2 - len(paths) for line in refused] == [*range(len(WRONG))]
+
+
+def test_keywords_of_theories_are_the_fields_of_what_they_become():
+    assert ["modulus", *Knowns.__annotations__] == [field.name for field in fields(SurfaceFacts)]
