@@ -9,6 +9,9 @@ What is open has kept its shape and is only nearer to the flat by the rise u. So
 c = d - u is in contact, d the distance of the flat from the mean plane, and volume is conserved if u is the mean over
 the nominal area of what stood above c. The area gives c by the bearing curve of the heights before (Abbott's), and c
 gives u and d. Elastic deformation is left out.
+
+The paper itself could not be had: the area's formula is checked by its limits; the rise, the mean gap and the stiffness
+follow from it here.
 """
 
 from __future__ import annotations
