@@ -15,6 +15,7 @@ from public_names import PublicName, public_names
 
 HOME = "roughcontact"
 TITLES = {
+    "adhesion": "Adhesion",
     "contact": "Contact",
     "files": "Files",
     "friction": "Friction",
