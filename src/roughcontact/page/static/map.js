@@ -12,7 +12,10 @@ export function mapView(canvas, bar, heard) {
   const picture = document.createElement("canvas");
   const context = canvas.getContext("2d");
 
-  const shown = () => state.fields[state.which === "contact" ? "pressure" : state.which];
+  const fieldOf = (which) => state.fields[which === "contact" ? "pressure" : which];
+  // What was chosen, as soon as it is computed; until then the heights.
+  const kind = () => (fieldOf(state.which) ? state.which : "heights");
+  const shown = () => fieldOf(kind());
 
   function css(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -28,8 +31,8 @@ export function mapView(canvas, bar, heard) {
   }
 
   function ends(field) {
-    if (state.which === "heights") return { low: field.ends[0], high: field.ends[1], beyond: false };
-    if (state.which === "gap") return { low: 0, high: Math.max(field.ends[1], 1e-300), beyond: false };
+    if (kind() === "heights") return { low: field.ends[0], high: field.ends[1], beyond: false };
+    if (kind() === "gap") return { low: 0, high: Math.max(field.ends[1], 1e-300), beyond: false };
     const some = [];
     const stride = Math.max(1, Math.floor(field.values.length / 250000));
     for (let k = 0; k < field.values.length; k += stride) if (field.values[k] > 0) some.push(field.values[k]);
@@ -49,12 +52,12 @@ export function mapView(canvas, bar, heard) {
     const table = COLOURS[state.colours];
     const scale = high > low ? 255 / (high - low) : 0;
     const none = packed(css("--map-none"));
-    if (state.which === "contact") paintContact(out, field);
+    if (kind() === "contact") paintContact(out, field);
     else {
       for (let k = 0; k < out.length; k++) {
         const value = field.values[k];
         if (Number.isNaN(value)) continue; // what was not measured shows the ground
-        if (state.which === "pressure" && value === 0) out[k] = none;
+        if (kind() === "pressure" && value === 0) out[k] = none;
         else out[k] = table[Math.min(255, Math.max(0, (value - low) * scale)) | 0];
       }
     }
@@ -83,7 +86,7 @@ export function mapView(canvas, bar, heard) {
   }
 
   function paintBar(low, high, beyond, unit) {
-    const contact = state.which === "contact";
+    const contact = kind() === "contact";
     bar.root.classList.toggle("keyed", contact);
     bar.low.textContent = contact ? "" : written(low, unit, 3);
     bar.high.textContent = contact ? "" : (beyond ? "≥ " : "") + written(high, unit, 3);
@@ -257,11 +260,10 @@ export function mapView(canvas, bar, heard) {
     set(name, header, buffer) {
       state.fields[name] = { ...header, values: new Float32Array(buffer) };
       fit();
-      if (name === state.which || (state.which === "contact" && name === "pressure")) paint();
+      if (state.fields[name] === shown()) paint();
     },
     clear(...names) {
       for (const name of names) delete state.fields[name];
-      if (!shown()) state.which = "heights";
     },
   };
 }
