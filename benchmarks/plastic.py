@@ -34,7 +34,7 @@ def stiffnesses(loop: rc.Loop, elastic: rc.Curve) -> None:
         elastic.interfacial_stiffness_per_area / UNIT,
     )
     print(
-        "| p [MPa] | A/A0 [%] | of it plastic [%] | first loading | turned back there | unloaded from 100 MPa "
+        "| p [MPa] | A/A0 [%] | of it plastic [%] | first loading | where unloading begins | unloaded from 100 MPa "
         "| elastic |"
     )
     print("|---" * 7 + "|")
@@ -71,7 +71,7 @@ def checks(loop: rc.Loop, surface: rc.Surface) -> None:
 
 def small_spots(surface: rc.Surface) -> None:
     """Print what a hardness by the size of spots changes."""
-    print("\n| p [MPa] | A/A0, H [%] | A/A0, H(a) [%] | K/A0 turned back, H | K/A0 turned back, H(a) |")
+    print("\n| p [MPa] | A/A0, H [%] | A/A0, H(a) [%] | K/A0 where unloading begins, H | K/A0 where unloading begins, H(a) |")
     print("|---" * 5 + "|")
     one, law = (
         rc.loading_curve(surface, MODULUS, pressures=PRESSURES, hardness=h) for h in (HARDNESS, SMALL)

@@ -374,6 +374,8 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
     assert "flattened.png" in answer.stderr
     told = invoke(*words, "--hardness", "5GPa", "--flow", "raised").stdout
     assert "residual depth" in told
+    assert "nothing flowed" in invoke(*words, "--hardness", "5000GPa").stderr
+    assert "nothing flowed" not in answer.stderr
     first = invoke(*words[:3], "1N", *words[6:], "--hardness", "5GPa").stdout
     assert "stiffness on unloading" in first
 

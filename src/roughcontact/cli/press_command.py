@@ -96,6 +96,8 @@ def press(
                 solution = _solve(surface, modulus, **given, **limits)
             else:
                 solution = plastic.last_of(surface, modulus, given, first, limits)
+                if solution.flow is None or not solution.flow.volume:
+                    note("nothing flowed: the contact is elastic")
             found = errors.of([solution])
             budget = {"errors": found[0].to_record() if found else None}
             with doing("Stiffness, spots and files"):

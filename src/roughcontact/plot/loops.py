@@ -107,7 +107,7 @@ def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
 
     if loop.loading.flow is not None:
         turns = loop.loading.flow.unloading_interfacial_stiffness / loop.loading.nominal_area
-        draw(loop.loading.nominal_pressure, turns, color="0.3", linewidth=1.0, label="as it is turned back")
+        draw(loop.loading.nominal_pressure, turns, color="0.3", linewidth=1.0, label="where unloading begins")
     for name, curve in loop.curves.items():
         draw(curve.nominal_pressure, values[name], markersize=4.5, linestyle="none", **_STYLES[name])
     for axis, drawn in ((axes.xaxis, loop.loading.nominal_pressure), (axes.yaxis, finite)):
