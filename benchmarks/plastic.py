@@ -71,7 +71,7 @@ def checks(loop: rc.Loop, surface: rc.Surface) -> None:
 
 def small_spots(surface: rc.Surface) -> None:
     """Print what a hardness by the size of spots changes."""
-    print("\n| p [MPa] | A/A0, H [%] | A/A0, H(a) [%] | K/A0 where unloading begins, H | K/A0 where unloading begins, H(a) |")
+    print("\n| p [MPa] | A/A0, H [%] | A/A0, H(a) [%] | K/A0 at unloading, H | K/A0 at unloading, H(a) |")
     print("|---" * 5 + "|")
     one, law = (
         rc.loading_curve(surface, MODULUS, pressures=PRESSURES, hardness=h) for h in (HARDNESS, SMALL)
