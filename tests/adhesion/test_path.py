@@ -169,6 +169,8 @@ def test_what_cannot_be_is_refused_at_once():
         rc.press(surface, 1.0, pressure=1.0, adhesion=adhesion)
     with pytest.raises(ValueError, match="takes no hardness"):
         rc.loading_path(surface, 1.0, depths=[0.0], hardness=1.0, adhesion=adhesion)
+    with pytest.raises(ValueError, match="takes no flow"):
+        rc.loading_path(surface, 1.0, depths=[0.0], flow="raised", adhesion=adhesion)
     with pytest.raises(ValueError, match="exactly one of depths and forces"):
         rc.loading_path(surface, 1.0, adhesion=adhesion)
     with pytest.raises(ValueError, match="finite numbers"):

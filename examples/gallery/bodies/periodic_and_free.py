@@ -3,7 +3,7 @@ The same heights, periodic and free
 ===================================
 
 A periodic map is the inside of a large joint, a free one a patch alone on two half-spaces. The bodies under a
-patch give way too: its stiffness k stays below that of the interface, K.
+patch deform too: its stiffness k stays below that of the interface, K.
 """
 
 import matplotlib.pyplot as plt

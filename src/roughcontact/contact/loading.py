@@ -130,7 +130,8 @@ def loading_path(
     '1.03 uN, -0.44 uN, converged'
     """
     if adhesion is not None:
-        refused = {"pressures": pressures, "solver": solver, "hardness": hardness}
+        raised = None if flow == "removed" else flow
+        refused = {"pressures": pressures, "solver": solver, "hardness": hardness, "flow": raised}
         grid_of(surface)
         return sticking_states(surface, modulus, adhesion, depths, forces, operator, tolerance, **refused)
     raises, keeps = flow_reading(flow), hardness is not None
