@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from roughcontact.page.worker_process import WorkerEndedError, WorkerProcess
 
@@ -14,8 +15,15 @@ _BREATH = 3.0  # seconds before the next reserve is started: the first answer co
 
 @dataclass(slots=True, eq=False)
 class Crew:
-    """Gives workers away, and keeps one in reserve."""
+    """Gives workers away, and keeps one in reserve.
 
+    Parameters
+    ----------
+    folder : Path
+        For their temporary files, which go with the server even where they were killed.
+    """
+
+    folder: Path
     reserve: asyncio.Task[WorkerProcess] | None = None
     at_work: set[WorkerProcess] = field(default_factory=set)
     soon: asyncio.TimerHandle | None = None
@@ -61,7 +69,7 @@ class Crew:
             await self.dismiss(worker)
 
     async def _started(self) -> WorkerProcess:
-        worker = await WorkerProcess.start()
+        worker = await WorkerProcess.start(self.folder)
         self.at_work.add(worker)
         try:
             return await worker.ready()

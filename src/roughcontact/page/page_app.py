@@ -5,9 +5,8 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import secrets
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -22,15 +21,14 @@ from roughcontact.page.crew import Crew
 from roughcontact.page.frames import packed
 from roughcontact.page.guard import HEADERS, Guard
 from roughcontact.page.session import Session
-from roughcontact.page.uploads import LARGEST, TooLargeError, store
+from roughcontact.page.sessions import GIVEN, MOST_SESSIONS, Sessions
+from roughcontact.page.uploads import LARGEST, TooLargeError, TooSlowError, store
 from roughcontact.page.workbench import UploadedFile
 from roughcontact.page.worker_process import WorkerEndedError
 
 __all__ = ["PageServer", "application"]
 
-_MOST_SESSIONS = 8  # each is a process that computes
 _LONGEST_ORDER = 2**20  # bytes of JSON
-_GIVEN = "given"  # what the page calls the file of the command line
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -46,27 +44,27 @@ class PageServer:
     Parameters
     ----------
     guard : Guard
-    folder : Path
-        For files that are dropped; it goes with the server.
-    given : UploadedFile or None
-        The file of the command line.
+    sessions : Sessions
     """
 
     guard: Guard
-    folder: Path
-    given: UploadedFile | None = None
-    crew: Crew = field(default_factory=Crew)
-    sessions: dict[str, Session] = field(default_factory=dict)
+    sessions: Sessions
+
+    @classmethod
+    def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
+        """Return a server without sessions, whose files and those of its workers lie in a folder."""
+        scratch = folder / "scratch"
+        scratch.mkdir(mode=0o700)
+        return cls(guard, Sessions(Crew(scratch), folder, given))
 
     async def begin(self, _: Request) -> Response:
         """Open a session, for a tab that has none."""
-        if len(self.sessions) >= _MOST_SESSIONS:
-            words = f"{_MOST_SESSIONS} tabs are open already, each with a process that computes: close one."
+        key = await self.sessions.begin()
+        if key is None:
+            words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
             return JSONResponse({"message": words}, 503)
-        key = secrets.token_hex(16)
-        files = {} if self.given is None else {_GIVEN: self.given}
-        self.sessions[key] = Session.of(self.crew, self.folder / key, files)
-        given = None if self.given is None else {"file": _GIVEN, "name": self.given.name}
+        file = self.sessions.given
+        given = None if file is None else {"file": GIVEN, "name": file.name}
         return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
 
     async def upload(self, request: Request) -> Response:
@@ -81,8 +79,13 @@ class PageServer:
             key, file = await store(session.folder, name, size, request.stream())
         except TooLargeError as error:
             return JSONResponse({"message": str(error)}, 413, {"Connection": "close"})
+        except TooSlowError as error:
+            return JSONResponse({"message": str(error)}, 408, {"Connection": "close"})
         except ClientDisconnect:
             return Response(status_code=400)
+        except OSError as error:
+            words = f"The server cannot keep the file: {error.strerror or error}."
+            return JSONResponse({"message": words}, 507, {"Connection": "close"})
         session.files[key] = file
         return JSONResponse({"file": key, "name": file.name})
 
@@ -96,11 +99,8 @@ class PageServer:
             body += part
             if len(body) > _LONGEST_ORDER:
                 return JSONResponse({"message": "No order is that long."}, 413, {"Connection": "close"})
-        try:
-            asked = json.loads(body)
-        except ValueError:
-            asked = None
-        if not isinstance(asked, dict):
+        asked = _order(body)
+        if asked is None:
             return JSONResponse({"message": "An order is an object of JSON."}, 400)
         return _Streamed(session.perform(asked))
 
@@ -114,22 +114,26 @@ class PageServer:
 
     async def end(self, request: Request) -> Response:
         """End a session whose tab is closed."""
-        session = self.sessions.pop(request.query_params.get("session", ""), None)
-        if session is not None:
-            await session.end()
+        await self.sessions.end(request.query_params.get("session", ""))
         return JSONResponse({})
+
+    async def alive(self, request: Request) -> Response:
+        """Note that a tab is still there."""
+        return _no_session() if self._session(request) is None else JSONResponse({})
 
     @contextlib.asynccontextmanager
     async def lifespan(self, _: object) -> AsyncIterator[None]:
         """Have a worker ready from the start, and none left at the end."""
-        self.crew.prepare()
+        self.sessions.crew.prepare()
+        watching = asyncio.create_task(self.sessions.watch())
         try:
             yield
         finally:
-            await self.crew.end()
+            watching.cancel()
+            await self.sessions.crew.end()
 
     def _session(self, request: Request) -> Session | None:
-        return self.sessions.get(request.query_params.get("session", ""))
+        return self.sessions.find(request.query_params.get("session", ""))
 
 
 def application(server: PageServer) -> ASGIApp:
@@ -158,6 +162,7 @@ def application(server: PageServer) -> ASGIApp:
         Route("/file", server.upload, methods=["PUT"]),
         Route("/order", _Endpoint(server.perform), methods=["POST"]),
         Route("/stop", server.stop, methods=["POST"]),
+        Route("/alive", server.alive, methods=["POST"]),
         Route("/end", server.end, methods=["POST"]),
     ]
     return _Guarded(Starlette(routes=routes, lifespan=server.lifespan), server.guard)
@@ -182,8 +187,9 @@ class _Guarded:
     guard: Guard
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
+        if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
+        if scope["type"] != "http":
             return
 
         async def send_safely(message: Message) -> None:
@@ -230,6 +236,17 @@ class _Streamed:
 async def _left(receive: Receive) -> None:
     while (await receive())["type"] != "http.disconnect":
         pass
+
+
+def _order(body: bytes) -> dict[str, Any] | None:
+    """Return what a body asks for; None where that is no object, or holds numbers that JSON does not know."""
+    try:
+        asked = json.loads(body)
+        json.dumps(asked, allow_nan=False)
+    except (ValueError, RecursionError):
+        return None
+    plain = isinstance(asked, dict) and isinstance(asked.get("more"), dict | None)
+    return asked if plain else None
 
 
 def _no_session() -> Response:

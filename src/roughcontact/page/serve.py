@@ -41,10 +41,20 @@ def serve(file: Path | None, port: int, opened: Callable[[str], None]) -> None:
         listening.bind((_LOOPBACK, port))
         guard = Guard(listening.getsockname()[1], secrets.token_urlsafe(24))
         given = None if file is None else UploadedFile(file.resolve(), str(file))
-        with tempfile.TemporaryDirectory(prefix="roughcontact-page-") as folder:
-            server = PageServer(guard, Path(folder), given)
+        with tempfile.TemporaryDirectory(prefix="roughcontact-page-", ignore_cleanup_errors=True) as folder:
+            server = PageServer.of(guard, Path(folder), given)
             settings = uvicorn.Config(
-                application(server), log_level="error", timeout_graceful_shutdown=1, server_header=False
+                application(server),
+                # What is installed beside them changes nothing.
+                http="h11",
+                loop="asyncio",
+                ws="none",
+                lifespan="on",
+                proxy_headers=False,
+                server_header=False,
+                access_log=False,  # addresses hold keys
+                log_level="error",
+                timeout_graceful_shutdown=1,
             )
             listening.listen(64)
             opened(f"http://{_LOOPBACK}:{guard.port}/?token={guard.token}")
