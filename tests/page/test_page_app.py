@@ -81,6 +81,21 @@ def test_the_token_leaves_the_address_and_lives_where_no_script_sees_it(server):
     assert found["referrer-policy"] == "no-referrer"
 
 
+def test_what_all_users_of_the_machine_can_read_opens_the_page_once(tmp_path):
+    server = PageServer.of(Guard(8765, "key", "once"), tmp_path)
+    first, second, cookie = asked(
+        server,
+        ("GET", "/", "token=once", (HOST,)),
+        ("GET", "/", "token=once", (HOST,)),
+        ("GET", "/", "", (HOST, ("cookie", "roughcontact-8765=once"))),
+    )
+    assert "roughcontact-8765=key" in first["set-cookie"]
+    assert "set-cookie" not in dict(second.headers)
+    assert cookie.status == 403
+    [again] = asked(server, ("GET", "/", "token=key", (HOST,)))
+    assert "set-cookie" in dict(again.headers)
+
+
 def test_the_policy_allows_no_script_but_its_files_and_the_page_needs_none():
     assert "unsafe" not in HEADERS["Content-Security-Policy"]
     assert "http" not in HEADERS["Content-Security-Policy"]

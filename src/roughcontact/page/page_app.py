@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -45,10 +45,16 @@ class PageServer:
     ----------
     guard : Guard
     sessions : Sessions
+    closing : asyncio.Event
+        Set when the server is about to end: answers that are still on their way are broken off.
+    opened : bool
+        Whether the token that opens the page once was used.
     """
 
     guard: Guard
     sessions: Sessions
+    closing: asyncio.Event = field(default_factory=asyncio.Event)
+    opened: bool = False
 
     @classmethod
     def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
@@ -102,7 +108,7 @@ class PageServer:
         asked = _order(body)
         if asked is None:
             return JSONResponse({"message": "An order is an object of JSON."}, 400)
-        return _Streamed(session.perform(asked))
+        return _Streamed(session.perform(asked), self.closing)
 
     async def stop(self, request: Request) -> Response:
         """Stop an order."""
@@ -142,12 +148,13 @@ def application(server: PageServer) -> ASGIApp:
     entry = files.pop("/index.html")
 
     async def page(request: Request) -> Response:
-        if server.guard.entered(request.url.query):
+        guard, query = server.guard, request.url.query
+        if guard.entered(query):
             # The token leaves the address line, where it would be read over a shoulder.
             response: Response = RedirectResponse("/", 303)
-            response.set_cookie(
-                server.guard.cookie, server.guard.token, httponly=True, samesite="strict", path="/"
-            )
+            if not (guard.entered_once(query) and server.opened):
+                server.opened = server.opened or guard.entered_once(query)
+                response.set_cookie(guard.cookie, guard.token, httponly=True, samesite="strict", path="/")
             return response
         return Response(entry, media_type=_TYPES[".html"])
 
@@ -206,21 +213,24 @@ class _Guarded:
 
 @dataclass(frozen=True, slots=True)
 class _Streamed:
-    """Messages as they come; where the browser goes away, no more are asked for."""
+    """Messages as they come; where the browser goes away, or the server is to end, no more are asked for."""
 
     messages: AsyncIterator[bytes]
+    closing: asyncio.Event
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         headers = [(b"content-type", b"application/octet-stream")]
         await send({"type": "http.response.start", "status": 200, "headers": headers})
-        sending, leaving = asyncio.create_task(self._send(send)), asyncio.create_task(_left(receive))
+        sending = asyncio.create_task(self._send(send))
+        others = [asyncio.create_task(_left(receive)), asyncio.create_task(self.closing.wait())]
         try:
-            await asyncio.wait({sending, leaving}, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait({sending, *others}, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            leaving.cancel()
-            sending.cancel()
+            for each in (sending, *others):
+                each.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await sending
+        await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     async def _send(self, send: Send) -> None:
         async with contextlib.aclosing(self.messages) as messages:  # type: ignore[type-var]
@@ -230,7 +240,6 @@ class _Streamed:
             except WorkerEndedError as error:
                 end = packed({"type": "end", "how": "died", "message": str(error)})
                 await send({"type": "http.response.body", "body": end, "more_body": True})
-        await send({"type": "http.response.body", "body": b"", "more_body": False})
 
 
 async def _left(receive: Receive) -> None:
