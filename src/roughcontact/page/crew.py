@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -46,11 +47,11 @@ class Crew:
         reserve, self.reserve = self.reserve, None
         if self.soon is None:
             self.soon = asyncio.get_running_loop().call_later(_BREATH, self.prepare)
-        if reserve is None:
-            raise WorkerEndedError
-        taken = await reserve
-        # It may have been killed while it waited.
-        return taken if taken.alive else await self._started()
+        # It may have been killed while it started, or while it waited.
+        with contextlib.suppress(WorkerEndedError):
+            if reserve is not None and (taken := await reserve).alive:
+                return taken
+        return await self._started()
 
     async def dismiss(self, worker: WorkerProcess) -> None:
         """End a worker."""
