@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import re
+from pathlib import Path
 from typing import Any
 
 from roughcontact.files.file_errors import ReadError
+from roughcontact.files.own_errors import is_ours
 
 __all__ = ["refusal"]
 
@@ -28,10 +31,17 @@ def refusal(error: Exception) -> dict[str, Any]:
             "remedy": _sentence(remedy),
             "lacking": lacking,
         }
-    if isinstance(error, ValueError | OSError):
-        return {"how": "refused", "message": _sentence(str(error))}
+    if isinstance(error, ValueError | OSError) and is_ours(error):
+        return {"how": "refused", "message": _sentence(_words(error))}
     words = f"{type(error).__name__}: {error}"
     return {"how": "mistake", "message": f"This is a mistake in roughcontact, not in your input: {words}"}
+
+
+def _words(error: ValueError | OSError) -> str:
+    """Return a message without the folder in which the server keeps the file: its user knows the name alone."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"the file {Path(os.fsdecode(error.filename)).name}: {error.strerror or error}"
+    return str(error)
 
 
 def _sentence(text: str) -> str:

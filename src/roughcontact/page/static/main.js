@@ -74,6 +74,7 @@ function ended(end) {
 }
 
 async function pump() {
+  by("view").setAttribute("aria-busy", String(Boolean(front || wanted.look || wanted.press || wanted.cut)));
   if (front) {
     const stale = (front.job === "press" && (wanted.press || wanted.look)) || (front.job === "look" && wanted.look);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
