@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from roughcontact.files.file_errors import ReadError
+from roughcontact.page.field_error import FieldError
 
 __all__ = ["refusal"]
 
@@ -15,6 +16,8 @@ _FIELDS = {"unit": "the unit of the heights", "size": "the width of the map", "c
 
 def refusal(error: Exception) -> dict[str, Any]:
     """Return how an order ended that raised an error: refused, or with a mistake of this program."""
+    if isinstance(error, FieldError):
+        return refusal(error.error) | {"field": error.field}
     if isinstance(error, ReadError):
         lacking = [name for name in _FIELDS if re.search(rf"\b{name}=", error.remedy)]
         remedy = error.remedy
