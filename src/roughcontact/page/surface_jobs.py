@@ -51,7 +51,7 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": [_on_the_page(line) for line in warned],
+            "warned": [_on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
             "missing": surface.missing,
             "raw": {**_place(raw), "shape": raw.grid.shape, "missing": raw.missing},
             "command": statement.command,
@@ -97,7 +97,6 @@ def study(order: Order, bench: Workbench, send: Send) -> None:
 # What readers advise as calls of Python, as the fields of the page.
 _ADVICE = {
     "pass channel= for another": "choose another under Channel",
-    "remove what is faulty by despiked() before it is pressed": "take them out under Spikes",
     "take them out by masked()": "crop them away",
     "unit=": "the unit of the heights",
     "size=": "the width",

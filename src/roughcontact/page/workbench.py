@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.length_units import length_factor
-from roughcontact.files.quantity import LENGTH, PRESSURE, parse, parse_number, parse_with_unit
+from roughcontact.files.quantity import LENGTH, Kind, parse, parse_number, parse_with_unit
 from roughcontact.page.field_error import at_field
 from roughcontact.page.preparation_calls import calls_of
 from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoads, PageRecipe
@@ -27,6 +27,7 @@ __all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_lo
 
 T = TypeVar("T")
 _KEPT = 2  # of each: the one that is looked at, and the one before it
+_MODULUS, _HARDNESS = Kind("a modulus", "Pa", "100GPa"), Kind("a hardness", "Pa", "2GPa")
 _MOST_POINTS = 4096  # a side of a surface that is made: more is for the command line
 
 
@@ -228,9 +229,12 @@ def _slope(surface: Surface) -> float:
 def _stiff(text: str, field: str) -> float:
     """Return the modulus or hardness [Pa] of a field."""
     with at_field(field):
-        value = parse_with_unit(text, PRESSURE)
+        kind = _HARDNESS if field == "hardness" else _MODULUS
+        value = parse_with_unit(text, kind)
         if value <= 0:
-            raise ValueError(f"{text!r} is not positive: give a modulus or hardness above zero, such as 2GPa")
+            raise ValueError(
+                f"{text!r} is not positive: write {kind.name} above zero, such as {kind.example}"
+            )
         return value
 
 
