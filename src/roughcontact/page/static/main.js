@@ -15,6 +15,7 @@ import { loadText, loadValue } from "./words.js";
 
 const UNITS = { pressure: "Pa", force: "N", depth: "m" };
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
+const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
 const LULL = 250; // milliseconds without another wish, before what takes longer is begun
 // What an answer follows from; a load that moves on meanwhile still shows its maps.
 const BASES = { look: ["source", "preparation"], study: ["source", "preparation"], bodies: ["bodies"] };
@@ -102,6 +103,7 @@ function ended(end, job) {
 }
 
 async function pump() {
+  by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
     const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
