@@ -106,7 +106,7 @@ async function pump() {
   by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
     const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
-    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
+    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }
   const job = next();
@@ -284,6 +284,7 @@ try {
   largest = begun.largest;
   bodies = bodyFields(recipe, begun.materials);
   listen();
+  document.querySelector("main").inert = false; // before, nobody would answer
   show();
   pump();
   const [early] = by("file").files; // chosen before the server had answered
