@@ -39,7 +39,9 @@ def problem(size: int, irwin: float, seed: int) -> tuple[Field, float, float, fl
     return heights, float(adhesion.work), adhesion.range, 0.3 * float(heights.max() - heights.mean())
 
 
-def by_adhesion(heights: Field, work: float, reach: float, depth: float, _: float) -> tuple[Field, float, str]:
+def by_adhesion(
+    heights: Field, work: float, reach: float, depth: float, _: float
+) -> tuple[Field, float, str]:
     """Minimise over the gap at the offset whose rigid penetration is the depth."""
     import scipy.optimize
     from Adhesion.Interactions import Exponential
@@ -106,8 +108,8 @@ def by_us(heights: Field, work: float, reach: float, _: float, mean: float) -> t
 def violation(heights: Field, gap: Field, work: float, reach: float) -> float:
     """Return the largest violation of equilibrium relative to the largest traction."""
     from roughcontact import Grid
-    from roughcontact.adhesion.attraction import Attraction
     from roughcontact.adhesion.elastic_form import elastic_form
+    from roughcontact.adhesion.exponential_law import ExponentialLaw
     from roughcontact.adhesion.gap_energy import GapEnergy
     from roughcontact.halfspace.operators.build import body_on
 
@@ -115,7 +117,7 @@ def violation(heights: Field, gap: Field, work: float, reach: float) -> float:
     gap = np.where(gap <= CLOSED * reach, 0.0, gap)
     displacement = gap + heights
     displacement -= displacement.mean()
-    energy = GapEnergy(form, Attraction(work, reach), displacement - gap)
+    energy = GapEnergy(form, ExponentialLaw(work, reach), displacement - gap)
     point = energy.at(displacement)
     return energy.residual(point) / energy.scale(point)
 
@@ -149,7 +151,16 @@ def _compare(options: argparse.Namespace, given: tuple[Field, float, float, floa
     mean = 0.0
     for program in PROGRAMS:
         call = [sys.executable, __file__, "--size", str(options.size), "--irwin", str(options.irwin)]
-        call += ["--seed", str(options.seed), "--program", program, "--mean", repr(mean), "--out", str(folder)]
+        call += [
+            "--seed",
+            str(options.seed),
+            "--program",
+            program,
+            "--mean",
+            repr(mean),
+            "--out",
+            str(folder),
+        ]
         subprocess.run(call, check=True)
         gaps[program] = np.load(folder / f"{program}.npy")
         lines[program] = tuple(json.loads((folder / f"{program}.json").read_text()))

@@ -8,10 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
-from roughcontact.adhesion.attraction import Adhesion, Attraction
+from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import elastic_form
+from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.adhesion.gradient_flow import REACH, released
+from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
@@ -23,7 +25,6 @@ __all__ = ["is_resolved", "states_along"]
 # Of the way from beyond the attraction to the largest depth (or of the largest force): how closely the end of a branch
 # is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
 BRACKET = 1e-8
-NEAR = 10.0  # ranges of the attraction, from which bodies under a given force draw near
 HARD = 1e-3  # residual of the contact without attraction, from which the attraction draws
 SHARP, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
 CELLS = 1.5  # that Irwin's length must span
@@ -94,8 +95,7 @@ def states_along(
         raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
     measured = np.isfinite(separation)
-    work = form.extended(np.where(measured, adhesion.work, 0.0), 0.0)
-    by_depth = DepthControl(form, Attraction(work, adhesion.range), separation)
+    by_depth = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
     resolved = is_resolved(adhesion, operator, modulus)
     if forces is not None:
         control = ForceControl.of(by_depth)
@@ -125,9 +125,9 @@ def _checked_forces(forces: Array) -> list[float]:
 def _apart(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
     """Return the displacement at which bodies from afar would rest if there were no attraction."""
     form, law = control.form, control.attraction
-    hard = replace(control, attraction=Attraction(0.0 * np.asarray(law.work), law.range)).energy_at(value)
+    hard = replace(control, attraction=ExponentialLaw(0.0, law.range)).energy_at(value)
     if isinstance(control, ForceControl) and value <= 0:
-        return form.extended(np.full(control.separation.shape, NEAR * law.range), 0.0)
+        return form.extended(np.full(control.separation.shape, law.near), 0.0)
     if isinstance(control, DepthControl) and not hard.obstacle.max() > 0:
         return np.zeros(form.shape)
     return minimise(hard, np.zeros(form.shape), counter, tolerance=HARD).point.displacement
