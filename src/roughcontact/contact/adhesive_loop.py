@@ -148,8 +148,14 @@ def adhesive_loop(
     rows: list[tuple[float, ...]] = []
     jumps: list[Jump] = []
     path = loading_path(
-        surface, modulus, depths=[*there, *back], operator=operator, tolerance=tolerance, adhesion=adhesion
+        surface,
+        modulus,
+        depths=[far, *there, *back],
+        operator=operator,
+        tolerance=tolerance,
+        adhesion=adhesion,
     )
+    next(path)  # jumps on the way from where nothing attracts count, too
     for k, state in enumerate(path):
         rows.append((state.depth, state.force, state.contact_area, state.energy, state.residual))
         jumps += state.jumps
