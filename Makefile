@@ -53,6 +53,7 @@ lint: $(ENV)/.ready-to-test
 docs: $(DOCS_ENV)/.ready
 	@rm -rf build/docs
 	@$(DOCS_ENV)/bin/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
+	  && $(DOCS_ENV)/bin/python docs/search_check.py build/docs \
 	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
 
 bench: $(BENCH_ENV)/.ready
@@ -84,7 +85,7 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 $(DOCS_ENV)/.ready: pyproject.toml
 	@$(call create,$(DOCS_ENV))
 	@echo "Installing what the site is built with ..."
-	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs]"
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs,formats]"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this
