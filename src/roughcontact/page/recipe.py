@@ -128,13 +128,23 @@ class PageLoad:
 
 @dataclass(frozen=True, slots=True)
 class PageLoads:
-    """The loads of a curve: from, to and how many, evenly spaced in the logarithm; or each by its number in SI."""
+    """The loads of a curve: from, to and how many, evenly spaced in the logarithm; or each by its number in SI.
+
+    Parameters
+    ----------
+    theories : tuple of str
+        What is laid over the curve.
+    conducting : bool
+        Whether what two named materials conduct belongs to it.
+    """
 
     control: Literal["force", "pressure", "depth"] = "force"
     start: str | None = None
     end: str | None = None
     count: int = 24
     values: tuple[float, ...] | None = None
+    theories: tuple[str, ...] = ()
+    conducting: bool = False
 
     @property
     def ends(self) -> tuple[float, float] | None:
