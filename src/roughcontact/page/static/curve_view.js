@@ -6,6 +6,7 @@ import { UNITS } from "./load_bar.js";
 import { facts, list } from "./numbers.js";
 import { statement } from "./statement.js";
 import { theoryList } from "./theory_list.js";
+import { trouble } from "./trouble.js";
 import { order } from "./wire.js";
 import { loadText } from "./words.js";
 
@@ -41,6 +42,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     show();
     try {
       const end = await sent.ended;
+      if (run === current) trouble("curve", end);
       if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
       else if (run === current && end.how === "stopped") say("Stopped before the first point.");
     } catch (error) {

@@ -61,11 +61,7 @@ export function loadBar(recipe) {
       show();
       return Boolean(spans);
     },
-    answered(header) {
-      state = header;
-      by("load").removeAttribute("aria-invalid");
-    },
-    refused: () => by("load").setAttribute("aria-invalid", "true"),
+    answered: (header) => (state = header),
     forget() {
       spans = state = null;
     },

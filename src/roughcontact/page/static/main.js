@@ -1,43 +1,69 @@
 // The page: what the user does changes the recipe, and the recipe says what is to be computed.
 
+import { bodyFields } from "./bodies.js";
 import { comparison } from "./comparison.js";
+import { cropFields } from "./crop.js";
 import { curveView } from "./curve_view.js";
 import { cutView } from "./cut_view.js";
 import { exports } from "./exports.js";
+import { holdings } from "./holds.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { numbersView } from "./numbers.js";
-import { EXAMPLES, example, fresh, history } from "./recipe.js";
+import { BLANK, EXAMPLES, example, fresh, history, titleOf } from "./recipe.js";
+import { settings } from "./settings.js";
+import { shortcuts } from "./shortcuts.js";
+import { trouble } from "./trouble.js";
 import { begin, order, upload } from "./wire.js";
+import { welcome } from "./welcome.js";
 
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
+const LULL = 250; // milliseconds without another wish, before what takes longer is begun
+// What an answer follows from; a load that moves on meanwhile still shows its maps.
+const BASES = { look: ["source", "preparation"], study: ["source", "preparation"], bodies: ["bodies"] };
 const by = (id) => document.getElementById(id);
 let largest = Infinity;
 let front = null;
-let curve = null; // when the server has said which theories it knows
-const wanted = { look: false, press: false, cut: false };
+let lull = null;
+let bodies = null; // when the server has said which materials it knows
+let curve = null; // and which theories
+const names = {}; // of files, by what the server calls them
+const wanted = { look: false, press: false, cut: false, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
 const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
-  crop: cropped,
+  crop: (part) => { by("crop").click(); crop.dragged(part); },
+  small: () => say("A crop holds at least 4 × 4 cells: drag further, or type rows and columns under Preparation."),
   cut: (axis, place) => cut.at(axis, place),
 });
 const recipe = history(changed);
-const numbers = numbersView();
+const crop = cropFields(recipe);
+const fields = settings(recipe);
+const holds = holdings(recipe, crop);
 const load = loadBar(recipe);
+const numbers = numbersView();
 const cut = cutView(map, () => { wanted.cut = true; pump(); });
 const compare = comparison({ recipe, map, failed, changed: (kept) => curve.keep(kept), curveFacts: () => curve.facts });
+const place = welcome(EXAMPLES, (each) => source(example(each)));
 
 function changed(now, before) {
   const differs = (name) => JSON.stringify(now[name]) !== JSON.stringify(before[name]);
   if (differs("source") || differs("preparation")) {
-    wanted.look = Boolean(now.source);
+    wanted.look = wanted.study = Boolean(now.source);
+    holds.wait();
     map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
     load.forget();
     cut.forget();
     numbers.forget();
   }
+  if (differs("source")) {
+    crop.of(null);
+    fields.forget();
+    holds.forget();
+    place.of(titleOf(now.source, names));
+  }
+  if (differs("bodies")) wanted.bodies = true;
   if (["source", "preparation", "bodies"].some(differs)) curve.forget();
   if (["source", "preparation", "bodies", "load"].some(differs)) wanted.press = Boolean(now.source);
   show();
@@ -45,41 +71,49 @@ function changed(now, before) {
 }
 
 function show() {
-  const { source, preparation, bodies } = recipe.now;
+  const { source } = recipe.now;
   [by("undo").disabled, by("redo").disabled] = [!recipe.can.undo, !recipe.can.redo];
-  by("open").hidden = !source || source.kind !== "file";
-  for (const name of ["level", "despike", "short_cutoff", "long_cutoff"]) by(name).value = preparation[name] || "";
-  by("fill").checked = preparation.fill;
-  by("uncrop").hidden = !preparation.crop;
-  [by("first").value, by("second").value] = bodies.materials;
-  load.show();
-  curve.show();
+  const title = titleOf(source, names);
+  by("name").textContent = title;
+  document.title = title ? `${title} – roughcontact` : "roughcontact";
+  for (const each of [fields, crop, bodies, holds, load, curve]) each.show();
 }
 
 function failed(error) {
   say(error.message);
 }
 
-function ended(end) {
+function ended(end, job) {
+  const field = trouble(job, end);
+  // A file that leaves something open asks for it.
+  if (field && end.lacking && document.activeElement === document.body) field.focus();
   if (end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
   return end.how === "done";
 }
 
 async function pump() {
   if (front) {
-    const stale = (front.job === "press" && (wanted.press || wanted.look)) || (front.job === "look" && wanted.look);
+    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
     return;
   }
-  const job = wanted.look ? "look" : wanted.press ? "press" : wanted.cut ? "cut" : null;
-  if (!job) return;
+  const job = next();
+  clearTimeout(lull);
+  if (job === "study") lull = setTimeout(() => !front && next() === "study" && perform("study"), LULL);
+  else if (job) perform(job);
+}
+
+const next = () => ["look", "press", "cut", "bodies", "study"].find((job) => wanted[job]);
+
+async function perform(job) {
   const more = job === "cut" ? cut.wanted : { pixels: map.pixels() };
   wanted[job] = false;
-  if (!more) return;
-  const asked = JSON.stringify(recipe.now);
-  const sent = order("front", job, recipe.now, more, (header, data) => {
+  if (!more) return pump();
+  const basis = () => JSON.stringify(job in BASES ? BASES[job].map((name) => recipe.now[name]) : recipe.now);
+  const asked = basis();
+  const sent = order("front", job, { ...recipe.now, source: recipe.now.source || BLANK }, more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
-    if (wanted.look || (asked !== JSON.stringify(recipe.now) && !load.dragged)) return;
+    if ((wanted.look && !(job in BASES)) || (asked !== basis() && !load.dragged)) return;
     heard(header, data);
   });
   front = { job, sent, timer: null };
@@ -91,18 +125,21 @@ async function pump() {
   }
   clearTimeout(front.timer);
   front = null;
-  ended(end);
-  if (job === "look" && end.how !== "done") wanted.press = false;
-  if (job === "press" && end.how === "refused") load.refused();
+  ended(end, job);
+  if (job === "look" && end.how !== "done") wanted.press = wanted.study = false;
+  if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
   if (job === "press" && end.how === "done") wanted.cut = true;
+  if (job === "study" && end.how === "stopped") wanted.study = true;
   pump();
 }
 
 function heard(header, data) {
-  if (header.type === "map") map.set(header.map, header, data);
+  if (header.type === "map") { map.set(header.map, header, data); place.done(); }
   else if (header.type === "doing") say(`${header.words} …`);
-  else if (header.type === "channels") channels(header.channels);
-  else if (header.type === "surface") numbers.tell(header);
+  else if (header.type === "channels") { fields.channels(header.channels); holds.channels(header.channels); }
+  else if (header.type === "surface") { surface(header); numbers.tell(header); }
+  else if (header.type === "bodies") bodies.say(header);
+  else if (["doubts", "heights", "spectrum", "roughness"].includes(header.type)) holds.study(header);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
   else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.advice); }
   else if (header.type === "numbers") answered(header);
@@ -118,46 +155,39 @@ function answered(header) {
   show();
 }
 
-function channels(found) {
-  by("channel").replaceChildren(...found.map((each) => new Option(each.name)));
-  const chosen = recipe.now.source.channel;
-  if (chosen) by("channel").value = chosen;
-}
-
-function cropped([top, bottom, left, right]) {
-  by("crop").click();
-  recipe.change(({ preparation }) => {
-    const [y, , x] = preparation.crop || [0, 0, 0, 0];
-    preparation.crop = [y + top, y + bottom, x + left, x + right];
-  });
+function surface(header) {
+  crop.of(header.raw);
+  fields.of(header.raw);
+  holds.surface(header);
 }
 
 async function opened(file) {
   if (file.size > largest) return say(`The file is larger than ${Math.round(largest / 2 ** 20)} MB.`);
   say(`Reading ${file.name} …`);
   try {
-    source({ kind: "file", ...(await upload(file)) });
+    given(await upload(file));
   } catch (error) {
     failed(error);
   }
 }
 
-function source({ name, ...found }) {
-  by("name").textContent = name;
+function given({ file, name }) {
+  names[file] = name;
+  source({ kind: "file", file });
+}
+
+function source(found) {
   recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(), load: null }));
 }
 
 function listen() {
   by("file").onchange = (event) => event.target.files[0] && opened(event.target.files[0]);
-  addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) opened(event.dataTransfer.files[0]); });
+  const dragging = (on) => document.body.classList.toggle("dragged", on);
+  addEventListener("dragover", (event) => { event.preventDefault(); dragging(true); });
+  addEventListener("dragleave", (event) => event.relatedTarget || dragging(false));
+  addEventListener("drop", (event) => { event.preventDefault(); dragging(false); if (event.dataTransfer.files[0]) opened(event.dataTransfer.files[0]); });
   EXAMPLES.forEach((each, k) => by("example").add(new Option(`${each.name}: ${each.about}`, k)));
-  by("example").onchange = ({ target }) => target.value && source({ name: EXAMPLES[target.value].name, ...example(EXAMPLES[target.value]) });
-  for (const name of ["channel", "unit", "width"]) by(name).onchange = ({ target }) => recipe.change((next) => (next.source[name] = target.value || null));
-  for (const name of ["level", "despike", "short_cutoff", "long_cutoff"]) by(name).onchange = ({ target }) => recipe.change((next) => (next.preparation[name] = target.value || null));
-  by("fill").onchange = ({ target }) => recipe.change((next) => (next.preparation.fill = target.checked));
-  by("uncrop").onclick = () => recipe.change((next) => (next.preparation.crop = null));
-  ["first", "second"].forEach((name, k) => (by(name).onchange = ({ target }) => recipe.change((next) => (next.bodies.materials[k] = target.value))));
+  by("example").onchange = ({ target }) => { if (target.value) source(example(EXAMPLES[target.value])); target.value = ""; };
   for (const button of document.querySelectorAll("[data-map]")) button.onclick = () => {
     map.state.which = button.dataset.map;
     for (const each of document.querySelectorAll("[data-map]")) each.setAttribute("aria-pressed", String(each === button));
@@ -169,17 +199,22 @@ function listen() {
   [by("undo").onclick, by("redo").onclick] = [recipe.undo, recipe.redo];
   by("keep").onclick = () => compare.keep(curve.kept);
   exports(by("export"), { wanted: () => ({ ...recipe.now, loads: curve.loads() }), say, failed });
-  matchMedia("(prefers-color-scheme: dark)").onchange = () => map.paint();
+  shortcuts({ ...recipe, leave: () => map.state.mode === "crop" && by("crop").click() });
+  new MutationObserver(() => { map.paint(); compare.show(); }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+  for (const each of document.querySelectorAll("#settings .group, #curves details[open]")) each.open = innerWidth >= 760;
 }
 
 try {
-  const given = await begin();
-  largest = given.largest;
-  for (const name of ["first", "second"]) for (const each of [...Object.keys(given.materials), "rigid"]) by(name).add(new Option(each));
-  curve = curveView({ recipe, known: given.theories, usual: load.usual, failed, ended: compare.show });
+  const begun = await begin();
+  largest = begun.largest;
+  bodies = bodyFields(recipe, begun.materials);
+  curve = curveView({ recipe, known: begun.theories, usual: load.usual, failed, ended: compare.show });
   listen();
   show();
-  if (given.given) source({ kind: "file", ...given.given });
+  pump();
+  const [early] = by("file").files; // chosen before the server had answered
+  if (early) opened(early);
+  else if (begun.given) given(begun.given);
 } catch (error) {
   failed(error);
 }

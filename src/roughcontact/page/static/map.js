@@ -233,7 +233,7 @@ export function mapView(canvas, bar, heard) {
     const columns = [drag.first.column, drag.last.column].sort((a, b) => a - b);
     if (rows[1] - rows[0] >= 3 && columns[1] - columns[0] >= 3) {
       heard.crop([rows[0], rows[1] + 1, columns[0], columns[1] + 1]);
-    }
+    } else heard.small();
   });
   canvas.addEventListener("pointerleave", () => heard.over("", null));
   canvas.addEventListener("keydown", (event) => {
@@ -299,7 +299,9 @@ export function mapView(canvas, bar, heard) {
     ends: (which) => (kind() === which && shown() ? ownEnds(shown()) : null),
     clear(...names) {
       for (const name of names) delete state.fields[name];
+      if (!shown()) draw();
     },
+    has: (name) => name in state.fields,
   };
 }
 
