@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -101,7 +102,7 @@ def written_value(value: Any) -> str:
     if isinstance(value, slice):
         return f"slice({value.start}, {value.stop})"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, tuple):
         return "(" + ", ".join(written_value(each) for each in value) + ("," if len(value) == 1 else "") + ")"
     return repr(value)

@@ -18,6 +18,7 @@ import { begin, order, upload } from "./wire.js";
 import { welcome } from "./welcome.js";
 
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
+const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
 const LULL = 250; // milliseconds without another wish, before what takes longer is begun
 // What an answer follows from; a load that moves on meanwhile still shows its maps.
 const BASES = { look: ["source", "preparation"], study: ["source", "preparation"], bodies: ["bodies"] };
@@ -92,9 +93,10 @@ function ended(end, job) {
 }
 
 async function pump() {
+  by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
     const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
-    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
+    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }
   const job = next();
@@ -210,6 +212,7 @@ try {
   bodies = bodyFields(recipe, begun.materials);
   curve = curveView({ recipe, known: begun.theories, usual: load.usual, failed, ended: compare.show });
   listen();
+  document.querySelector("main").inert = false; // before, nobody would answer
   show();
   pump();
   const [early] = by("file").files; // chosen before the server had answered
