@@ -45,6 +45,10 @@ class Served:
         found = self.folder.glob("roughcontact-*/**/*")
         return [path for path in found if path.is_file()]
 
+    def sessions(self):
+        """Return the keys of the sessions that are open."""
+        return {path.name for path in self.folder.glob("roughcontact-page-*/*") if path.name != "scratch"}
+
     @contextlib.contextmanager
     def open(self, method, path, body=None, headers=(), *, host=None):
         """Yield the answer, of which nothing is read yet."""
