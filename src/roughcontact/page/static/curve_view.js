@@ -42,8 +42,9 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     show();
     try {
       const end = await sent.ended;
-      if (run === current) trouble("curve", end);
-      if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+      const field = run === current && trouble("curve", end);
+      if (field) say("");
+      else if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
       else if (run === current && end.how === "stopped") say("Stopped before the first point.");
     } catch (error) {
       failed(error);
