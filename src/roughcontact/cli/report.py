@@ -14,6 +14,8 @@ from roughcontact.cli.messages import note
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
+    bend_words,
+    curve_facts,
     load_table,
     loop_facts,
     quantity,
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
 __all__ = [
     "AREAL_COLUMNS",
     "CURVE_COLUMNS",
+    "bend_words",
+    "curve_facts",
     "doing",
     "emit",
     "load_table",
