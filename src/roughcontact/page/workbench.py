@@ -74,7 +74,8 @@ class Workbench:
                     surface, modulus_of(recipe.bodies), **given, hardness=hardness_of(recipe.bodies)
                 )
             except rc.ConvergenceError as error:
-                return error.solution
+                best: Solution = error.solution
+                return best
 
         return self._once("solution", replace(recipe, loads=None), pressed)
 
