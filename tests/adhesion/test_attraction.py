@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.adhesion.attraction import Attraction
+from roughcontact.adhesion.exponential_law import ExponentialLaw
 
 
 def test_the_attraction_is_the_slope_of_its_energy_and_does_the_work_of_adhesion():
-    law, gap, step = Attraction(0.05, 2e-9), np.linspace(0, 2e-8, 2001), 1e-13
+    law, gap, step = ExponentialLaw(0.05, 2e-9), np.linspace(0, 2e-8, 2001), 1e-13
     slope = (law.energy(gap + step) - law.energy(gap - step)) / (2 * step)
     # Third derivative of the energy times step^2/6, and rounding of the difference.
     np.testing.assert_allclose(slope, law.traction(gap), atol=law.traction(gap)[0] * (1e-9 + 1e-16 * 2e4))
@@ -19,7 +19,7 @@ def test_the_attraction_is_the_slope_of_its_energy_and_does_the_work_of_adhesion
 
 
 def test_small_changes_of_the_energy_keep_their_digits():
-    law, gap = Attraction(0.05, 2e-9), np.array([0.0, 1e-9])
+    law, gap = ExponentialLaw(0.05, 2e-9), np.array([0.0, 1e-9])
     step = 1e-25
     # exp(-step/range) differs from one by less than its rounding.
     np.testing.assert_allclose(
@@ -44,7 +44,7 @@ def test_numbers_of_the_law():
         ((0.0, 1e-9), "zero everywhere"),
         ((0.05, 0.0), "range of the attraction"),
         ((0.05, "2nm"), "range of the attraction"),
-        ((0.05, 2e-9, "dugdale"), "one of 'exponential', not 'dugdale'"),
+        ((0.05, 2e-9, "jkr"), "one of 'exponential', 'dugdale', not 'jkr'"),
     ],
 )
 def test_what_is_no_law_is_refused(given, told):

@@ -2,6 +2,7 @@
 
 import json
 import shlex
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,23 +19,28 @@ PREPARATIONS = [
     {},
     {"level": "none", "despike": "filled"},
     {"crop": [2, 40, 4, 44], "level": "quadratic", "short_cutoff": "8um"},
+    {"form": "cylinder", "fill": True, "long_cutoff": "20 um", "downsample": 2},
+    {"form": "5", "despike": "missing"},
+]
+BODIES = [
+    {"materials": ["rigid", "gold"], "hardness": "gold"},
+    {"materials": ["steel", "copper"], "hardness": "1.5 GPa"},
+    {"modulus": "57.5 GPa", "hardness": "2GPa"},
+    {"young": "210GPa", "poisson": "0.3"},
+    {"young": "210GPa", "poisson": "0.3", "young2": "70 GPa", "poisson2": "0.33"},
+]
+READINGS = [
+    {"unit": "nm", "width": "96um"},
+    {"unit": "1e-9", "width": "96 um", "height": "48um", "periodic": True},
 ]
 
 
-@pytest.mark.parametrize("preparation", PREPARATIONS, ids=["plain", "despiked", "prepared"])
-@pytest.mark.parametrize("made", [True, False], ids=["made", "file"])
-def test_command_and_python_give_the_same_numbers(made, preparation, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    file = tmp_path / "part.npz"
-    grid = rc.Grid((48, 48), 1e-6)
-    rc.write(rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(2)), file)
-    source = {"kind": "file", "file": "key"}
-    if made:
-        source = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "48um", "points": 48}
-    bodies, load = {"materials": ["steel", "aluminium"]}, {"control": "force", "text": "1.23 mN"}
+def check(source, preparation, bodies, file="part.npz"):
+    """Compare the numbers of the page with those of the commands and of the program that it states."""
+    load = {"control": "force", "text": "1.23 mN"}
     recipe = as_recipe({"source": source, "preparation": preparation, "bodies": bodies, "load": load})
-    shown = Workbench().solution(recipe, {"key": UploadedFile(file, "part.npz")})
-    statement = stated(recipe, "part.npz")
+    shown = Workbench().solution(recipe, {"key": UploadedFile(Path(file).resolve(), file)})
+    statement = stated(recipe, file)
     space = {}
     exec(statement.python, space)
     assert np.array_equal(space["solution"].pressure, shown.pressure)
@@ -47,6 +53,35 @@ def test_command_and_python_give_the_same_numbers(made, preparation, tmp_path, m
         shown.depth,
         shown.contact_area,
     )
+
+
+@pytest.fixture
+def part(tmp_path, monkeypatch):
+    """Write a measured surface into a folder of its own, and go there."""
+    monkeypatch.chdir(tmp_path)
+    grid = rc.Grid((48, 48), 1e-6)
+    rc.write(rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(2)), tmp_path / "part.npz")
+    return {"kind": "file", "file": "key"}
+
+
+@pytest.mark.parametrize("preparation", PREPARATIONS, ids=str)
+@pytest.mark.parametrize("made", [True, False], ids=["made", "file"])
+def test_command_and_python_give_the_same_numbers(made, preparation, part):
+    source = part
+    if made:
+        source = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "48um", "points": 48}
+    check(source, preparation, {"materials": ["steel", "aluminium"]})
+
+
+@pytest.mark.parametrize("bodies", BODIES, ids=str)
+def test_bodies_are_stated(bodies, part):
+    check(part, {}, bodies)
+
+
+@pytest.mark.parametrize("reading", READINGS, ids=str)
+def test_what_a_file_leaves_open_is_stated(reading, part):
+    np.save("heights.npy", 1e9 * rc.read("part.npz").heights)
+    check({**part, **reading}, {}, {"modulus": "100GPa"}, "heights.npy")
 
 
 def test_a_reduced_map_keeps_its_highest_points_and_what_is_missing():

@@ -272,11 +272,8 @@ class AdhesiveState:
 
     @cached_property
     def _energy(self) -> GapEnergy:
-        work = self.blank.form.extended(
-            np.broadcast_to(self.attraction.work, self.blank.separation.shape), 0.0
-        )
         obstacle = self.blank.form.extended(self.depth - self.blank.separation, -np.inf)
-        return GapEnergy(self.blank.form, Attraction(work, self.attraction.range), obstacle)
+        return GapEnergy(self.blank.form, self.blank.control.attraction, obstacle)
 
     @cached_property
     def _point(self) -> Point:
@@ -305,7 +302,7 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     control, point, value = blank.control, station.point, station.value
     energy = control.energy_at(value)
     inside = energy.form.inside
-    law = Attraction(np.asarray(energy.attraction.work)[inside], energy.attraction.range)
+    law = energy.attraction.on(inside)
     if released(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
         return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from roughcontact.validation import Array, positive, positive_scalar, shown
 
 __all__ = ["Adhesion", "Attraction", "Law"]
 
-Law = Literal["exponential"]
+Law = Literal["exponential", "dugdale"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,9 +24,10 @@ class Adhesion:
     work : float or array, shape of the grid
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
     range : float
-        Length over which the attraction falls [m].
-    law : {"exponential"}
-        Attraction ``(w/range) exp(-gap/range)``, with a hard wall at the gap zero.
+        Length over which the attraction falls, or as far as which it reaches [m].
+    law : {"exponential", "dugdale"}
+        Attraction ``(w/range) exp(-gap/range)``, or the constant w/range up to the gap `range`, with a hard wall at the
+        gap zero.
     allow_unresolved : bool
         Whether to compute although the attraction varies from cell to cell beside a contact (`process_zone` below 1.5
         cells), which is refused otherwise: every state is then one of the lattice, and is marked so.
@@ -107,35 +108,43 @@ class Adhesion:
         return float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Attraction:
-    """The exponential law on the cells of a computation; where no wall is, the gap is infinite and it is zero.
+class Attraction(Protocol):
+    """A law on the cells of a computation: `ExponentialLaw` or `DugdaleLaw`."""
 
-    Parameters
-    ----------
-    work : float or array
-        [J/m^2]
-    range : float
-        [m]
-    """
+    @property
+    def work(self) -> float | Array:
+        """Work of adhesion [J/m^2]."""
 
-    work: float | Array
-    range: float
+    @property
+    def range(self) -> float:
+        """Length of the law [m]."""
+
+    @property
+    def strength(self) -> float:
+        """Largest attraction [Pa]."""
+
+    @property
+    def steepest(self) -> float:
+        """Largest curvature [Pa/m]."""
+
+    @property
+    def near(self) -> float:
+        """Gap [m] from which bodies under a given force draw near."""
+
+    def on(self, cells: tuple[slice, ...]) -> Attraction:
+        """Return the law on some of the cells."""
 
     def traction(self, gap: Array) -> Array:
         """Return the attraction [Pa], positive, at a gap [m]."""
-        return np.asarray(self.work / self.range * np.exp(-gap / self.range))
 
     def curvature(self, gap: Array) -> Array:
         """Return by how much the attraction falls with the gap [Pa/m], positive."""
-        return np.asarray(self.work / self.range**2 * np.exp(-gap / self.range))
+
+    def curvature_between(self, nearest: Array, farthest: Array) -> Array:
+        """Return the largest curvature [Pa/m] of the gaps from `nearest` to `farthest`."""
 
     def energy(self, gap: Array) -> Array:
         """Return the energy per area [J/m^2], negative."""
-        return np.asarray(-self.work * np.exp(-gap / self.range))
 
     def energy_change(self, gap: Array, step: Array) -> Array:
         """Return the change of the energy per area [J/m^2] when the gap grows by `step`, without cancellation."""
-        # Of the two gaps the smaller: the other's exponential may be nothing, and its ratio to this one infinite.
-        nearer = np.exp(-np.minimum(gap, gap + step) / self.range)
-        return np.asarray(self.work * nearer * np.sign(step) * -np.expm1(-np.abs(step) / self.range))

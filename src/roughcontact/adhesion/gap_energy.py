@@ -120,8 +120,7 @@ class GapEnergy:
 
     def scale(self, point: Point) -> float:
         """Return the traction that residuals are measured by [Pa]."""
-        strength = float(np.max(self.attraction.work)) / self.attraction.range
-        return max(strength, float(np.abs(point.pressure).max()))
+        return max(self.attraction.strength, float(np.abs(point.pressure).max()))
 
 
 def _balance(reaction: Array, apart: Mask) -> float:

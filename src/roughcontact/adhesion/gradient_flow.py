@@ -67,7 +67,7 @@ def flow(
         Stiffness of the first springs relative to the largest curvature of the attraction, and by what it changes from
         step to step.
     """
-    largest = float(np.max(energy.attraction.work)) / energy.attraction.range**2
+    largest = energy.attraction.steepest
     spring, lost = first, 0.0
     displacement = energy.feasible(start)
     point = energy.at(displacement)

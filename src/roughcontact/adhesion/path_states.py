@@ -9,10 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
-from roughcontact.adhesion.attraction import Adhesion, Attraction
+from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
 from roughcontact.adhesion.gradient_flow import REACH, released
+from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
 from roughcontact.adhesion.truncated_newton import minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
@@ -26,7 +27,6 @@ __all__ = ["is_resolved", "states_along"]
 # Of the way from beyond the attraction to the largest depth (or of the largest force): how closely the end of a branch
 # is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
 BRACKET = 1e-8
-NEAR = 10.0  # ranges of the attraction, from which bodies under a given force draw near
 SHARP, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
 CELLS = 1.5  # that Irwin's length must span
 
@@ -110,8 +110,7 @@ def states_along(
         raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
     measured = np.isfinite(separation)
-    work = form.extended(np.where(measured, adhesion.work, 0.0), 0.0)
-    by_depth = DepthControl(form, Attraction(work, adhesion.range), separation)
+    by_depth = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
     resolved = is_resolved(adhesion, operator, modulus)
     if forces is not None:
         control = ForceControl.of(by_depth)
@@ -154,7 +153,7 @@ def _first_force(blank: Blank, forces: Array, adhesion: Adhesion) -> tuple[float
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
             f"{first:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
         )
-    apart = blank.form.extended(np.full(blank.separation.shape, NEAR * adhesion.range), 0.0)
+    apart = blank.form.extended(np.full(blank.separation.shape, blank.control.attraction.near), 0.0)
     cell = float(np.min(blank.operator.weights))
     return first, apart, BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
 

@@ -188,8 +188,9 @@ class QuasiStatic:
         """
         earlier = before or one
         nearest = np.minimum(np.minimum(one.gap, earlier.gap), other.gap)
+        farthest = np.maximum(np.maximum(one.gap, earlier.gap), other.gap)
         free = earlier.free | other.free
-        curvature = energy.attraction.curvature(nearest)
+        curvature = energy.attraction.curvature_between(nearest, farthest)
         # What bends the energy least is often the way that the state has moved.
         start = (other.displacement - one.displacement, *self._vectors)
         ritz = smallest_ratio(energy.form, free, curvature, self.counter, start=start, sign_only=True)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["POINTS", "LawChoice", "Sticking"]
 
-LawChoice = StrEnum("LawChoice", ["EXPONENTIAL"])
+LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE"])
 POINTS: int | None = option(
     "Depths of the approach of a --loop with --work, in even steps; the retreat has the same (default: 40).",
     "40",
@@ -32,7 +32,9 @@ class Sticking:
     work: str | None = option(
         "Work of adhesion: the surfaces attract each other, and depths or forces may be negative.", "50mJ/m^2"
     )
-    range: str | None = option("Length over which the attraction falls.", "2nm")
+    range: str | None = option(
+        "Length over which the attraction falls, or as far as which it reaches.", "2nm"
+    )
     law: LawChoice | None = option("How it falls with the gap (default: exponential).")
     allow_unresolved: bool = option(
         "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",

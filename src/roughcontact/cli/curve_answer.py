@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cached import cached_property
 from roughcontact.cli import report
 from roughcontact.cli.conductance_command import conduction_facts, shown_columns
-from roughcontact.cli.messages import is_ours, note, plain
+from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.theory_options import deviations, exponents, parameters
+from roughcontact.files.own_errors import is_ours
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 

@@ -9,7 +9,6 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
-from opcode import opmap
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +17,9 @@ import typer
 from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
+from roughcontact.files.own_errors import is_ours
 
-__all__ = ["UsageError", "as_typed", "ended", "is_ours", "note", "plain", "reported"]
+__all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
 
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
@@ -32,8 +32,6 @@ _OPTIONS = (
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
-_RAISE = opmap["RAISE_VARARGS"]
-_PACKAGE = "roughcontact"
 
 
 class UsageError(ValueError):
@@ -116,27 +114,6 @@ def as_typed(file: Path) -> Iterator[None]:
 def plain(text: str) -> str:
     """Return `text` with a question mark for every byte of a file name that is no letter."""
     return text.encode("utf-8", "replace").decode("utf-8")
-
-
-def is_ours(error: ValueError | OSError) -> bool:
-    """Return whether `error` speaks to the user: a file's trouble, or an error that our own code raises.
-
-    A ValueError of NumPy or another library, raised inside a call of ours, is a mistake of ours and no
-    bad input. One that comes out of compiled code has our line as its last frame, too, so what counts is
-    whether that line is a ``raise``.
-    """
-    if isinstance(error, BrokenPipeError):
-        return False  # whoever read our output has gone; typer knows how to leave quietly
-    if isinstance(error, OSError) and error.filename is not None:
-        return True
-    last = error.__traceback__
-    while last is not None and last.tb_next is not None:
-        last = last.tb_next
-    if last is None:
-        return False
-    # By its name and not its file, which bundles of programs do not have.
-    ours = str(last.tb_frame.f_globals.get("__name__")).partition(".")[0] == _PACKAGE
-    return ours and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE
 
 
 def _message(error: ValueError | OSError) -> str:

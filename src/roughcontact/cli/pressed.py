@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.cli.messages import is_ours, note
+from roughcontact.cli.messages import note
 from roughcontact.cli.report import quantity
+from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
     from roughcontact.contact.load_search import SurfaceKind

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import webbrowser
 from pathlib import Path
 
@@ -42,13 +43,16 @@ def serve(
         if not 0 <= port < 2**16:
             raise UsageError(f"--port: ports go from 1 to 65535, not {port}")
 
-        def opened(address: str) -> None:
+        def opened(address: str, once: str) -> None:
             typer.echo(address)
             note("the page is for this machine and the user who has this address; Ctrl-C ends it")
             if browser:
-                webbrowser.open(address)
+                # Beside the server: a browser that runs in the terminal comes back when it is left.
+                threading.Thread(target=webbrowser.open, args=(once,), daemon=True).start()
 
         try:
             run(file, port, opened)
+        except KeyboardInterrupt:
+            note("the page has ended; nothing is left of it")
         except OSError as error:
-            raise UsageError(f"--port: port {port} cannot be had: {error.strerror}") from error
+            raise UsageError(f"--port: port {port} cannot be had ({error.strerror}): leave it out") from error

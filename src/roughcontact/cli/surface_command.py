@@ -75,7 +75,8 @@ def info(
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
         with doing("Looking for spikes, steps and form"):
-            spikes, lines = advice(surface)
+            spikes, doubts = advice(surface)
+        lines = [str(doubt) for doubt in doubts]
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]

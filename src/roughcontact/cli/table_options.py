@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-from roughcontact.cli.messages import UsageError, is_ours, note
+from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.unit_options import AREA, parse_positive
+from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
     from roughcontact.contact.conduction import Conductors

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.messages import UsageError, is_ours
+from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
+from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison

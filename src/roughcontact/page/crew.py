@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from roughcontact.page.worker_process import WorkerEndedError, WorkerProcess
 
@@ -14,8 +16,15 @@ _BREATH = 3.0  # seconds before the next reserve is started: the first answer co
 
 @dataclass(slots=True, eq=False)
 class Crew:
-    """Gives workers away, and keeps one in reserve."""
+    """Gives workers away, and keeps one in reserve.
 
+    Parameters
+    ----------
+    folder : Path
+        For their temporary files, which go with the server even where they were killed.
+    """
+
+    folder: Path
     reserve: asyncio.Task[WorkerProcess] | None = None
     at_work: set[WorkerProcess] = field(default_factory=set)
     soon: asyncio.TimerHandle | None = None
@@ -38,11 +47,11 @@ class Crew:
         reserve, self.reserve = self.reserve, None
         if self.soon is None:
             self.soon = asyncio.get_running_loop().call_later(_BREATH, self.prepare)
-        if reserve is None:
-            raise WorkerEndedError
-        taken = await reserve
-        # It may have been killed while it waited.
-        return taken if taken.alive else await self._started()
+        # It may have been killed while it started, or while it waited.
+        with contextlib.suppress(WorkerEndedError):
+            if reserve is not None and (taken := await reserve).alive:
+                return taken
+        return await self._started()
 
     async def dismiss(self, worker: WorkerProcess) -> None:
         """End a worker."""
@@ -61,7 +70,7 @@ class Crew:
             await self.dismiss(worker)
 
     async def _started(self) -> WorkerProcess:
-        worker = await WorkerProcess.start()
+        worker = await WorkerProcess.start(self.folder)
         self.at_work.add(worker)
         try:
             return await worker.ready()

@@ -44,10 +44,14 @@ class Guard:
         Of this server.
     token : str
         That its user was given.
+    once : str
+        Another, for the command that opens the browser, whose words all users of the machine can read: it opens the
+        page once, and whoever reads it later comes too late. None, if it is empty.
     """
 
     port: int
     token: str
+    once: str = ""
 
     @property
     def cookie(self) -> str:
@@ -83,9 +87,12 @@ class Guard:
         )
 
     def entered(self, query: str) -> bool:
-        """Return whether the address holds the token."""
-        tokens = parse_qs(query, max_num_fields=10).get("token", []) if len(query) < 1000 else []
-        return len(tokens) == 1 and self._same(tokens[0])
+        """Return whether the address holds the token, or the one for the browser."""
+        return self._holds(query, self.token) or self.entered_once(query)
+
+    def entered_once(self, query: str) -> bool:
+        """Return whether the address holds the token that opens the page once."""
+        return self.once != "" and self._holds(query, self.once)
 
     def _has_cookie(self, lines: list[str]) -> bool:
         for line in lines:
@@ -93,9 +100,16 @@ class Guard:
                 found = SimpleCookie(line).get(self.cookie)
             except CookieError:
                 continue
-            if found is not None and self._same(found.value):
+            if found is not None and _same(found.value, self.token):
                 return True
         return False
 
-    def _same(self, token: str) -> bool:
-        return hmac.compare_digest(token.encode(), self.token.encode())
+    @staticmethod
+    def _holds(query: str, token: str) -> bool:
+        tokens = parse_qs(query, max_num_fields=10).get("token", []) if len(query) < 1000 else []
+        return len(tokens) == 1 and _same(tokens[0], token)
+
+
+def _same(given: str, token: str) -> bool:
+    """Return whether two tokens are the same, in a time that does not tell how far they are."""
+    return hmac.compare_digest(given.encode(), token.encode())

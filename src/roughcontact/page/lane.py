@@ -36,6 +36,11 @@ class Lane:
     unwanted: set[str] = field(default_factory=set)
     turn: asyncio.Lock = field(default_factory=asyncio.Lock)
 
+    @property
+    def busy(self) -> bool:
+        """Whether an order is worked on, or waits."""
+        return self.turn.locked()
+
     async def perform(self, key: str, order: Mapping[str, Any]) -> AsyncIterator[bytes]:
         """Yield the messages that answer an order, the last of which says how it ended.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import secrets
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import resources
@@ -22,15 +21,14 @@ from roughcontact.page.crew import Crew
 from roughcontact.page.frames import packed
 from roughcontact.page.guard import HEADERS, Guard
 from roughcontact.page.session import Session
-from roughcontact.page.uploads import LARGEST, TooLargeError, store
+from roughcontact.page.sessions import GIVEN, MOST_SESSIONS, Sessions
+from roughcontact.page.uploads import LARGEST, TooLargeError, TooSlowError, store
 from roughcontact.page.workbench import UploadedFile
 from roughcontact.page.worker_process import WorkerEndedError
 
 __all__ = ["PageServer", "application"]
 
-_MOST_SESSIONS = 8  # each is a process that computes
 _LONGEST_ORDER = 2**20  # bytes of JSON
-_GIVEN = "given"  # what the page calls the file of the command line
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -46,27 +44,33 @@ class PageServer:
     Parameters
     ----------
     guard : Guard
-    folder : Path
-        For files that are dropped; it goes with the server.
-    given : UploadedFile or None
-        The file of the command line.
+    sessions : Sessions
+    closing : asyncio.Event
+        Set when the server is about to end: answers that are still on their way are broken off.
+    opened : bool
+        Whether the token that opens the page once was used.
     """
 
     guard: Guard
-    folder: Path
-    given: UploadedFile | None = None
-    crew: Crew = field(default_factory=Crew)
-    sessions: dict[str, Session] = field(default_factory=dict)
+    sessions: Sessions
+    closing: asyncio.Event = field(default_factory=asyncio.Event)
+    opened: bool = False
+
+    @classmethod
+    def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
+        """Return a server without sessions, whose files and those of its workers lie in a folder."""
+        scratch = folder / "scratch"
+        scratch.mkdir(mode=0o700)
+        return cls(guard, Sessions(Crew(scratch), folder, given))
 
     async def begin(self, _: Request) -> Response:
         """Open a session, for a tab that has none."""
-        if len(self.sessions) >= _MOST_SESSIONS:
-            words = f"{_MOST_SESSIONS} tabs are open already, each with a process that computes: close one."
+        key = await self.sessions.begin()
+        if key is None:
+            words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
             return JSONResponse({"message": words}, 503)
-        key = secrets.token_hex(16)
-        files = {} if self.given is None else {_GIVEN: self.given}
-        self.sessions[key] = Session.of(self.crew, self.folder / key, files)
-        given = None if self.given is None else {"file": _GIVEN, "name": self.given.name}
+        file = self.sessions.given
+        given = None if file is None else {"file": GIVEN, "name": file.name}
         return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
 
     async def upload(self, request: Request) -> Response:
@@ -81,8 +85,13 @@ class PageServer:
             key, file = await store(session.folder, name, size, request.stream())
         except TooLargeError as error:
             return JSONResponse({"message": str(error)}, 413, {"Connection": "close"})
+        except TooSlowError as error:
+            return JSONResponse({"message": str(error)}, 408, {"Connection": "close"})
         except ClientDisconnect:
             return Response(status_code=400)
+        except OSError as error:
+            words = f"The server cannot keep the file: {error.strerror or error}."
+            return JSONResponse({"message": words}, 507, {"Connection": "close"})
         session.files[key] = file
         return JSONResponse({"file": key, "name": file.name})
 
@@ -96,13 +105,10 @@ class PageServer:
             body += part
             if len(body) > _LONGEST_ORDER:
                 return JSONResponse({"message": "No order is that long."}, 413, {"Connection": "close"})
-        try:
-            asked = json.loads(body)
-        except ValueError:
-            asked = None
-        if not isinstance(asked, dict):
+        asked = _order(body)
+        if asked is None:
             return JSONResponse({"message": "An order is an object of JSON."}, 400)
-        return _Streamed(session.perform(asked))
+        return _Streamed(session.perform(asked), self.closing)
 
     async def stop(self, request: Request) -> Response:
         """Stop an order."""
@@ -114,22 +120,26 @@ class PageServer:
 
     async def end(self, request: Request) -> Response:
         """End a session whose tab is closed."""
-        session = self.sessions.pop(request.query_params.get("session", ""), None)
-        if session is not None:
-            await session.end()
+        await self.sessions.end(request.query_params.get("session", ""))
         return JSONResponse({})
+
+    async def alive(self, request: Request) -> Response:
+        """Note that a tab is still there."""
+        return _no_session() if self._session(request) is None else JSONResponse({})
 
     @contextlib.asynccontextmanager
     async def lifespan(self, _: object) -> AsyncIterator[None]:
         """Have a worker ready from the start, and none left at the end."""
-        self.crew.prepare()
+        self.sessions.crew.prepare()
+        watching = asyncio.create_task(self.sessions.watch())
         try:
             yield
         finally:
-            await self.crew.end()
+            watching.cancel()
+            await self.sessions.crew.end()
 
     def _session(self, request: Request) -> Session | None:
-        return self.sessions.get(request.query_params.get("session", ""))
+        return self.sessions.find(request.query_params.get("session", ""))
 
 
 def application(server: PageServer) -> ASGIApp:
@@ -138,12 +148,13 @@ def application(server: PageServer) -> ASGIApp:
     entry = files.pop("/index.html")
 
     async def page(request: Request) -> Response:
-        if server.guard.entered(request.url.query):
+        guard, query = server.guard, request.url.query
+        if guard.entered(query):
             # The token leaves the address line, where it would be read over a shoulder.
             response: Response = RedirectResponse("/", 303)
-            response.set_cookie(
-                server.guard.cookie, server.guard.token, httponly=True, samesite="strict", path="/"
-            )
+            if not (guard.entered_once(query) and server.opened):
+                server.opened = server.opened or guard.entered_once(query)
+                response.set_cookie(guard.cookie, guard.token, httponly=True, samesite="strict", path="/")
             return response
         return Response(entry, media_type=_TYPES[".html"])
 
@@ -158,6 +169,7 @@ def application(server: PageServer) -> ASGIApp:
         Route("/file", server.upload, methods=["PUT"]),
         Route("/order", _Endpoint(server.perform), methods=["POST"]),
         Route("/stop", server.stop, methods=["POST"]),
+        Route("/alive", server.alive, methods=["POST"]),
         Route("/end", server.end, methods=["POST"]),
     ]
     return _Guarded(Starlette(routes=routes, lifespan=server.lifespan), server.guard)
@@ -182,8 +194,9 @@ class _Guarded:
     guard: Guard
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
+        if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
+        if scope["type"] != "http":
             return
 
         async def send_safely(message: Message) -> None:
@@ -200,21 +213,24 @@ class _Guarded:
 
 @dataclass(frozen=True, slots=True)
 class _Streamed:
-    """Messages as they come; where the browser goes away, no more are asked for."""
+    """Messages as they come; where the browser goes away, or the server is to end, no more are asked for."""
 
     messages: AsyncIterator[bytes]
+    closing: asyncio.Event
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         headers = [(b"content-type", b"application/octet-stream")]
         await send({"type": "http.response.start", "status": 200, "headers": headers})
-        sending, leaving = asyncio.create_task(self._send(send)), asyncio.create_task(_left(receive))
+        sending = asyncio.create_task(self._send(send))
+        others = [asyncio.create_task(_left(receive)), asyncio.create_task(self.closing.wait())]
         try:
-            await asyncio.wait({sending, leaving}, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait({sending, *others}, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            leaving.cancel()
-            sending.cancel()
+            for each in (sending, *others):
+                each.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await sending
+        await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     async def _send(self, send: Send) -> None:
         async with contextlib.aclosing(self.messages) as messages:  # type: ignore[type-var]
@@ -224,12 +240,22 @@ class _Streamed:
             except WorkerEndedError as error:
                 end = packed({"type": "end", "how": "died", "message": str(error)})
                 await send({"type": "http.response.body", "body": end, "more_body": True})
-        await send({"type": "http.response.body", "body": b"", "more_body": False})
 
 
 async def _left(receive: Receive) -> None:
     while (await receive())["type"] != "http.disconnect":
         pass
+
+
+def _order(body: bytes) -> dict[str, Any] | None:
+    """Return what a body asks for; None where that is no object, or holds numbers that JSON does not know."""
+    try:
+        asked = json.loads(body)
+        json.dumps(asked, allow_nan=False)
+    except (ValueError, RecursionError):
+        return None
+    plain = isinstance(asked, dict) and isinstance(asked.get("more"), dict | None)
+    return asked if plain else None
 
 
 def _no_session() -> Response:

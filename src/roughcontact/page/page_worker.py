@@ -87,13 +87,14 @@ def _order(given: Mapping[str, Any]) -> Order:
 
 
 def _job(name: str) -> Job:
+    from roughcontact.page.bodies_job import bodies
     from roughcontact.page.curve_jobs import curve, theories
     from roughcontact.page.export_job import export
     from roughcontact.page.press_jobs import cut, press
     from roughcontact.page.surface_jobs import look, study
 
     jobs: dict[str, Job] = {
-        each.__name__: each for each in (look, study, press, cut, curve, theories, export)
+        each.__name__: each for each in (look, study, bodies, press, cut, curve, theories, export)
     }
     if name not in jobs:
         raise ValueError(f"there is no job {name!r}")

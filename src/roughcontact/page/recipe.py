@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, Literal
 
-from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse, parse_number
+from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse, parse_with_unit
+from roughcontact.page.field_error import at_field
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -25,6 +26,7 @@ __all__ = [
     "as_recipe",
 ]
 
+Form = Literal["sphere", "cylinder", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12"]
 _KINDS: dict[str, Kind] = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
 
 
@@ -45,12 +47,15 @@ class FileSource:
         """Side lengths [m] as `roughcontact.read` takes them."""
         if self.width is None:
             if self.height is not None:
-                raise ValueError(
-                    "the height of the map is given and its width is not: give both, or the width alone"
-                )
+                with at_field("width"):
+                    raise ValueError("the length of the map is given and its width is not: give both")
             return None
-        width = parse(self.width, LENGTH)
-        return width if self.height is None else (parse(self.height, LENGTH), width)
+        with at_field("width"):
+            width = parse_with_unit(self.width, LENGTH)
+        if self.height is None:
+            return width
+        with at_field("height"):
+            return parse_with_unit(self.height, LENGTH), width
 
     @property
     def heights_in(self) -> str | float | None:
@@ -88,7 +93,7 @@ class PagePreparation:
     crop: tuple[int, int, int, int] | None = None
     despike: Literal["missing", "filled"] | None = None
     level: Literal["none", "mean", "plane", "quadratic"] = "plane"
-    form: Literal["2", "3", "4", "sphere", "cylinder"] | None = None
+    form: Form | None = None
     fill: bool = False
     short_cutoff: str | None = None
     long_cutoff: str | None = None
@@ -180,11 +185,6 @@ def as_recipe(plain: Any) -> PageRecipe:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
         raise ValueError(f"the page asked for what there is not: {place}: {first['msg']}") from error
-
-
-def number(text: str, example: str) -> float:
-    """Return a plain number that the user wrote."""
-    return parse_number(text, example)
 
 
 @cache

@@ -7,6 +7,7 @@ import shutil
 from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 from roughcontact.page.crew import Crew
@@ -28,17 +29,25 @@ class Session:
         Where its files lie; it goes with the session.
     files : dict of str to UploadedFile
         By the names that the page was told.
+    heard : float
+        When its tab last said something [s], on the clock of `time.monotonic`.
     """
 
     front: Lane
     back: Lane
     folder: Path
     files: dict[str, UploadedFile] = field(default_factory=dict)
+    heard: float = field(default_factory=monotonic)
 
     @classmethod
     def of(cls, crew: Crew, folder: Path, files: dict[str, UploadedFile]) -> Session:
         """Return a new session, whose workers come from a crew."""
         return cls(Lane(crew), Lane(crew), folder, files)
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is computed for it."""
+        return self.front.busy or self.back.busy
 
     def perform(self, asked: Mapping[str, Any]) -> AsyncIterator[bytes]:
         """Return the messages that answer an order of the page."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import signal
+import sys
 from dataclasses import dataclass
 
 __all__ = ["Stopped", "Stopping"]
@@ -28,6 +29,7 @@ class Stopping:
     def install(self) -> None:
         """Take over the signal that interrupts a program."""
         signal.signal(signal.SIGINT, self._interrupt)
+        sys.unraisablehook = self._swallowed
 
     def begin(self, number: int) -> None:
         """Begin an order."""
@@ -61,3 +63,10 @@ class Stopping:
 
     def _interrupt(self, *_: object) -> None:
         self.check()
+
+    def _swallowed(self, lost: sys.UnraisableHookArgs) -> None:
+        """Remember a stop that came while an object was taken apart, where Python lets nothing through."""
+        if isinstance(lost.exc_value, Stopped):
+            self.unwanted = self.running
+        else:
+            sys.__unraisablehook__(lost)

@@ -10,7 +10,8 @@ from roughcontact.page.order import Order, Send, send_map
 from roughcontact.page.recipe import FileSource
 from roughcontact.page.statement import stated
 from roughcontact.page.workbench import Workbench
-from roughcontact.plot.facts import quantity, surface_facts, surface_record
+from roughcontact.plot.engineering_units import written
+from roughcontact.plot.facts import surface_facts, surface_record
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -18,11 +19,20 @@ if TYPE_CHECKING:
 __all__ = ["look", "study"]
 
 _MOST_CURVE = 600  # points of a curve on the screen
-# In the order of the standard, with their units.
-_AREAL = {
-    **dict.fromkeys(("Sq", "Sa", "Sz", "Sp", "Sv", "Sal"), "m"),
-    **dict.fromkeys(("Ssk", "Sku", "Str", "Sdq", "Sdr"), ""),
-}
+# Parameters of ISO 25178-2, their names there and their units.
+_AREAL = (
+    ("Sq", "root mean square height", "m"),
+    ("Sa", "arithmetic mean height", "m"),
+    ("Sz", "maximum height", "m"),
+    ("Sp", "maximum peak height", "m"),
+    ("Sv", "maximum pit depth", "m"),
+    ("Ssk", "skewness", ""),
+    ("Sku", "kurtosis", ""),
+    ("Sal", "autocorrelation length", "m"),
+    ("Str", "texture aspect ratio", ""),
+    ("Sdq", "root mean square gradient", ""),
+    ("Sdr", "developed interfacial area ratio", ""),
+)
 
 
 def look(order: Order, bench: Workbench, send: Send) -> None:
@@ -32,7 +42,7 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
     source = order.recipe.source
     if isinstance(source, FileSource):
         send({"type": "channels", "channels": _channels(order)})
-    _, warned = bench.read(source, order.files)
+    raw, warned = bench.read(source, order.files)
     surface = bench.surface(order.recipe, order.files)
     heights = surface.heights - np.nanmean(surface.heights)
     send_map(send, "heights", heights, order.whole("pixels", 1024, 4096), **_place(surface))
@@ -41,8 +51,9 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": warned,
+            "warned": [_on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
             "missing": surface.missing,
+            "raw": {**_place(raw), "shape": raw.grid.shape, "missing": raw.missing},
             "command": statement.command,
             "python": statement.python,
         }
@@ -50,14 +61,14 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
 
 
 def study(order: Order, bench: Workbench, send: Send) -> None:
-    """Send the distribution of the heights, their roughness parameters, their spectrum, and what looks suspicious."""
+    """Send the distribution of the heights, what looks suspicious, their spectrum, and roughness parameters."""
     import numpy as np
 
     import roughcontact as rc
-    from roughcontact.plot.advice import advice
 
     surface = bench.surface(order.recipe, order.files)
-    if surface.rms > 0:
+    rough = surface.rms > 0
+    if rough:
         histogram = rc.height_histogram(surface, bins=80)
         send(
             {
@@ -67,6 +78,8 @@ def study(order: Order, bench: Workbench, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
+    send({"type": "doubts", "doubts": bench.doubts(order.recipe.source, order.files)})
+    if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0
         thin = np.linspace(0, there.sum() - 1, min(int(there.sum()), _MOST_CURVE)).astype(int)
@@ -79,9 +92,21 @@ def study(order: Order, bench: Workbench, send: Send) -> None:
             }
         )
         send({"type": "roughness", "facts": _roughness(surface)})
-    raw, _ = bench.read(order.recipe.source, order.files)
-    spikes, lines = advice(raw)
-    send({"type": "doubts", "lines": lines, "spikes": spikes.count, "places": spikes.places[:200].tolist()})
+
+
+# What readers advise as calls of Python, as the fields of the page.
+_ADVICE = {
+    "pass channel= for another": "choose another under Channel",
+    "take them out by masked()": "crop them away",
+    "unit=": "the unit of the heights",
+    "size=": "the width",
+}
+
+
+def _on_the_page(line: str) -> str:
+    for call, words in _ADVICE.items():
+        line = line.replace(call, words)
+    return line
 
 
 def _channels(order: Order) -> list[dict[str, Any]]:
@@ -90,7 +115,9 @@ def _channels(order: Order) -> list[dict[str, Any]]:
     found = []
     for channel in channels(order.path):
         words = asdict(channel)
-        found.append({name: plain_values(words[name]) for name in ("name", "shape", "unit", "is_height")})
+        found.append(
+            {name: plain_values(words[name]) for name in ("name", "shape", "unit", "size", "is_height")}
+        )
     return found
 
 
@@ -98,20 +125,19 @@ def _place(surface: Surface) -> dict[str, Any]:
     return {"lengths": surface.grid.lengths, "periodic": list(surface.grid.periodic), "unit": "m"}
 
 
-def _roughness(surface: Surface) -> list[tuple[str, str]]:
+def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
+    """Return what is told of the roughness: symbol or name, what it means, and its value."""
     import roughcontact as rc
 
     parameters, moments = rc.areal_parameters(surface), rc.surface_moments(surface)
-    facts = []
-    for name, unit in _AREAL.items():
-        value = float(getattr(parameters, name))
-        facts.append((name, quantity("lengths", value) if unit else f"{value:.4g}"))
-    facts.append(("rms slope", f"{moments.rms_slope:.4g}"))
-    facts.append(("Nayak's parameter", f"{moments.nayak:.4g}"))
+    facts = [
+        (name, words, written(float(getattr(parameters, name)), unit, 4)) for name, words, unit in _AREAL
+    ]
+    facts.append(("rms slope", "from the moment m2", written(moments.rms_slope, "", 4)))
+    facts.append(("rms curvature", "from the moment m4", written(moments.rms_curvature, "m-1", 4)))
+    facts.append(("Nayak's parameter", "m0 m4 / m2²", written(moments.nayak, "", 4)))
     try:
-        facts.append(
-            ("Hurst exponent", f"{rc.hurst_exponent(surface.filled()).hurst:.3g}, fitted to the spectrum")
-        )
+        exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
     except ValueError as error:
-        facts.append(("Hurst exponent", f"none: {error}"))
-    return facts
+        exponent, words = "none", str(error)
+    return [*facts, ("Hurst exponent", words, exponent)]

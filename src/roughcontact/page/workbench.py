@@ -5,18 +5,21 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.quantity import LENGTH, PRESSURE, has_unit, parse, parse_number
+from roughcontact.files.length_units import length_factor
+from roughcontact.files.quantity import LENGTH, Kind, parse, parse_number, parse_with_unit
+from roughcontact.page.field_error import at_field
 from roughcontact.page.preparation_calls import calls_of
 from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoads, PageRecipe
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
+    from roughcontact.material import Solid
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 
@@ -24,6 +27,7 @@ __all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_lo
 
 T = TypeVar("T")
 _KEPT = 2  # of each: the one that is looked at, and the one before it
+_MODULUS, _HARDNESS = Kind("a modulus", "Pa", "100GPa"), Kind("a hardness", "Pa", "2GPa")
 _MOST_POINTS = 4096  # a side of a surface that is made: more is for the command line
 
 
@@ -57,6 +61,19 @@ class Workbench:
             return surface
 
         return self._once("surface", (recipe.source, recipe.preparation), prepared)
+
+    def doubts(
+        self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
+    ) -> list[dict[str, Any]]:
+        """Return what looks suspicious in the heights before any preparation."""
+
+        def found() -> list[dict[str, Any]]:
+            from roughcontact.plot.advice import advice
+
+            _, doubts = advice(self.read(source, files)[0])
+            return [asdict(doubt) for doubt in doubts]
+
+        return self._once("doubts", source, found)
 
     def solution(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""
@@ -165,19 +182,14 @@ def modulus_of(bodies: Bodies) -> float:
     if bodies.materials is not None:
         rigid = rc.Solid(math.inf, 0.0)
         first, second = (rigid if name == "rigid" else rc.handbook(name).solid for name in bodies.materials)
-        return rc.reduced_modulus(first, second)
+        with at_field("second"):
+            return rc.reduced_modulus(first, second)
     if bodies.modulus is not None:
-        return _stiff(bodies.modulus, "the reduced modulus")
-    if bodies.young is None or bodies.poisson is None:
-        raise ValueError(
-            "give two materials, a reduced modulus, or Young's modulus and Poisson's ratio of a body"
-        )
-    first = rc.Solid(_stiff(bodies.young, "Young's modulus"), parse_number(bodies.poisson, "0.3"))
-    if bodies.young2 is None or bodies.poisson2 is None:
+        return _stiff(bodies.modulus, "modulus")
+    first = _solid(bodies.young, bodies.poisson, "")
+    if bodies.young2 is None and bodies.poisson2 is None:
         return rc.reduced_modulus(first)
-    return rc.reduced_modulus(
-        first, rc.Solid(_stiff(bodies.young2, "Young's modulus"), parse_number(bodies.poisson2, "0.3"))
-    )
+    return rc.reduced_modulus(first, _solid(bodies.young2, bodies.poisson2, "2"))
 
 
 def hardness_of(bodies: Bodies) -> float | None:
@@ -188,7 +200,21 @@ def hardness_of(bodies: Bodies) -> float | None:
         return None
     if bodies.hardness[:1].isalpha():
         return rc.handbook(bodies.hardness).hardness
-    return _stiff(bodies.hardness, "the hardness")
+    return _stiff(bodies.hardness, "hardness")
+
+
+def _solid(young: str | None, poisson: str | None, which: str) -> Solid:
+    """Return the elastic constants of a body that the user wrote."""
+    import roughcontact as rc
+
+    with at_field(f"young{which}"):
+        if young is None:
+            raise ValueError("give Young's modulus of the body, such as 210 GPa")
+    modulus = _stiff(young, f"young{which}")
+    with at_field(f"poisson{which}"):
+        if poisson is None:
+            raise ValueError("give Poisson's ratio of the body, such as 0.3")
+        return rc.Solid(modulus, parse_number(poisson, "0.3"))
 
 
 def _slope(surface: Surface) -> float:
@@ -201,11 +227,16 @@ def _slope(surface: Surface) -> float:
         return 0.0
 
 
-def _stiff(text: str, what: str) -> float:
-    """Return a modulus [Pa]; one without a unit is refused, since gigapascals are meant most often."""
-    if not has_unit(text):
-        raise ValueError(f"{what} needs its unit: write {text.strip()} GPa if gigapascals are meant")
-    return parse(text, PRESSURE)
+def _stiff(text: str, field: str) -> float:
+    """Return the modulus or hardness [Pa] of a field."""
+    with at_field(field):
+        kind = _HARDNESS if field == "hardness" else _MODULUS
+        value = parse_with_unit(text, kind)
+        if value <= 0:
+            raise ValueError(
+                f"{text!r} is not positive: write {kind.name} above zero, such as {kind.example}"
+            )
+        return value
 
 
 def _read(source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) -> tuple[Surface, list[str]]:
@@ -215,6 +246,9 @@ def _read(source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) ->
         return _made(source), []
     if source.file not in files:
         raise ValueError("the server has no such file any more: drop it again")
+    with at_field("unit"):
+        if source.heights_in is not None:
+            length_factor(source.heights_in)
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", SurfaceWarning)

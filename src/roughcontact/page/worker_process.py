@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import sys
 from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from roughcontact.page import page_worker
@@ -38,13 +40,14 @@ class WorkerProcess:
     listener: asyncio.Task[None] | None = None
 
     @classmethod
-    async def start(cls) -> WorkerProcess:
-        """Start one; it is of use when it is `ready`."""
+    async def start(cls, folder: Path) -> WorkerProcess:
+        """Start one, whose temporary files lie in a folder; it is of use when it is `ready`."""
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-m", page_worker.__name__),
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             limit=_BUFFER,
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
             start_new_session=sys.platform != "win32",  # Ctrl-C is for the server, which ends its workers
         )
         started = cls(process)

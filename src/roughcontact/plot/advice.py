@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.plot.doubt import Doubt
 from roughcontact.plot.facts import quantity
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.surface.spikes import find_spikes, tail_of
@@ -24,20 +25,21 @@ _LINES = 8  # fewer rows or columns have no statistics of the steps between them
 _WHOLE = 0.5  # share of a row that must be measured
 
 
-def advice(surface: Surface) -> tuple[Spikes, list[str]]:
-    """Return the spikes of a surface, and a line for all that is suspicious with what to do about it."""
+def advice(surface: Surface) -> tuple[Spikes, list[Doubt]]:
+    """Return the spikes of a surface, and all that is suspicious with what to do about it."""
     spikes = find_spikes(surface)
     return spikes, [*_spikes(surface, spikes), *_trends(surface), *_steps(surface), *_cells(surface)]
 
 
-def _spikes(surface: Surface, spikes: Spikes) -> Iterator[str]:
+def _spikes(surface: Surface, spikes: Spikes) -> Iterator[Doubt]:
     if spikes.count:
         place = ",".join(str(k) for k in spikes.places[0])
         largest = quantity("heights", float(spikes.height[0]))
-        yield f"spikes: {spikes}, the largest by {largest}, at cell {place}: --despike missing or filled"
+        words = f"{spikes}, the largest by {largest}, at cell {place}"
+        yield Doubt("spikes", words, "--despike missing or filled", ("despike", "filled"))
 
 
-def _trends(surface: Surface) -> Iterator[str]:
+def _trends(surface: Surface) -> Iterator[Doubt]:
     """Yield the plane and the quadratic form if they are higher than what is left without them."""
     if all(surface.grid.periodic):
         return
@@ -46,12 +48,12 @@ def _trends(surface: Surface) -> Iterator[str]:
     rest, form = _without(flat, 2)
     trend = "plane" if surface.grid.ndim == 2 else "line"
     if tilt > float(np.nanstd(flat)):
-        yield f"tilt: the {trend} has an rms height of {quantity('rms', tilt)}, more than the rest: --level plane"
+        words = f"the {trend} has an rms height of {quantity('rms', tilt)}, more than the rest"
+        yield Doubt("tilt", words, "--level plane", ("level", "plane"))
     if form > float(np.nanstd(rest)) > 0:
-        yield (
-            f"form: the quadratic part has an rms height of {quantity('rms', form)}, more than the rest: "
-            "--form 2, sphere or cylinder, for the roughness alone"
-        )
+        words = f"the quadratic part has an rms height of {quantity('rms', form)}, more than the rest"
+        remedy = "--form 2, sphere or cylinder, for the roughness alone"
+        yield Doubt("form", words, remedy, ("form", "2"))
 
 
 def _without(heights: Array, degree: int) -> tuple[Array, float]:
@@ -60,7 +62,7 @@ def _without(heights: Array, degree: int) -> tuple[Array, float]:
     return heights - trend, float(np.std(trend[~np.isnan(heights)]))
 
 
-def _steps(surface: Surface) -> Iterator[str]:
+def _steps(surface: Surface) -> Iterator[Doubt]:
     """Yield the largest step between two rows or columns, if it is none of chance, and the larger side of it."""
     if surface.grid.ndim == 1:
         return
@@ -82,18 +84,16 @@ def _steps(surface: Surface) -> Iterator[str]:
             part = f"0:{place + 1}" if 2 * (place + 1) >= count else f"{place + 1}:{count}"
             crop = f"{part},:" if axis == 0 else f":,{part}"
             step = quantity("heights", float(jumps[place]))
-            yield f"step: {step} between {name} {place} and {place + 1}: --crop {crop} keeps one side"
+            words = f"{step} between {name} {place} and {place + 1}"
+            yield Doubt("step", words, f"--crop {crop} keeps one side", ("crop", crop))
 
 
-def _cells(surface: Surface) -> Iterator[str]:
+def _cells(surface: Surface) -> Iterator[Doubt]:
     if min(surface.grid.shape) < _FEW:
         cells = " x ".join(str(n) for n in surface.grid.shape)
-        yield (
-            f"few cells: {cells} hold no decade of waves, and no power law: no option mends that; "
-            "measure more points, or read another --channel"
-        )
+        words = f"{cells} hold no decade of waves, and no power law"
+        remedy = "no option mends that; measure more points, or read another --channel"
+        yield Doubt("few cells", words, remedy)
     if surface.missing:
-        yield (
-            f"missing points: {surface.missing / surface.grid.size:.2%}, which contact leaves out: "
-            "--fill for spectra and filters, or --crop"
-        )
+        words = f"{surface.missing / surface.grid.size:.2%}, which contact leaves out"
+        yield Doubt("missing points", words, "--fill for spectra and filters, or --crop", ("fill", ""))

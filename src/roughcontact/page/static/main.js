@@ -1,13 +1,24 @@
 // The page: what the user does changes the recipe, and the recipe says what is to be computed.
 
+import { bodyFields } from "./bodies.js";
 import { chart } from "./charts.js";
+import { cropFields } from "./crop.js";
+import { holdings } from "./holds.js";
 import { mapView } from "./map.js";
-import { EXAMPLES, example, fresh, history } from "./recipe.js";
+import { BLANK, EXAMPLES, example, fresh, history, titleOf } from "./recipe.js";
+import { settings } from "./settings.js";
+import { shortcuts } from "./shortcuts.js";
+import { trouble } from "./trouble.js";
 import { begin, order, upload } from "./wire.js";
+import { welcome } from "./welcome.js";
 import { loadText, loadValue } from "./words.js";
 
 const UNITS = { pressure: "Pa", force: "N", depth: "m" };
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
+const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
+const LULL = 250; // milliseconds without another wish, before what takes longer is begun
+// What an answer follows from; a load that moves on meanwhile still shows its maps.
+const BASES = { look: ["source", "preparation"], study: ["source", "preparation"], bodies: ["bodies"] };
 const by = (id) => document.getElementById(id);
 let spans = null;
 let largest = Infinity;
@@ -15,24 +26,40 @@ let points = [];
 let curving = null;
 let front = null;
 let dragged = null;
-const wanted = { look: false, press: false, cut: null };
+let lull = null;
+let bodies = null; // when the server has said which materials it knows
+const names = {}; // of files, by what the server calls them
+const wanted = { look: false, press: false, cut: null, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
 const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
   over: (text) => (by("over").textContent = text),
-  crop: cropped,
+  crop: (part) => { by("crop").click(); crop.dragged(part); },
+  small: () => say("A crop holds at least 4 × 4 cells: drag further, or type rows and columns under Preparation."),
   axis: () => {},
   cut: (axis, place) => { wanted.cut = { axis, place: place + 1 }; pump(); },
 });
 const recipe = history(changed);
+const crop = cropFields(recipe);
+const fields = settings(recipe);
+const holds = holdings(recipe, crop);
+const place = welcome(EXAMPLES, (each) => source(example(each)));
 
 function changed(now, before) {
   const differs = (name) => JSON.stringify(now[name]) !== JSON.stringify(before[name]);
   if (differs("source") || differs("preparation")) {
-    wanted.look = Boolean(now.source);
+    wanted.look = wanted.study = Boolean(now.source);
+    holds.wait();
     map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
     spans = null;
   }
+  if (differs("source")) {
+    crop.of(null);
+    fields.forget();
+    holds.forget();
+    place.of(titleOf(now.source, names));
+  }
+  if (differs("bodies")) wanted.bodies = true;
   if (["source", "preparation", "bodies"].some(differs)) forget();
   if (["source", "preparation", "bodies", "load"].some(differs)) wanted.press = Boolean(now.source);
   show();
@@ -47,13 +74,12 @@ function forget() {
 }
 
 function show() {
-  const { source, preparation, bodies, load } = recipe.now;
+  const { source, load } = recipe.now;
   [by("undo").disabled, by("redo").disabled] = [!recipe.can.undo, !recipe.can.redo];
-  by("open").hidden = !source || source.kind !== "file";
-  for (const name of ["level", "despike", "short_cutoff", "long_cutoff"]) by(name).value = preparation[name] || "";
-  by("fill").checked = preparation.fill;
-  by("uncrop").hidden = !preparation.crop;
-  [by("first").value, by("second").value] = bodies.materials;
+  const title = titleOf(source, names);
+  by("name").textContent = title;
+  document.title = title ? `${title} – roughcontact` : "roughcontact";
+  for (const each of [fields, crop, bodies, holds]) each.show();
   for (const name of ["slider", "load", "start"]) by(name).disabled = !spans || !load;
   if (!load) return;
   by("control").value = load.control;
@@ -68,25 +94,37 @@ function failed(error) {
   say(error.message);
 }
 
-function ended(end) {
+function ended(end, job) {
+  const field = trouble(job, end);
+  // A file that leaves something open asks for it.
+  if (field && end.lacking && document.activeElement === document.body) field.focus();
   if (end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
   return end.how === "done";
 }
 
 async function pump() {
+  by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
-    const stale = (front.job === "press" && (wanted.press || wanted.look)) || (front.job === "look" && wanted.look);
-    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, PATIENCE);
+    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
+    if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }
-  const job = wanted.look ? "look" : wanted.press ? "press" : wanted.cut ? "cut" : null;
-  if (!job) return;
+  const job = next();
+  clearTimeout(lull);
+  if (job === "study") lull = setTimeout(() => !front && next() === "study" && perform("study"), LULL);
+  else if (job) perform(job);
+}
+
+const next = () => ["look", "press", "cut", "bodies", "study"].find((job) => wanted[job]);
+
+async function perform(job) {
   const more = job === "cut" ? wanted.cut : { pixels: map.pixels() };
   wanted[job] = job === "cut" ? null : false;
-  const asked = JSON.stringify(recipe.now);
-  const sent = order("front", job, recipe.now, more, (header, data) => {
+  const basis = () => JSON.stringify(job in BASES ? BASES[job].map((name) => recipe.now[name]) : recipe.now);
+  const asked = basis();
+  const sent = order("front", job, { ...recipe.now, source: recipe.now.source || BLANK }, more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
-    if (wanted.look || (asked !== JSON.stringify(recipe.now) && !dragged)) return;
+    if ((wanted.look && !(job in BASES)) || (asked !== basis() && !dragged)) return;
     heard(header, data);
   });
   front = { job, sent, timer: null };
@@ -98,16 +136,20 @@ async function pump() {
   }
   clearTimeout(front.timer);
   front = null;
-  ended(end);
-  if (job === "look" && end.how !== "done") wanted.press = false;
+  ended(end, job);
+  if (job === "look" && end.how !== "done") wanted.press = wanted.study = false;
+  if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
+  if (job === "study" && end.how === "stopped") wanted.study = true;
   pump();
 }
 
 function heard(header, data) {
-  if (header.type === "map") map.set(header.map, header, data);
+  if (header.type === "map") { map.set(header.map, header, data); place.done(); }
   else if (header.type === "doing") say(`${header.words} …`);
-  else if (header.type === "channels") channels(header.channels);
-  else if (header.type === "surface") tell(header);
+  else if (header.type === "channels") { fields.channels(header.channels); holds.channels(header.channels); }
+  else if (header.type === "surface") { surface(header); tell(header); }
+  else if (header.type === "bodies") bodies.say(header);
+  else if (["doubts", "heights", "spectrum", "roughness"].includes(header.type)) holds.study(header);
   else if (header.type === "span") spanned(header);
   else if (header.type === "numbers") { tell(header); say(""); }
   else if (header.type === "pressures") {
@@ -120,10 +162,10 @@ function heard(header, data) {
   }
 }
 
-function channels(found) {
-  by("channel").replaceChildren(...found.map((each) => new Option(each.name)));
-  const chosen = recipe.now.source.channel;
-  if (chosen) by("channel").value = chosen;
+function surface(header) {
+  crop.of(header.raw);
+  fields.of(header.raw);
+  holds.surface(header);
 }
 
 function spanned({ pressure, force, depth }) {
@@ -147,26 +189,22 @@ function element(kind, text) {
   return made;
 }
 
-function cropped([top, bottom, left, right]) {
-  by("crop").click();
-  recipe.change(({ preparation }) => {
-    const [y, , x] = preparation.crop || [0, 0, 0, 0];
-    preparation.crop = [y + top, y + bottom, x + left, x + right];
-  });
-}
-
 async function opened(file) {
   if (file.size > largest) return say(`The file is larger than ${Math.round(largest / 2 ** 20)} MB.`);
   say(`Reading ${file.name} …`);
   try {
-    source({ kind: "file", ...(await upload(file)) });
+    given(await upload(file));
   } catch (error) {
     failed(error);
   }
 }
 
-function source({ name, ...found }) {
-  by("name").textContent = name;
+function given({ file, name }) {
+  names[file] = name;
+  source({ kind: "file", file });
+}
+
+function source(found) {
   recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(), load: null }));
 }
 
@@ -211,15 +249,12 @@ async function exported(kind) {
 
 function listen() {
   by("file").onchange = (event) => event.target.files[0] && opened(event.target.files[0]);
-  addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) opened(event.dataTransfer.files[0]); });
+  const dragging = (on) => document.body.classList.toggle("dragged", on);
+  addEventListener("dragover", (event) => { event.preventDefault(); dragging(true); });
+  addEventListener("dragleave", (event) => event.relatedTarget || dragging(false));
+  addEventListener("drop", (event) => { event.preventDefault(); dragging(false); if (event.dataTransfer.files[0]) opened(event.dataTransfer.files[0]); });
   EXAMPLES.forEach((each, k) => by("example").add(new Option(`${each.name}: ${each.about}`, k)));
-  by("example").onchange = ({ target }) => target.value && source({ name: EXAMPLES[target.value].name, ...example(EXAMPLES[target.value]) });
-  for (const name of ["channel", "unit", "width"]) by(name).onchange = ({ target }) => recipe.change((next) => (next.source[name] = target.value || null));
-  for (const name of ["level", "despike", "short_cutoff", "long_cutoff"]) by(name).onchange = ({ target }) => recipe.change((next) => (next.preparation[name] = target.value || null));
-  by("fill").onchange = ({ target }) => recipe.change((next) => (next.preparation.fill = target.checked));
-  by("uncrop").onclick = () => recipe.change((next) => (next.preparation.crop = null));
-  ["first", "second"].forEach((name, k) => (by(name).onchange = ({ target }) => recipe.change((next) => (next.bodies.materials[k] = target.value))));
+  by("example").onchange = ({ target }) => { if (target.value) source(example(EXAMPLES[target.value])); target.value = ""; };
   by("control").onchange = ({ target }) => spans && recipe.change((next) => (next.load = { control: target.value, text: loadText(spans[target.value][2], UNITS[target.value]) }));
   by("load").onchange = ({ target }) => recipe.change((next) => (next.load.text = target.value));
   by("slider").oninput = ({ target }) => {
@@ -239,16 +274,22 @@ function listen() {
   by("start").onclick = curve;
   by("stop").onclick = () => curving && curving.stop().catch(failed);
   by("export").onchange = ({ target }) => { if (target.value) exported(target.value).catch(failed); target.value = ""; };
-  matchMedia("(prefers-color-scheme: dark)").onchange = () => map.paint();
+  shortcuts({ ...recipe, leave: () => map.state.mode === "crop" && by("crop").click() });
+  new MutationObserver(() => map.paint()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+  for (const each of document.querySelectorAll("#settings .group")) each.open = innerWidth >= 760;
 }
 
 try {
-  const given = await begin();
-  largest = given.largest;
-  for (const name of ["first", "second"]) for (const each of [...Object.keys(given.materials), "rigid"]) by(name).add(new Option(each));
+  const begun = await begin();
+  largest = begun.largest;
+  bodies = bodyFields(recipe, begun.materials);
   listen();
+  document.querySelector("main").inert = false; // before, nobody would answer
   show();
-  if (given.given) source({ kind: "file", ...given.given });
+  pump();
+  const [early] = by("file").files; // chosen before the server had answered
+  if (early) opened(early);
+  else if (begun.given) given(begun.given);
 } catch (error) {
   failed(error);
 }

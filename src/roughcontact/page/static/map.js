@@ -212,7 +212,7 @@ export function mapView(canvas, bar, heard) {
     const columns = [drag.first.column, drag.last.column].sort((a, b) => a - b);
     if (rows[1] - rows[0] >= 3 && columns[1] - columns[0] >= 3) {
       heard.crop([rows[0], rows[1] + 1, columns[0], columns[1] + 1]);
-    }
+    } else heard.small();
   });
   canvas.addEventListener("pointerleave", () => heard.over(""));
   canvas.addEventListener("keydown", (event) => {
@@ -259,12 +259,16 @@ export function mapView(canvas, bar, heard) {
     pixels: () => Math.min(2048, Math.max(256, Math.round(Math.max(canvas.width, canvas.height) / 64) * 64)),
     set(name, header, buffer) {
       state.fields[name] = { ...header, values: new Float32Array(buffer) };
+      canvas.dataset.holds = Object.keys(state.fields).join(" ");
       fit();
       if (state.fields[name] === shown()) paint();
     },
     clear(...names) {
       for (const name of names) delete state.fields[name];
+      canvas.dataset.holds = Object.keys(state.fields).join(" ");
+      if (!shown()) draw();
     },
+    has: (name) => name in state.fields,
   };
 }
 

@@ -66,6 +66,17 @@ export function history(changed) {
   };
 }
 
+// How the user calls a source: a file by its name, an example by its own.
+export function titleOf(source, names) {
+  if (!source) return "";
+  if (source.kind === "file") return names[source.file] || "";
+  const same = (each) => ["hurst", "rms", "size", "points"].every((key) => each[key] === source[key]);
+  return (EXAMPLES.find(same) || { name: "Made surface" }).name;
+}
+
+// Stands for a surface in questions that are about none.
+export const BLANK = { kind: "made", hurst: "0.8", rms: "1um", size: "1mm", points: 2 };
+
 export const example = ({ name, about, ...made }) => ({ kind: "made", seed: 1, ...made });
 
 export const fresh = () => structuredClone(START.preparation);

@@ -18,6 +18,8 @@ async function asked(path, options = {}) {
 export async function begin() {
   const given = await (await asked("/session", { method: "POST" })).json();
   session = given.session;
+  // The server ends a session of which it has not heard for long: its browser may have been killed.
+  setInterval(() => asked(`/alive?session=${session}`, { method: "POST" }).catch(() => {}), 30000);
   addEventListener("pagehide", (event) => {
     if (!event.persisted) navigator.sendBeacon(`/end?session=${session}`);
   });

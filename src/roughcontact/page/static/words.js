@@ -2,7 +2,7 @@
 
 const PREFIXES = { "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
 // Units whose prefix counts as often as they do: their name without it, and the power.
-const POWERS = { "m²": 2 };
+const POWERS = { "m²": 2, "m⁴": 4 };
 
 function scaleOf(value, unit) {
   if (!unit || !Number.isFinite(value) || value === 0) return { factor: 1, unit };

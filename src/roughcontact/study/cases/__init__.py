@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
         curve_case,  # noqa: F401
         lines_case,  # noqa: F401
         loop_case,  # noqa: F401
+        patch_case,  # noqa: F401
         slip_case,  # noqa: F401
         yielding_case,  # noqa: F401
     )
@@ -25,7 +26,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
 __all__ = ["CASES", "find_case"]
 
 # A case is opened when it is first asked for.
-_NAMES = ("asperities", "cells", "curve", "lines", "loop", "slip", "yielding")
+_NAMES = ("asperities", "cells", "curve", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "a case of your own is named as module:attribute"
 

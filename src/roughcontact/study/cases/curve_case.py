@@ -19,12 +19,14 @@ from roughcontact.labels.labelled import described
 from roughcontact.labels.variables import CURVE_POINTS
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
-from roughcontact.surface.moments import surface_moments
+from roughcontact.surface.moments import Moments, surface_moments
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["CASE", "CurveParameters", "run"]
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["CASE", "CurveParameters", "curve_of", "moments_of", "run"]
 
 _ARRAYS = (
     *(*CURVE_POINTS, "spots", "dimensionless_stiffness"),
@@ -67,7 +69,16 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset
         ``rms_curvature`` of the roughness, without the body under it; ``hardness`` where there is one.
     """
     roughness = parameters.roughness(rng)
-    moments = surface_moments(roughness, derivative="spectral")  # made of waves: exact
+    return curve_of(roughness, moments_of(roughness), parameters)
+
+
+def moments_of(roughness: Surface) -> Moments:
+    """Return the moments of a surface that is made of waves: exact."""
+    return surface_moments(roughness, derivative="spectral")
+
+
+def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) -> xarray.Dataset:
+    """Return the record of a roughness on the body of the parameters; see `run`."""
     forces = parameters.forces
     path = loading_path(
         parameters.on_body(roughness),

@@ -110,8 +110,12 @@ class RoughSquare(Parameters):
 
     def roughness(self, rng: np.random.Generator) -> Surface:
         """Return the roughness alone, as if on a flat body."""
+        return self.roughness_on(self.grid, rng)
+
+    def roughness_on(self, grid: Grid, rng: np.random.Generator) -> Surface:
+        """Return the roughness on a grid of other sides, its limits the same lengths."""
         return self_affine(
-            self.grid,
+            grid,
             self.hurst,
             self.rms,
             rng,

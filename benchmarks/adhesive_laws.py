@@ -1,0 +1,101 @@
+"""Laws of adhesion against the theories of a sphere, as the grid gets finer.
+
+    python benchmarks/adhesive_laws.py [--rings 120 240 480 960] [--numbers 0.01 0.1 0.5 1 2 5]
+
+Dugdale's law on rings against Maugis' equations: relative error of the pull-off force under a given force, of contact
+radius and depth without load, and the largest error of the force on the curve of stable states at given depths over
+the pull-off force; jumps but the pull-off, and what they lose of the work of adhesion times the square of the radius.
+The contact radius is where the gap, which grows as the distance from the edge to 3/2, extrapolates to zero.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+import time
+
+import numpy as np
+
+import roughcontact as rc
+from roughcontact.theory.maugis import DugdaleSphere
+
+POINTS = 24
+
+
+def ball(theory: DugdaleSphere, rings: int) -> tuple[rc.RadialProfile, float]:
+    """Return a sphere on rings as far as its attraction reaches without load, half of them in contact, and its tip."""
+    inner, outer = 1.2 * unloaded(theory), 1.25 * float(theory.zone_radius(unloaded(theory)))
+    half = rings // 2
+    x = np.arange(rings - half + 1) / (rings - half)
+    width = inner / half * (rings - half)  # beyond the contact rings widen slowly, by a cubic
+    outside = inner + width * x + (outer - inner - width) * x**3
+    uniform = np.linspace(0.0, outer, rings + 1)
+    edges = np.r_[np.linspace(0.0, inner, half + 1), outside[1:]] if outer > inner + width else uniform
+    grid = rc.RadialGrid(edges)
+    heights = -(grid.radii**2) / (2 * theory.radius)
+    return rc.RadialProfile(heights, grid), float(heights[0])
+
+
+def unloaded(theory: DugdaleSphere) -> float:
+    """Return the contact radius without load."""
+    low, high = 0.5, 3.0
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if float(theory.force(middle)) < 0 else (low, middle)
+    return low
+
+
+def contact_radius(state: rc.AdhesiveState) -> float:
+    """Return where the gap becomes zero."""
+    radii = state.blank.operator.grid.radii
+    first = int(state.contact.sum()) + 1  # the ring next to the contact is the least exact
+    near, far = state.gap[first : first + 2] ** (2 / 3)
+    return float(radii[first] - near * (radii[first + 1] - radii[first]) / (far - near))
+
+
+def row(number: float, rings: int) -> None:
+    theory = DugdaleSphere.of_number(number)
+    profile, tip = ball(theory, rings)
+    adhesion = rc.Adhesion(1.0, 1 / theory.strength, law="dugdale")
+    began = time.perf_counter()
+    pull = theory.pull_off_force
+    free, off = rc.loading_path(profile, 1.0, forces=[0.0, -1.2 * pull], adhesion=adhesion)
+    jumps = [jump for jump in off.jumps if not math.isfinite(jump.lost)]
+    radius = unloaded(theory)
+    # Depths of stable states: from the smallest depth of an equilibrium up to twice the radius without load.
+    radii = np.linspace(1.1 * radius, 0.02, 4000)
+    depths = theory.depth(radii)
+    last = int(np.argmin(depths))
+    chosen = np.linspace(0, max(1, int(0.98 * last)), POINTS).astype(int)
+    states = list(rc.loading_path(profile, 1.0, depths=depths[chosen] + tip, adhesion=adhesion))
+    events = [jump for state in states[1:] for jump in state.jumps]
+    curve = max(
+        abs(state.force - float(theory.force(radii[k]))) for state, k in zip(states, chosen, strict=True)
+    )
+    zone = (float(theory.zone_radius(radius)) - radius) / profile.grid.edges[1]
+    print(
+        f"{number:6} {rings:6} {zone:6.1f}  {-jumps[0].force_before / pull - 1:+.1e}  "
+        f"{contact_radius(free) / radius - 1:+.1e}  {(free.depth - tip) / float(theory.depth(radius)) - 1:+.1e}  "
+        f"{curve / pull:.1e}  {len(events):3}  {sum(jump.lost for jump in events):.0e}  "
+        f"{max(state.residual for state in [free, *states]):.0e}  {time.perf_counter() - began:6.1f} s",
+        flush=True,
+    )
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--rings", type=int, nargs="+", default=[120, 240, 480, 960])
+    parser.add_argument("--numbers", type=float, nargs="+", default=[0.01, 0.1, 0.5, 1.0, 2.0, 5.0])
+    options = parser.parse_args()
+    print("lambda  rings   zone  pull-off  radius    depth     curve    jumps lost   residual")
+    for number in options.numbers:
+        for rings in options.rings:
+            row(number, rings)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,255 @@
+"""What the smaller ensembles of the law say, E3 to E7, as tables in Markdown; see `law.py`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import xarray
+from law_ensembles import FOLDER, Values, interpolated, law, paired, read, resampled, value
+from law_tables import (
+    HIGHEST,
+    MIDDLE,
+    Table,
+    between,
+    curves,
+    each,
+    each_percent,
+    load_at,
+    markdown,
+    resolved,
+)
+
+from roughcontact.theory import rough_sphere
+
+PRESSURES = (1e-3, 1e-2, 1e-1)  # p l/(E* h), l the roll-off
+SPHERE = {"radius": 0.5, "hurst": 0.7, "rms": 9e-3, "length": 1.0, "modulus": 1.0}
+SIZE_FORCE = (0.07, 0.035)  # F/(E* h L) of the smallest size at which sizes are compared
+
+
+def one(found: Values) -> Values:
+    """Return a number of every replicate as the only one of a row."""
+    return found.expand_dims("one", 1)
+
+
+# E3
+
+
+def e3(folder: Path = FOLDER) -> dict[str, str]:
+    """Return exponents at low H in one window on every grid, and what the finest grid changes."""
+    ensemble = read("e3-modes", folder)
+    if ensemble is None:
+        return {}
+    force, stiffness, samples = curves(ensemble)
+    mean = resampled(stiffness)
+    alpha, _ = law(force, mean, between(force, 0.025, HIGHEST))
+    last = alpha.isel(points=-1)
+    stiffer = mean.isel(load=-1)
+    body = [
+        [
+            f"{h:g}",
+            *(each(one(alpha.isel(hurst=place, points=n)), samples)[0] for n in range(alpha.sizes["points"])),
+            each(one((last - alpha.isel(points=0)).isel(hurst=place)), samples, 3, "+")[0],
+            each_percent(
+                one((stiffer.isel(points=-1) / stiffer.isel(points=0) - 1).isel(hurst=place)), samples
+            )[0],
+        ]
+        for place, h in enumerate(ensemble["hurst"].to_numpy())
+    ]
+    points = [int(n) for n in ensemble["points"]]
+    ends = f"{points[-1]}² less {points[0]}²", f"k at 0.07, {points[-1]}² over {points[0]}²"
+    return {"e3": markdown((["H", *(f"{n}²" for n in points), *ends], body))}
+
+
+# E4
+
+
+def e4(folder: Path = FOLDER) -> dict[str, str]:
+    """Return what amplitudes and the shape of the band do to exponent, prefactor and stiffness."""
+    ensemble = read("e4-models", folder)
+    if ensemble is None:
+        return {}
+    force, stiffness, samples = curves(ensemble)
+    mean = resampled(stiffness)
+    first = ensemble.isel(row=0).sel(amplitudes="exact")
+    inside = resolved(first, mean.isel(row=0).sel(amplitudes="exact"))
+    alpha, zeta = law(force, mean, inside)
+    level = zeta * MIDDLE**alpha
+    body = []
+    for place, h in enumerate(ensemble["hurst"].to_numpy()):
+        for row, shape in ((0, "square"), (1, "disc")):
+            for amplitudes in ("exact", "gaussian"):
+                here = {"hurst": place, "row": row}
+                a, k = (each_.isel(here).sel(amplitudes=amplitudes) for each_ in (alpha, level))
+                a0, k0 = (each_.isel(hurst=place, row=0).sel(amplitudes="exact") for each_ in (alpha, level))
+                model = f"{shape}, {amplitudes}"
+                differs = (
+                    ["", ""]
+                    if (row, amplitudes) == (0, "exact")
+                    else [each(one(a - a0), samples, 3, "+")[0], each_percent(one(k / k0 - 1), samples)[0]]
+                )
+                body.append(
+                    [f"{h:g}", model, each(one(a), samples)[0], each(one(k), samples, 4)[0], *differs]
+                )
+    head = [
+        "H",
+        "waves, amplitudes",
+        "alpha",
+        f"k/(E\\* L) at {MIDDLE:g}",
+        "alpha, difference",
+        "k, difference",
+    ]
+    return {"e4": markdown((head, body))}
+
+
+# E5
+
+
+def e5(folder: Path = FOLDER) -> dict[str, str]:
+    """Return stiffnesses of nominally flat surfaces, free and periodic, and of patches."""
+    tables = {}
+    for name in ("e5-flat", "e5-flat-1024"):
+        ensemble = read(name, folder)
+        if ensemble is not None:
+            tables[name] = markdown(flat(ensemble))
+    patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
+    if patches is not None:
+        tables["e5-patches"] = markdown(patched(patches, whole))
+    return tables
+
+
+def flat(ensemble: xarray.Dataset) -> Table:
+    """Return exponents of k and K over the upper two decades of pressure, and how they compare at three pressures."""
+    samples = ensemble.sizes["sample"]
+    approach, gap = (resampled(ensemble[f"{kind}_stiffness"]) for kind in ("dimensionless", "interfacial"))
+    body = []
+    for row, rolloff in enumerate(ensemble["rolloff"].to_numpy()):
+        force = ensemble["dimensionless_force"].isel(row=row, periodic=0)
+        pressure = force * float(rolloff)
+        inside = between(pressure, *PRESSURES[::2])
+        free, periodic = ({"row": row, "periodic": each_} for each_ in (0, 1))
+        slopes = [law(force, k, inside)[0] for k in (gap.isel(periodic), gap.isel(free), approach.isel(free))]
+        line = [each(one(slope), samples)[0] for slope in slopes]
+        for at in PRESSURES:
+            load = {"load": load_at(pressure, at)}
+            both = gap.isel(free | load) / gap.isel(periodic | load) - 1
+            share = approach.isel(free | load) / gap.isel(free | load)
+            line += [each_percent(one(both), samples)[0], each(one(share), samples, 2)[0]]
+        constant = gap.isel(periodic | {"load": load_at(pressure, PRESSURES[1])})
+        line.append(each(one(constant / float(force[load_at(pressure, PRESSURES[1])])), samples, 2)[0])
+        body.append([f"L/{1 / rolloff:g}", *line])
+    compared = [
+        words for at in PRESSURES for words in (f"K, free over periodic, at {at:g}", f"k/K, free, at {at:g}")
+    ]
+    exponents = [f"exponent of {what}" for what in ("K, periodic", "K, free", "k, free")]
+    return ["roll-off l", *exponents, *compared, f"K h/F, periodic, at {PRESSURES[1]:g}"], body
+
+
+def patched(patches: xarray.Dataset, whole: xarray.Dataset | None) -> Table:
+    """Return the stiffness K per area of patches over that of the periodic surface that they are cut from."""
+    if whole is not None:
+        patches, whole = paired(patches, whole)
+    samples = patches.sizes["sample"]
+    gap, approach = (resampled(patches[f"{kind}_stiffness"]) for kind in ("interfacial", "dimensionless"))
+    body = []
+    for row, rolloff in enumerate(patches["rolloff"].to_numpy()):
+        pressure = patches["dimensionless_force"].isel(row=row) * float(rolloff)
+        line = []
+        for at in PRESSURES:
+            load = load_at(pressure, at)
+            found = gap.isel(row=row, load=load)
+            if whole is None:
+                line.append("-")
+            else:
+                last = whole.isel(row=-1, periodic=1)
+                joint = resampled(last["interfacial_stiffness"]).isel(load=load)
+                per_area = found * float(rolloff) / (joint * float(last["rolloff"])) - 1
+                line.append(each_percent(one(per_area), samples)[0])
+            line.append(each(one(approach.isel(row=row, load=load) / found), samples, 2)[0])
+        body.append([f"{1 / rolloff:g} l", *line])
+    compared = [
+        words for at in PRESSURES for words in (f"K/A0 over the joint's, at {at:g}", f"k/K, at {at:g}")
+    ]
+    return ["side of the patch", *compared], body
+
+
+# E6
+
+
+def e6(folder: Path = FOLDER) -> dict[str, str]:
+    """Return the stiffness of rough spheres over the closed form, with the thesis' law and with that of E1."""
+    ensemble = read("e6-spheres", folder)
+    if ensemble is None:
+        return {}
+    force, stiffness, samples = curves(ensemble)
+    mean = resampled(stiffness)
+    forces = force.to_numpy() * SPHERE["rms"]
+    closed = rough_sphere.stiffness(forces, **SPHERE)
+    found = fitted_roughness(folder)
+    own = np.full(forces.shape, np.nan) if found is None else with_law(forces, *found)
+    finer = read("e6-spheres-1024", folder)
+    grid = None
+    if finer is not None:
+        fine, coarse = paired(finer, ensemble)
+        grid = resampled(fine["dimensionless_stiffness"]) / resampled(coarse["dimensionless_stiffness"]) - 1
+    body = []
+    for load in range(0, len(forces), 2):
+        cells = float(value(mean)[load] / ensemble["cell_stiffness"])
+        k = mean.isel(load=load)
+        line = [each_percent(one(k / law_ - 1), samples)[0] for law_ in (closed[load], own[load])]
+        fine_line = "-" if grid is None else each_percent(one(grid.isel(load=load)), fine.sizes["sample"])[0]
+        body.append([f"{forces[load]:.2g}", f"{cells:.0f}", f"{float(value(k)):.4f}", *line, fine_line])
+    head = [
+        "F/(E\\* L²)",
+        "k over that of a cell",
+        "k/(E\\* L)",
+        "over eq. 5.9",
+        "with alpha, zeta of E1",
+        "1024² over 512²",
+    ]
+    return {"e6": markdown((head, body))}
+
+
+def fitted_roughness(folder: Path) -> tuple[float, float] | None:
+    """Return exponent and prefactor of E1 at the Hurst exponent of the spheres."""
+    ensemble = read("e1-surfaces", folder)
+    if ensemble is None:
+        return None
+    force, stiffness, _ = curves(ensemble.sel(hurst=SPHERE["hurst"]))
+    mean = resampled(stiffness)
+    alpha, zeta = law(force, mean, resolved(ensemble, mean))
+    return float(value(alpha)), float(value(zeta))
+
+
+def with_law(forces: np.ndarray, alpha: float, zeta: float) -> np.ndarray:
+    """Return stiffnesses of eq. 5.9 with another power law of the roughness: Hertz' force and that of the law added."""
+    k = np.geomspace(1e-4, 2.0, 4000)
+    force = k**3 / (6 * SPHERE["radius"]) + SPHERE["rms"] * (k / zeta) ** (1 / alpha)
+    return np.exp(np.interp(np.log(forces), np.log(force), np.log(k)))
+
+
+# E7
+
+
+def e7(folder: Path = FOLDER) -> dict[str, str]:
+    """Return stiffnesses of three sizes of one Theta and one shortest wave, at one force F/(E* Theta)."""
+    ensemble = read("e7-sizes", folder)
+    if ensemble is None:
+        return {}
+    force, stiffness, samples = curves(ensemble)
+    mean = resampled(stiffness)
+    sizes = ensemble["points"] / int(ensemble["points"][0])
+    body = []
+    for place, h in enumerate(ensemble["hurst"].to_numpy()):
+        for at in SIZE_FORCE:
+            # At one F/(E* Theta) the force F/(E* h L) goes as L^-(H+1), and k/E* is k/(E* L) times L.
+            places = np.log(at) - (h + 1) * np.log(sizes)
+            k = np.exp(interpolated(places, force, mean.isel(hurst=place))) * sizes
+            ratio = k / k.isel(points=0) - 1
+            cells = np.exp(interpolated(places, force, value(mean).isel(hurst=place))) / ensemble[
+                "cell_stiffness"
+            ].isel(hurst=place)
+            line = [each_percent(one(ratio.isel(points=n)), samples)[0] for n in range(1, sizes.size)]
+            body.append([f"{h:g}", f"{at:g}", *line, ", ".join(f"{float(c):.0f}" for c in cells)])
+    names = [f"size {float(size):g} over size 1" for size in sizes[1:]]
+    return {"e7": markdown((["H", "F/(E\\* h L) of size 1", *names, "cells of stiffness"], body))}

@@ -1,0 +1,68 @@
+"""The exponential law on the cells of a computation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.validation import Array
+
+__all__ = ["ExponentialLaw"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExponentialLaw:
+    """Attraction ``(w/range) exp(-gap/range)``; where no wall is, the gap is infinite and it is zero.
+
+    Parameters
+    ----------
+    work : float or array
+        [J/m^2]
+    range : float
+        [m]
+    """
+
+    work: float | Array
+    range: float
+
+    @property
+    def strength(self) -> float:
+        """Largest attraction [Pa]."""
+        return float(np.max(self.work)) / self.range
+
+    @property
+    def steepest(self) -> float:
+        """Largest curvature [Pa/m]."""
+        return float(np.max(self.work)) / self.range**2
+
+    @property
+    def near(self) -> float:
+        """Gap [m] from which bodies under a given force draw near."""
+        return 10.0 * self.range
+
+    def on(self, cells: tuple[slice, ...]) -> ExponentialLaw:
+        """Return the law on some of the cells."""
+        return ExponentialLaw(np.asarray(self.work)[cells], self.range)
+
+    def traction(self, gap: Array) -> Array:
+        """Return the attraction [Pa], positive, at a gap [m]."""
+        return np.asarray(self.work / self.range * np.exp(-gap / self.range))
+
+    def curvature(self, gap: Array) -> Array:
+        """Return by how much the attraction falls with the gap [Pa/m], positive."""
+        return np.asarray(self.work / self.range**2 * np.exp(-gap / self.range))
+
+    def curvature_between(self, nearest: Array, farthest: Array) -> Array:
+        """Return the largest curvature [Pa/m] of the gaps from `nearest` to `farthest`."""
+        return self.curvature(nearest)
+
+    def energy(self, gap: Array) -> Array:
+        """Return the energy per area [J/m^2], negative."""
+        return np.asarray(-self.work * np.exp(-gap / self.range))
+
+    def energy_change(self, gap: Array, step: Array) -> Array:
+        """Return the change of the energy per area [J/m^2] when the gap grows by `step`, without cancellation."""
+        # Of the two gaps the smaller: the other's exponential may be nothing, and its ratio to this one infinite.
+        nearer = np.exp(-np.minimum(gap, gap + step) / self.range)
+        return np.asarray(self.work * nearer * np.sign(step) * -np.expm1(-np.abs(step) / self.range))

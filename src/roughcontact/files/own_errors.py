@@ -1,0 +1,31 @@
+"""Whether an error is for the user to mend, or a mistake of this program."""
+
+from __future__ import annotations
+
+from opcode import opmap
+
+__all__ = ["is_ours"]
+
+_RAISE = opmap["RAISE_VARARGS"]
+_PACKAGE = "roughcontact"
+
+
+def is_ours(error: ValueError | OSError) -> bool:
+    """Return whether `error` speaks to the user: a file's trouble, or an error that our own code raises.
+
+    A ValueError of NumPy or another library, raised inside a call of ours, is a mistake of ours and no
+    bad input. One that comes out of compiled code has our line as its last frame, too, so what counts is
+    whether that line is a ``raise``.
+    """
+    if isinstance(error, BrokenPipeError):
+        return False  # whoever read our output has gone; typer knows how to leave quietly
+    if isinstance(error, OSError) and error.filename is not None:
+        return True
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    if last is None:
+        return False
+    # By its name and not its file, which bundles of programs do not have.
+    ours = str(last.tb_frame.f_globals.get("__name__")).partition(".")[0] == _PACKAGE
+    return ours and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE

@@ -1,0 +1,105 @@
+// What the surface holds: what is doubtful about it, its size, the distribution of its heights, its spectrum, its roughness.
+
+import { chart } from "./charts.js";
+import { written } from "./words.js";
+
+const by = (id) => document.getElementById(id);
+// What the button beside a doubt says, by the step that mends it.
+const MEND = {
+  despike: "Fill them smoothly",
+  level: "Remove the plane",
+  form: "Remove a quadratic form",
+  crop: "Keep the larger side",
+  fill: "Fill them in",
+};
+
+function element(kind, text, more = {}) {
+  return Object.assign(document.createElement(kind), { textContent: text }, more);
+}
+
+export function holdings(recipe, crop) {
+  let doubts = [];
+
+  function mended([step]) {
+    const value = recipe.now.preparation[step];
+    return step === "level" ? value !== "none" && value !== "mean" : Boolean(value);
+  }
+
+  function mend([step, value]) {
+    if (step === "crop") return crop.written(value);
+    return recipe.change((next) => (next.preparation[step] = step === "fill" ? true : value));
+  }
+
+  function showDoubts() {
+    by("doubts").replaceChildren(...doubts.map(({ kind, words, remedy, step }) => {
+      const line = document.createElement("li");
+      const done = step !== null && mended(step);
+      line.className = done ? "mended" : "";
+      line.append(element("strong", kind), element("span", step ? words : `${words}; ${remedy}`));
+      if (done) line.append(element("em", "mended by the preparation"));
+      else if (step) line.append(element("button", MEND[step[0]], { type: "button", onclick: () => mend(step) }));
+      return line;
+    }));
+  }
+
+  function table(root, head, rows) {
+    const line = (cells, kind) => {
+      const row = document.createElement("tr");
+      row.append(...cells.map((cell, k) => element(k || kind === "th" ? kind : "th", cell, kind === "th" ? { scope: "col" } : k ? {} : { scope: "row" })));
+      return row;
+    };
+    const [top, body] = [document.createElement("thead"), document.createElement("tbody")];
+    top.append(line(head, "th"));
+    body.append(...rows.map((row) => line(row, "td")));
+    root.replaceChildren(top, body);
+  }
+
+  return {
+    show: showDoubts,
+    forget() {
+      doubts = [];
+      showDoubts();
+      by("held").hidden = true;
+      by("holds_none").hidden = false;
+      by("warned").replaceChildren();
+      by("channels").replaceChildren();
+    },
+    // The panel waits for what follows from another preparation.
+    wait() {
+      by("holds").setAttribute("aria-busy", "true");
+    },
+    channels(found) {
+      table(by("channels"), ["Channel", "Points", "Unit", "Size"], found.map(({ name, shape, unit, size, is_height }) => [
+        is_height ? name : `${name} (no heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
+        size === null ? "not stated" : size.map((side) => written(side, "m", 3)).join(" × "),
+      ]));
+    },
+    surface({ facts, warned }) {
+      by("channels").closest("details").hidden = recipe.now.source.kind !== "file";
+      by("held").hidden = false;
+      by("holds_none").hidden = true;
+      const shown = facts.filter(([name]) => name !== "history");
+      by("held_facts").replaceChildren(...shown.flatMap(([name, value]) => [element("dt", name), element("dd", value)]));
+      by("warned").replaceChildren(...warned.map((line) => element("li", line)));
+      by("history").replaceChildren(...facts.filter(([name]) => name === "history").map(([, line]) => element("li", line)));
+    },
+    study(header) {
+      if (header.type === "doubts") {
+        doubts = header.doubts;
+        showDoubts();
+      } else if (header.type === "heights") {
+        chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, height: 170, label: "Distribution of the heights", series: [
+          { x: header.x, y: header.y, label: "measured", kind: "area", colour: "--accent" },
+          { x: header.x, y: header.normal, label: "normal", kind: "line", colour: "--ink-soft", dash: [5, 4] },
+        ] });
+      } else if (header.type === "spectrum") {
+        chart(by("spectrum"), { x: { label: "wavenumber", unit: "rad/m", log: true }, y: { label: "density", unit: "m⁴", log: true }, height: 200, label: "Power spectrum", series: [
+          { x: header.x, y: header.y, label: "power spectrum", kind: "line", colour: "--accent" },
+        ] });
+      } else if (header.type === "roughness") {
+        table(by("roughness"), ["Parameter", "Meaning", "Value"], header.facts);
+        by("holds").setAttribute("aria-busy", "false");
+      }
+    },
+  };
+}

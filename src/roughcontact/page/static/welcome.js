@@ -1,0 +1,28 @@
+// What stands in place of the map: how to begin, what is being read, or why there is no map.
+
+const by = (id) => document.getElementById(id);
+const BEGIN = ["Drop a measured surface anywhere", "X3P, SUR, OPD, Gwyddion, NetCDF, NumPy, text and the formats of most instruments. Or begin with an example:"];
+
+export function welcome(examples, open) {
+  const buttons = examples.map((each) => {
+    const made = { type: "button", textContent: each.name, title: each.about, onclick: () => open(each) };
+    return Object.assign(document.createElement("button"), made);
+  });
+  by("begin").append(...buttons);
+
+  function show(title, text, beginning = false) {
+    const root = by("welcome");
+    root.hidden = false;
+    root.querySelector("strong").textContent = title;
+    root.querySelector("p").textContent = text;
+    by("begin").hidden = !beginning;
+  }
+  show(...BEGIN, true);
+
+  return {
+    // There is a source, or none any more.
+    of: (title) => (title ? show(`Reading ${title} …`, "") : show(...BEGIN, true)),
+    refused: ({ message, remedy = "" }, title) => show(`No map of ${title} yet`, [message, remedy].join(" ")),
+    done: () => (by("welcome").hidden = true),
+  };
+}

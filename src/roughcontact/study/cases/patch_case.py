@@ -1,0 +1,63 @@
+"""A case: the loading curve of a patch that is cut from a larger periodic surface, as a map is from a joint."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from roughcontact.grid import Grid
+from roughcontact.study.case import Case
+from roughcontact.study.cases.curve_case import CurveParameters, curve_of, moments_of
+from roughcontact.surface.surface import Surface
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["CASE", "PatchParameters", "run"]
+
+
+class PatchParameters(CurveParameters):
+    """Those of the case ``curve``, and how large the surface is that the patch is cut from.
+
+    `points`, `size` and all wavelengths are those of the patch, or over its side; `rms` is that of the whole surface.
+    The patch is the first corner of it, without its tilt, and free: nothing carries beside it.
+
+    Parameters
+    ----------
+    period : int
+        Sides of the whole surface over those of the patch.
+    """
+
+    period: int = Field(ge=2)
+
+    @model_validator(mode="after")
+    def _free(self) -> Self:
+        if self.periodic:
+            raise ValueError("a patch does not repeat itself: leave periodic out, or take the case curve")
+        return self
+
+    @property
+    def whole(self) -> Grid:
+        """The cells of the whole surface."""
+        points = self.period * self.points
+        return Grid((points, points), self.size / self.points, periodic=True)
+
+
+def run(parameters: PatchParameters, rng: np.random.Generator) -> xarray.Dataset:
+    """Return the loading curve of the patch of one sample.
+
+    Returns
+    -------
+    xarray.Dataset
+        That of the case ``curve``; forces over E* h L with the rms height of the whole surface and the side of the
+        patch. ``rms`` is that of the patch, ``rms_slope`` and ``rms_curvature`` those of the whole surface.
+    """
+    part = slice(0, parameters.points)
+    whole = parameters.roughness_on(parameters.whole, rng)
+    patch = Surface(whole.heights[part, part], parameters.grid).levelled("plane")
+    return curve_of(patch, moments_of(whole), parameters)
+
+
+CASE = Case("patch", 1, PatchParameters, run)

@@ -1,0 +1,385 @@
+"""The page under the hand of a person, in a real browser. Nothing waits for a time, all for what is to be seen."""
+
+import base64
+import csv
+import io
+import json
+import shlex
+import threading
+import time
+import warnings
+import zipfile
+from dataclasses import dataclass
+from functools import cached_property
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import roughcontact as rc
+from roughcontact.cli.app import app
+from served import PATIENCE, ended, started
+
+DROP = """([name, text]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+  for (const type of ["dragenter", "dragover", "drop"]) {
+    document.getElementById("drop").dispatchEvent(
+      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+  }
+}"""
+# How many colours the map shows, and a number that another picture changes.
+PICTURE = """() => {
+  const canvas = document.getElementById("map");
+  const bytes = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  const words = new Uint32Array(bytes.buffer);
+  let sum = 17;
+  for (const word of words) sum = (Math.imul(sum, 31) + word) | 0;
+  return [new Set(words).size, sum];
+}"""
+POINTS = """() => {
+  const words = document.getElementById("curve").getAttribute("aria-label") || "0 points";
+  return Number(/(\\d+) points/.exec(words)[1]);
+}"""
+
+
+@dataclass
+class Tab:
+    """A page and what a person sees of it."""
+
+    page: Any
+    told: list  # errors of scripts, and requests to elsewhere
+
+    def text(self, name):
+        return self.page.locator(f"#{name}").inner_text()
+
+    def wait(self, condition, argument=None):
+        """Wait for a condition in the page; its policy lets no function wait there that is given as words."""
+        self.until(lambda: self.page.evaluate(condition, argument), f"{condition} {argument}")
+
+    def until(self, holds, what=""):
+        """Wait until something holds."""
+        before = time.monotonic() + PATIENCE
+        while not holds():
+            assert time.monotonic() < before, f"{what}: {self.text('said')!r} {self.told}"
+            self.page.wait_for_timeout(20)
+
+    def drop(self, name, content):
+        """Drop a file, and wait for its map or for the reason why there is none."""
+        self.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
+        self.wait(
+            """(name) => {
+              const by = (id) => document.getElementById(id);
+              if (by("name").textContent !== name) return false;
+              if ((by("map").dataset.holds || "").includes("heights")) return true;
+              return by("view").getAttribute("aria-busy") === "false" && by("said").textContent !== "";
+            }""",
+            name,
+        )
+        return "heights" in (self.page.get_attribute("#map", "data-holds") or "")
+
+    def example(self, name):
+        """Choose an example by the beginning of its name."""
+        options = self.page.locator("#example option").all_inner_texts()
+        [label] = [each for each in options if each.startswith(name)]
+        self.page.select_option("#example", label=label)
+
+    def settled(self):
+        """Wait until the maps and numbers of the load are there."""
+        self.wait(
+            """() => document.getElementById("view").getAttribute("aria-busy") === "false"
+              && (document.getElementById("map").dataset.holds || "").includes("gap")"""
+        )
+
+    @property
+    def facts(self):
+        names, values = (self.page.locator(f"#facts {kind}").all_inner_texts() for kind in ("dt", "dd"))
+        return dict(zip(names, values, strict=True))
+
+    @property
+    def picture(self):
+        return self.page.evaluate(PICTURE)
+
+
+@dataclass
+class Desk:
+    """A server and a browser that was given its address."""
+
+    served: Any
+    context: Any
+
+    @cached_property
+    def origin(self):
+        return f"http://127.0.0.1:{self.served.port}"
+
+    def tab(self):
+        page, told = self.context.new_page(), []
+        page.on("console", lambda line: told.append(line.text) if line.type == "error" else None)
+        page.on("pageerror", lambda error: told.append(str(error)))
+        page.on("request", lambda sent: self._elsewhere(sent.url) and told.append(sent.url))
+        page.goto(self.served.address)
+        page.locator("#example option").nth(1).wait_for(state="attached", timeout=1000 * PATIENCE)
+        return Tab(page, told)
+
+    def _elsewhere(self, url):
+        return not url.startswith((self.origin, "data:", "blob:"))
+
+
+@pytest.fixture(scope="module")
+def desk(chromium, tmp_path_factory):
+    served = started(tmp_path_factory.mktemp("desk"))
+    context = chromium.new_context(viewport={"width": 1400, "height": 1000}, accept_downloads=True)
+    yield Desk(served, context)
+    context.close()
+    ended(served)
+
+
+@pytest.fixture
+def tab(desk):
+    """A new tab, in which no script fails and which asks nobody else for anything."""
+    found = desk.tab()
+    yield found
+    found.page.close()
+    assert found.told == []
+
+
+@pytest.fixture(scope="module")
+def part(tmp_path_factory):
+    """A measured file, as its bytes."""
+    file = tmp_path_factory.mktemp("part") / "part.npz"
+    rc.write(rc.self_affine(rc.Grid((64, 64), 1e-6), 0.8, 1e-7, np.random.default_rng(2)), file)
+    return file.read_bytes()
+
+
+def is_map(file):
+    """Return whether the library reads a map from a file that says all by itself."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            rc.read(file)
+        except ValueError:
+            return False
+    return True
+
+
+def test_every_measured_file_gives_a_map_or_a_reason(tab, measured, part, tmp_path):
+    if not measured:  # files of our own in their place
+        (tmp_path / "part.npz").write_bytes(part)
+        np.save(tmp_path / "bare.npy", np.random.default_rng(1).normal(size=(16, 16)))
+        (tmp_path / "words.txt").write_text("no heights\n")
+        measured = sorted(tmp_path.iterdir())
+    shown = {}
+    for file in measured:
+        shown[file.name] = tab.drop(file.name, file.read_bytes())
+        if shown[file.name]:
+            tab.wait("() => document.getElementById('map').width > 0")
+            assert tab.picture[0] > 5, file.name
+        else:
+            assert len(tab.text("said")) > 20, file.name
+    assert shown == {file.name: is_map(file) for file in measured}
+
+
+def test_the_slider_gives_a_new_map_and_new_numbers(tab):
+    tab.example("Fractal patch")
+    tab.settled()
+    tab.page.get_by_role("button", name="Contact").click()
+    facts, picture = tab.facts, tab.picture
+    tab.page.locator("#slider").focus()
+    for _ in range(5):
+        tab.page.keyboard.press("ArrowRight")
+    tab.settled()
+    assert tab.facts.keys() == facts.keys()
+    assert tab.facts != facts
+    assert tab.picture != picture
+    for _ in range(5):  # each press of the key is a step
+        tab.page.locator("#undo").click()
+    tab.settled()
+    assert (tab.facts, tab.picture) == (facts, picture)
+
+
+def test_a_load_that_is_written_is_the_one_that_is_pressed(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.fill("#load", "2 MPa")
+    tab.page.keyboard.press("Enter")
+    tab.settled()
+    assert tab.facts["nominal pressure"] == "2 MPa"
+    assert "--pressure '2 MPa'" in tab.text("command")
+
+
+def test_points_of_a_curve_arrive_and_stop(tab):
+    tab.example("Rugged patch")
+    tab.settled()
+    tab.page.locator("#start").click()
+    tab.wait(f"() => ({POINTS})() >= 2")
+    tab.page.locator("#stop").click()
+    tab.wait("() => document.getElementById('stop').disabled && !document.getElementById('start').disabled")
+    count = tab.page.evaluate(POINTS)
+    assert 2 <= count < 24
+    # The load goes on as before.
+    tab.page.locator("#slider").press("ArrowRight")
+    tab.settled()
+
+
+def test_a_solve_gives_way_to_what_is_asked_next(tab):
+    """The map of what was asked last is shown, and no answer to what was asked before comes after it."""
+    tab.example("Large map")
+    tab.wait("() => document.getElementById('said').textContent.startsWith('Pressing')")
+    tab.example("Fractal patch")
+    tab.settled()
+    assert tab.facts["surface"].startswith("256 x 256 cells")
+    assert "--points 256" in tab.text("command")
+
+
+def exported(tab, kind):
+    """Return the name and the bytes of what the page gives away."""
+    with tab.page.expect_download(timeout=1000 * PATIENCE) as waiting:
+        tab.page.select_option("#export", kind)
+    file = waiting.value.path()
+    return waiting.value.suggested_filename, file.read_bytes()
+
+
+def numbers_of(command):
+    """Return what commands print as JSON, the last one's."""
+    for line in command.splitlines():
+        result = CliRunner().invoke(app, [*shlex.split(line)[1:], "--json"])
+        assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def table_of(text):
+    """Return the rows of a table in CSV, without the lines that say where it is from."""
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def test_what_is_exported_is_what_the_stated_command_prints(tab, part, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "part.npz").write_bytes(part)
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    name, content = exported(tab, "csv")
+    [row] = table_of(content.decode())
+    printed = numbers_of(tab.text("command"))
+    assert name == "press.csv"
+    for key in ("force", "depth", "contact_area", "stiffness"):
+        assert float(row[key]) == printed[key], key
+
+
+def test_the_archive_holds_all_and_the_commands_that_make_it(tab, part, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "part.npz").write_bytes(part)
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.locator("#start").click()
+    tab.wait(f"() => ({POINTS})() >= 3")
+    tab.page.locator("#stop").click()
+    tab.wait("() => document.getElementById('stop').disabled")
+    _, content = exported(tab, "zip")
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    assert {"press.csv", "pressure.nc", "pressure.png", "curve.csv", "commands.sh", "same.py"} <= files.keys()
+    *_, press, curve = files["commands.sh"].decode().splitlines()
+    assert json.loads(files["press.json"])["force"] == numbers_of(press)["force"]
+    points = table_of(files["curve.csv"].decode())
+    assert len(points) == tab.page.evaluate(POINTS)
+    printed = numbers_of(curve)
+    for key in ("force", "depth", "stiffness", "contact_area"):
+        assert [float(each[key]) for each in points] == printed[key], key
+
+
+def test_two_tabs_do_not_disturb_each_other(desk, tab):
+    other = desk.tab()
+    tab.example("Fractal patch")
+    other.example("Joint face")
+    tab.settled()
+    other.settled()
+    assert tab.facts["surface"].startswith("256 x 256 cells")
+    assert other.facts["surface"].startswith("512 x 512 cells")
+    facts = tab.facts
+    other.page.locator("#slider").press("ArrowRight")
+    other.settled()
+    other.page.close()
+    assert other.told == []
+    assert tab.facts == facts
+    tab.page.locator("#slider").press("ArrowRight")
+    tab.settled()
+    assert tab.facts != facts
+
+
+def test_the_files_of_a_tab_go_with_it(desk, tab, part):
+    other = desk.tab()
+    assert tab.drop("part.npz", part)
+    assert other.drop("other.npz", part)
+    assert {path.name for path in desk.served.left()} == {"part.npz", "other.npz"}
+    other.page.close(run_before_unload=True)
+    tab.until(lambda: {path.name for path in desk.served.left()} == {"part.npz"})
+
+
+def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
+    tab.example("Large map")
+    tab.wait("() => document.getElementById('said').textContent.startsWith('Pressing')")
+    for worker in desk.served.workers:
+        worker.kill()
+    tab.wait("() => document.getElementById('said').textContent.includes('A new one takes over')")
+    tab.example("Fractal patch")
+    tab.settled()
+    assert tab.facts["surface"].startswith("256 x 256 cells")
+
+
+def test_a_gigabyte_is_refused_before_it_is_sent(desk, tab, tmp_path):
+    large = tmp_path / "large.x3p"
+    with large.open("wb") as file:
+        file.truncate(2**30)  # of which the disk holds nothing
+    tab.page.set_input_files("#file", large)
+    tab.wait("() => document.getElementById('said').textContent.includes('512 MB')")
+    assert [path.name for path in desk.served.left()] == []
+
+
+@pytest.fixture
+def elsewhere():
+    """The address of another site on this machine: another port, to which browsers send the same cookies."""
+
+    class Silent(BaseHTTPRequestHandler):
+        def do_GET(self):
+            self.send_response(200)
+            self.end_headers()
+
+        def log_message(self, *_):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Silent) as site:
+        threading.Thread(target=site.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{site.server_port}/"
+        site.shutdown()
+
+
+def test_another_site_in_the_same_browser_is_refused(desk, tab, elsewhere):
+    """Though its requests bear the cookie; and the browser keeps from it that there is somebody."""
+    sessions, failed = desk.served.sessions(), []
+    page = desk.context.new_page()
+    page.on("requestfailed", lambda found: failed.append(found.url))
+    page.goto(elsewhere)
+    for mode in ("cors", "no-cors"):
+        page.evaluate(
+            "([url, mode]) => fetch(url, {method: 'POST', mode, credentials: 'include'}).catch(() => null)",
+            [f"{desk.origin}/session", mode],
+        )
+    tab.until(lambda: failed == [f"{desk.origin}/session"] * 2, failed)
+    page.close()
+    assert desk.served.sessions() == sessions
+
+
+def test_an_address_without_its_key_opens_nothing(chromium, desk):
+    context = chromium.new_context()
+    page = context.new_page()
+    assert page.goto(desk.origin).status == 403
+    assert "holds the key" in page.locator("body").inner_text()
+    context.close()
+
+
+def test_the_address_keeps_no_key(tab):
+    assert "token" not in tab.page.url
+    assert tab.page.evaluate("document.cookie") == ""

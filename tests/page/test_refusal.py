@@ -1,0 +1,45 @@
+"""What the user can mend is refused with a reason; what we did wrong is said to be ours."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.page.refusal import refusal
+
+
+def caught(call):
+    with pytest.raises(Exception) as error:
+        call()
+    return refusal(error.value)
+
+
+def test_an_error_of_the_library_is_refused_as_a_sentence():
+    found = caught(lambda: rc.Grid((8, 8), -1.0))
+    assert found["how"] == "refused"
+    assert found["message"][0].isupper()
+    assert found["message"].endswith(".")
+
+
+@pytest.mark.parametrize(
+    "call", [lambda: np.zeros(3).reshape(2), lambda: float("three"), lambda: {}["key"]], ids=str
+)
+def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
+    found = caught(call)
+    assert found["how"] == "mistake"
+    assert "not in your input" in found["message"]
+
+
+def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):
+    file = tmp_path / "heights.npy"
+    np.save(file, np.random.default_rng(1).normal(size=(8, 8)))
+    found = caught(lambda: rc.read(file))
+    assert found["how"] == "refused"
+    assert "size" in found["lacking"]
+    assert "the width of the map" in found["remedy"]
+
+
+def test_the_folder_of_the_server_stays_unsaid(tmp_path):
+    found = caught(lambda: (tmp_path / "part.x3p").open())
+    assert found["how"] == "refused"
+    assert "part.x3p" in found["message"]
+    assert str(tmp_path) not in str(found)

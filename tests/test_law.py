@@ -1,0 +1,110 @@
+"""The ensembles of the law: their study files, and what the script makes of them."""
+
+import importlib.util
+import sys
+import tomllib
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+from roughcontact.study.study import Study
+
+ROOT = Path(__file__).parent.parent
+FILES = sorted((ROOT / "examples" / "law").glob("*.toml"))
+
+
+def study(name):
+    return Study.read(ROOT / "examples" / "law" / f"{name}.toml")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_study_file_is_one_of_its_name_that_its_case_takes(path):
+    assert Study.read(path).name == path.stem
+    assert Study.read(path).combinations()
+    assert path.read_text(encoding="utf-8").startswith("# E")
+
+
+def test_every_ensemble_is_there():
+    assert {path.name[:2] for path in FILES} == {f"e{number}" for number in range(1, 8)}
+
+
+def test_surfaces_that_are_compared_are_the_same_draw():
+    assert {tomllib.loads(path.read_text(encoding="utf-8"))["seed"] for path in FILES} == {27}
+
+
+@pytest.mark.parametrize("name", ["e2-grids", "e3-modes", "e7-sizes"])
+def test_waves_of_a_nested_ensemble_have_one_amplitude_on_every_grid(name):
+    """The common band of two grids of one surface is the same heights, on the cells that both have in common."""
+    wide = [each for each in study(name).combinations() if each.short_cutoff is None]
+    lowest = min(each.hurst for each in wide)
+    grids = sorted((each for each in wide if each.hurst == lowest), key=lambda each: each.points)
+    for coarse, fine in pairwise(grids):
+        both = [waves(each) for each in (coarse, fine)]
+        # Of the rms height, which is that of about a thousand waves: what rounding leaves of each.
+        np.testing.assert_allclose(*both, atol=1e-12 * coarse.rms)
+
+
+def waves(parameters, highest=20):
+    """Return the complex amplitudes of the longest waves, their phases counted from the outer corner."""
+    heights = parameters.roughness(np.random.default_rng(3)).heights
+    n = parameters.points
+    kept = np.fft.fft2(heights)[: highest + 1, : highest + 1] / n**2
+    turn = np.exp(-1j * np.pi * np.arange(highest + 1) / n)  # half a cell
+    return kept * np.outer(turn, turn)
+
+
+@pytest.fixture(scope="module")
+def script():
+    """Return the script that writes the page, as a module."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))  # it takes those beside it
+    spec = importlib.util.spec_from_file_location("law", ROOT / "benchmarks" / "law.py")
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    yield found
+    for name in [*sys.modules]:
+        if name.startswith("law_") or name in ("certificate", "reproduction", "reproduction_page"):
+            del sys.modules[name]
+    sys.path.remove(str(ROOT / "benchmarks"))
+
+
+def test_the_page_shows_the_ensembles_that_are_there(script):
+    text = (ROOT / "docs" / "law.md").read_text(encoding="utf-8")
+    found = {"runs": script.runs()} | script.e3() | script.e6() | script.e7()
+    for name, table in found.items():
+        assert f"<!-- table {name} -->\n{table}\n<!-- end -->" in text
+
+
+def test_a_page_without_ensembles_says_so(script, tmp_path):
+    assert set(script.tables(tmp_path)) == {"runs", "findings"}
+    page = "a\n<!-- table e3 -->\nold\n<!-- end -->\nb"
+    assert script.filled(page, {}) == "a\n<!-- table e3 -->\nNot computed yet.\n<!-- end -->\nb"
+    assert script.filled(page, {"e3": "new"}) == "a\n<!-- table e3 -->\nnew\n<!-- end -->\nb"
+
+
+def test_a_power_law_and_the_limit_of_fine_grids_are_found(script):
+    from law_ensembles import law
+    from law_tables import power_limits
+
+    force = xarray.DataArray(np.geomspace(1e-3, 0.07, 6), dims="load")
+    alpha, zeta = law(force, 1.2 * force**0.6, force > 0)
+    assert float(alpha) == pytest.approx(0.6, rel=1e-12)
+    assert float(zeta) == pytest.approx(1.2, rel=1e-12)
+    n = np.array([128.0, 256.0, 512.0, 1024.0])
+    # w = 1 is not among the powers, which are 0.05 apart: the next one is 0.025 away at most.
+    limit, power = power_limits(n, (0.3 + 5 / n)[np.newaxis])[0]
+    assert power == pytest.approx(1, abs=0.025)
+    assert limit == pytest.approx(0.3, abs=5 / 1024 * np.log(8) * 0.025)
+
+
+def test_samples_drawn_again_scatter_as_the_mean_of_them(script):
+    """The bootstrap's standard error of a mean is s/sqrt(n); that of 400 replicates is off by 1/sqrt(800)."""
+    from law_ensembles import error, resampled
+
+    values = np.random.default_rng(5).normal(size=50)
+    found = resampled(xarray.DataArray(values[:, np.newaxis], dims=("sample", "load")))
+    assert float(found[0, 0]) == pytest.approx(values.mean(), rel=1e-12)
+    expected = values.std(ddof=1) / 50**0.5
+    assert float(error(found, 50)[0]) == pytest.approx(expected, rel=4 / 800**0.5)
