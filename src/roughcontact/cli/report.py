@@ -20,6 +20,8 @@ from roughcontact.plot.adhesive_facts import (
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
+    bend_words,
+    curve_facts,
     load_table,
     loop_facts,
     quantity,
@@ -38,6 +40,8 @@ __all__ = [
     "CURVE_COLUMNS",
     "adhesive_facts",
     "adhesive_loop_facts",
+    "bend_words",
+    "curve_facts",
     "doing",
     "emit",
     "law_facts",

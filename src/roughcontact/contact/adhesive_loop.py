@@ -92,7 +92,8 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     count, near = whole(int(points), "points"), -NEAR * adhesion.range
     require(depth > near, f"the depth must be above {near:.3g} m, ten ranges of the attraction apart", depth)
     step = (depth - near) / count
-    there = [near + step * k for k in range(count)] + [depth]
+    far = -REACH * adhesion.range  # the path begins where nothing attracts, to meet every jump
+    there = [far, *(near + step * k for k in range(count)), depth]
     return np.array(there + [depth - step * k for k in range(1, count * MOST)])
 
 

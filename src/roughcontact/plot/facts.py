@@ -15,23 +15,16 @@ from roughcontact.solver.control import Status
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
+    from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("AREAL_COLUMNS", "CURVE_COLUMNS"),
-    *(
-        "closed_gap",
-        "load_table",
-        "loop_facts",
-        "quantity",
-        "size_of",
-        "solution_facts",
-        "surface_facts",
-        "surface_record",
-    ),
+    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "curve_facts"),
+    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
@@ -123,6 +116,32 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
         part = loading.flow.plastic_area[-1] / loading.contact_area[-1]
         facts.append(("plastic part of the contact", f"{part:.2%} at the largest load"))
     return facts
+
+
+def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
+    """Return what a curve is worth telling as a whole, line by line: its power law, if it has one, and its limits."""
+    kind = curve.geometry
+    full = quantity("full_contact_stiffness", curve.full_contact_stiffness, kind)
+    facts = [
+        ("full-contact stiffness", f"{full}, every measured cell in contact"),
+        ("largest certificate", f"{curve.residual.max():.1e}"),
+    ]
+    if law is None:
+        return facts
+    low, high = (quantity("force", end, kind) for end in law.window)
+    stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
+    text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
+    fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
+    return [("power law", text), ("fitted to", fitted), *facts]
+
+
+def bend_words(law: PowerLaw) -> str:
+    """Return what is to be said of a law whose exponent changes over its window."""
+    low, high = law.ends
+    return (
+        f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
+        f"({law.bend:+.2f} +- {law.bend_error:.2f}); quote local exponents with their windows"
+    )
 
 
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
