@@ -60,6 +60,7 @@ lint: $(ENV)/.ready-to-test
 docs: $(DOCS_ENV)/.ready
 	@rm -rf build/docs
 	@$(DOCS_ENV)/bin/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
+	  && $(DOCS_ENV)/bin/python docs/search_check.py build/docs \
 	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
 
 bench: $(BENCH_ENV)/.ready
@@ -91,7 +92,8 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 $(DOCS_ENV)/.ready: pyproject.toml
 	@$(call create,$(DOCS_ENV))
 	@echo "Installing what the site is built with ..."
-	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs]"
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs,formats]"
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this
@@ -100,7 +102,7 @@ $(BENCH_ENV)/.ready: pyproject.toml
 	@$(call create,$(BENCH_ENV))
 	@echo "Installing roughcontact and its peers into $(BENCH_ENV) ..."
 	@$(BENCH_ENV)/bin/python $(INSTALL) -e .
-	@for peer in tamaas ContactMechanics; do \
+	@for peer in tamaas ContactMechanics Adhesion; do \
 	  $(BENCH_ENV)/bin/python $(INSTALL) $$peer || echo "$$peer: cannot be installed here, not shown"; done
 	@CMAKE_ARGS="-DASPHER_NATIVE=ON" $(BENCH_ENV)/bin/python -m pip install -qq --no-binary=aspher aspher \
 	  || echo "aspher: needs g++, cmake and Eigen (Debian: libeigen3-dev) to build, not shown"
