@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.conducting import conductors_of
 from roughcontact.page.curve_point import columns, point_of
@@ -89,6 +90,8 @@ def compared(
             law = _law(name, order, bench)
             found[name] = law, computed.compare(law)
         except ValueError as error:
+            if not is_ours(error):
+                raise
             refused[name] = str(error)
     return found, refused
 
@@ -136,15 +139,17 @@ def _judged(solution: Solution) -> dict[str, Any]:
 
 
 def _whole(computed: Curve) -> dict[str, Any]:
+    from roughcontact.contact.curve import REMEDY
     from roughcontact.plot.facts import bend_words, curve_facts
 
     resolved = int(computed.resolved.sum())
     try:
         law = computed.fit()
     except ValueError as error:
+        why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
         return {
             "facts": curve_facts(computed, None),
-            "notes": [f"No power law: {error}."],
+            "notes": [f"No power law: {why}."],
             "resolved": resolved,
         }
     inside = (computed.force >= law.window[0]) & (computed.force <= law.window[1])

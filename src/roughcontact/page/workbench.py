@@ -91,7 +91,8 @@ class Workbench:
                 try:
                     return rc.press(surface, modulus, **given, hardness=hardness)
                 except rc.ConvergenceError as error:
-                    return error.solution
+                    best: Solution = error.solution
+                    return best
 
         return self._once("solution", replace(recipe, loads=None), pressed)
 

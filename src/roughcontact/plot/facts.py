@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "curve_facts"),
+    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "curve_facts"),
     *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
@@ -66,7 +66,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("contact area", quantity("contact_area", solution.contact_area, kind)),
         ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
-        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)), kind)),
+        ("mean gap", quantity("mean_gap", float(closed_gap(solution.mean_gap, solution.depth)), kind)),
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
@@ -151,7 +151,11 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
     for name in names:
         values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
-            values = _closed(values, dataset["depth"].to_numpy())
+            values = closed_gap(values, dataset["depth"].to_numpy())
+        if values.dtype.kind in "OUT":
+            header.append(VARIABLES[name].label)
+            columns.append([str(value) for value in values])
+            continue
         plain = known in ("", "1")
         chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
         label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
@@ -203,10 +207,10 @@ def _scale(values: Any, unit: str, known: str) -> Scale:
     """Return the unit that suits a column; one that the user chose stays."""
     if unit != known:
         return Scale(1.0, unit)
-    return scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), unit)
+    return scale(float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values))), unit)
 
 
-def _closed(gap: Any, depth: Any) -> Any:
+def closed_gap(gap: Any, depth: Any) -> Any:
     """Return mean gaps with 0 for those that are mere rounding of the depth."""
     return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
 

@@ -48,7 +48,7 @@ function redraw() {
 }
 
 function draw(root) {
-  const { x, y, series, zero = false, height = 0, label = "" } = root.spec;
+  const { x, y, series, zero = false, height = 0, label = "", count = null } = root.spec;
   if (root.plot) root.plot.destroy();
   root.plot = null;
   const width = root.clientWidth;
@@ -95,7 +95,7 @@ function draw(root) {
   if (series.length > 1) root.append(legend(series));
   root.append(readout);
   root.setAttribute("role", "img");
-  root.setAttribute("aria-label", `${label || y.label}: ${y.label} against ${x.label}, ${xs.length} points`);
+  root.setAttribute("aria-label", `${label || y.label}: ${y.label} against ${x.label}, ${count ?? xs.length} points`);
   root.plot.over.addEventListener("click", () => {
     const { idx } = root.plot.cursor;
     if (root.spec.clicked && idx !== null && idx !== undefined) root.spec.clicked(xs[idx] / scaleX.factor);

@@ -6,6 +6,8 @@ import { digits, scaleFor } from "./words.js";
 const COLUMNS = ["force", "nominal_pressure", "depth", "stiffness", "contact_fraction", "mean_gap", "spots", "residual"];
 
 export function curveTable(root, { columns, points }, current, chosen) {
+  // The keys stay where they are.
+  const focused = [...root.querySelectorAll("button")].indexOf(document.activeElement);
   const shown = COLUMNS.map((name) => columns.find((each) => each.name === name));
   const scales = shown.map(({ name, unit }) => scaleFor(points.map((point) => point[name]), unit));
   const head = element("tr", "");
@@ -38,4 +40,5 @@ export function curveTable(root, { columns, points }, current, chosen) {
   const top = document.createElement("thead");
   top.append(head);
   root.replaceChildren(element("caption", "A row shows its contact; open circles are not resolved by the grid."), top, body);
+  if (focused >= 0) body.querySelectorAll("button")[focused]?.focus({ preventScroll: true });
 }

@@ -42,8 +42,9 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     show();
     try {
       const end = await sent.ended;
-      if (run === current) trouble("curve", end);
-      if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+      const field = run === current && trouble("curve", end);
+      if (field) say("");
+      else if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
       else if (run === current && end.how === "stopped") say("Stopped before the first point.");
     } catch (error) {
       failed(error);
@@ -62,6 +63,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
       Object.assign(run, header);
       list(by("curve_notes"), header.notes);
       offer(header.columns);
+      show();
       say("");
     } else if (header.type === "point") {
       run.points.push(header);
@@ -147,7 +149,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     if (state && Number.isFinite(state[name]) && state[along] > 0) {
       series.push({ x: [state[along]], y: [state[name]], label: "the load shown", kind: "mark", colour: "--mark" });
     }
-    chart(by("curve"), { x: { ...column(along), log }, y: { ...column(name), log }, series, clicked: (place) => {
+    chart(by("curve"), { x: { ...column(along), log }, y: { ...column(name), log }, count: current.points.length, series, clicked: (place) => {
       const near = (each) => Math.abs(Math.log(each[along] / place));
       choose([...current.points].sort((a, b) => near(a) - near(b))[0]);
     } });

@@ -89,7 +89,7 @@ function ended(end, job) {
   const field = trouble(job, end);
   // A file that leaves something open asks for it.
   if (field && end.lacking && document.activeElement === document.body) field.focus();
-  if (end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+  if (end.message) say(field === by("load") ? "" : [end.message, end.remedy].filter(Boolean).join(" "));
   return end.how === "done";
 }
 

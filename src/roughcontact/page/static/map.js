@@ -243,7 +243,8 @@ export function mapView(canvas, bar, heard) {
     const step = (event.shiftKey ? 10 : 1) * { ArrowUp: -1, ArrowLeft: -1, ArrowDown: 1, ArrowRight: 1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    state.axis = event.key === "ArrowUp" || event.key === "ArrowDown" ? "row" : "column";
+    const axis = event.key === "ArrowUp" || event.key === "ArrowDown" ? "row" : "column";
+    if (axis !== state.axis) [state.axis, state.place] = [axis, null];
     const count = field.cells[state.axis === "row" ? 0 : 1];
     const from = state.place === null || state.place >= count ? Math.floor(count / 2) : state.place;
     setPlace(Math.min(Math.max(from + step, 0), count - 1));
