@@ -23,7 +23,15 @@ export function numbersView() {
         series: [{ x, y, label: "density", kind: "area", colour: "--accent" }],
       });
     },
-    forget: () => clear(by("pressures")),
+    // What was told of another preparation; of another surface not even the facts stay.
+    forget(all) {
+      clear(by("pressures"));
+      if (!all) return;
+      warned = [];
+      for (const id of ["facts", "notes"]) by(id).replaceChildren();
+      command("");
+      python("");
+    },
   };
 }
 
