@@ -1,6 +1,7 @@
 // What the surface holds: what is doubtful about it, its size, the distribution of its heights, its spectrum, its roughness.
 
 import { chart } from "./charts.js";
+import { facts as listed, list } from "./numbers.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
@@ -79,9 +80,9 @@ export function holdings(recipe, crop) {
       by("held").hidden = false;
       by("holds_none").hidden = true;
       const shown = facts.filter(([name]) => name !== "history");
-      by("held_facts").replaceChildren(...shown.flatMap(([name, value]) => [element("dt", name), element("dd", value)]));
-      by("warned").replaceChildren(...warned.map((line) => element("li", line)));
-      by("history").replaceChildren(...facts.filter(([name]) => name === "history").map(([, line]) => element("li", line)));
+      listed(by("held_facts"), shown);
+      list(by("warned"), warned);
+      list(by("history"), facts.filter(([name]) => name === "history").map(([, line]) => line));
     },
     study(header) {
       if (header.type === "doubts") {
