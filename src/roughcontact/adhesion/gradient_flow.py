@@ -99,7 +99,9 @@ def flow(
         # An equilibrium that was found from an earlier point is as good, if nothing lies between it and this one.
         if end is not None and convex(energy, point, end.point):
             end = minimise(energy, end.point.displacement, counter, convex_only=True)
-            return Landing(end, lost - energy.change(point, end.point))
+            if end.converged:
+                return Landing(end, lost - energy.change(point, end.point))
+            end = None
     end = minimise(energy, displacement, counter)
     return Landing(end, lost + end.lost)
 
