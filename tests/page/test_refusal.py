@@ -21,7 +21,9 @@ def test_an_error_of_the_library_is_refused_as_a_sentence():
 
 
 @pytest.mark.parametrize(
-    "call", [lambda: np.zeros(3).reshape(2), lambda: float("three"), lambda: {}["key"]], ids=str
+    "call",
+    [lambda: np.zeros(3).reshape(2), lambda: float("three"), lambda: {}["key"]],
+    ids=["numpy", "python", "key"],
 )
 def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
     found = caught(call)

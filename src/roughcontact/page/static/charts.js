@@ -136,7 +136,8 @@ function drawn(each) {
   const stroke = colourOf(each);
   const line = each.kind === "line" || each.kind === "area";
   const points = { show: !line, size: each.kind === "mark" ? 15 : 7, width: each.kind === "mark" ? 2.5 : 1.5, stroke };
-  points.fill = each.kind === "points" ? stroke : each.kind === "mark" ? `${stroke}22` : css("--card");
+  if (each.gaps) Object.assign(points, { show: true, size: 4, filter: lone });
+  points.fill = each.kind === "points" || line ? stroke : each.kind === "mark" ? `${stroke}22` : css("--card");
   return {
     label: each.label,
     stroke,
@@ -147,6 +148,13 @@ function drawn(each) {
     points,
     paths: line ? undefined : () => null,
   };
+}
+
+// Values without a neighbour, which no line shows.
+function lone(plot, series) {
+  const values = plot.data[series];
+  const there = (k) => values[k] !== null && values[k] !== undefined;
+  return values.map((_, k) => k).filter((k) => there(k) && !there(k - 1) && !there(k + 1));
 }
 
 // All series on one axis, as uPlot wants them; what a logarithm cannot show is left out.

@@ -93,10 +93,11 @@ function ended(end, job) {
   return end.how === "done";
 }
 
+// Of what runs, only what is no longer asked for is stopped; under a moving slider maps follow as fast as they come.
 async function pump() {
   by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
-    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
+    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press && !load.dragged);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }

@@ -7,12 +7,10 @@ const by = (id) => document.getElementById(id);
 
 export function numbersView() {
   const [command, python] = [statement(by("command")), statement(by("python"))];
-  let warned = [];
   return {
     tell(header) {
-      warned = header.warned || warned;
       facts(by("facts"), header.facts);
-      list(by("notes"), [...(header.notes || []), ...warned]);
+      list(by("notes"), header.notes || []);
       command(header.command);
       python(header.python);
     },
