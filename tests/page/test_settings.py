@@ -195,6 +195,19 @@ def test_bodies_are_given_in_every_way(person, part):
     assert "--modulus '100 GPa'" in person.command
 
 
+def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_path):
+    person.open(part)
+    person.wait()
+    assert "Sq" in person.text("roughness")
+    rc.write(rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6)), tmp_path / "flat.npz")
+    person.open(tmp_path / "flat.npz")
+    said = person.page.locator("#said", has_text="flat")
+    said.wait_for(timeout=1000 * PATIENCE)
+    person.page.locator("#holds[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
+    assert person.text("roughness") == ""
+    assert "16 x 16" in person.text("held_facts")
+
+
 def test_what_is_being_typed_outlives_an_answer(person, part):
     person.open(part)
     person.wait()
@@ -223,5 +236,10 @@ def test_every_field_has_a_name_and_every_text_is_readable(person, part):
             person.page.locator("#theme").click()
         for width in (400, 1400, 3840):
             person.page.set_viewport_size({"width": width, "height": 1000})
+            before = time.monotonic() + PATIENCE
+            while (
+                person.page.evaluate("document.documentElement.scrollWidth") != width
+            ):  # something sticks out
+                assert time.monotonic() < before, (theme, width)
+                person.page.wait_for_timeout(20)
             assert person.page.evaluate(FAINT) == [], (theme, width)
-            assert person.page.evaluate("document.documentElement.scrollWidth") == width  # nothing sticks out

@@ -130,10 +130,16 @@ async function perform(job) {
   clearTimeout(front.timer);
   front = null;
   ended(end, job);
-  if (job === "look" && end.how !== "done" && !wanted.look) wanted.press = wanted.study = false;
+  if (job === "look" && end.how !== "done" && !wanted.look) {
+    wanted.press = wanted.study = false;
+    holds.refused();
+  }
   if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
   if (job === "press" && end.how === "done") wanted.cut = true;
-  if (job === "study" && end.how === "stopped") wanted.study = true;
+  if (job === "study" && !wanted.study) {
+    if (end.how === "stopped") wanted.study = true;
+    else holds.done();
+  }
   pump();
 }
 
