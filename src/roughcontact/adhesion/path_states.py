@@ -14,6 +14,7 @@ from roughcontact.adhesion.elastic_form import elastic_form
 from roughcontact.adhesion.gradient_flow import REACH, released
 from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
+from roughcontact.adhesion.sharp_path import require_drawn_back, sharp_states
 from roughcontact.adhesion.truncated_newton import minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.threads import one_blas_thread
@@ -29,8 +30,8 @@ CELLS = 1.5  # that Irwin's length must span
 
 
 def is_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> bool:
-    """Whether Irwin's length spans 1.5 cells: on fewer the attraction varies from cell to cell."""
-    return adhesion.process_zone(modulus) >= CELLS * max(operator.grid.spacing)
+    """Whether Irwin's length spans 1.5 cells, or the law is sharp: else the attraction varies from cell to cell."""
+    return adhesion.law == "sharp" or adhesion.process_zone(modulus) >= CELLS * max(operator.grid.spacing)
 
 
 def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> None:
@@ -91,6 +92,10 @@ def states_along(
         )
     if capabilities(operator).listed:
         raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
+    values = depths if forces is None else forces
+    goals = [] if values is None else [float(value) for value in values]
+    if adhesion.law == "sharp":
+        require_drawn_back(goals)
     form = elastic_form(operator)
     measured = np.isfinite(separation)
     by_depth = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
@@ -98,8 +103,9 @@ def states_along(
     if forces is not None:
         control = ForceControl.of(by_depth)
         blank = Blank(operator, separation, form, control, tolerance, resolved)
-        return _walk(blank, [float(f) for f in forces], *_first_force(blank, forces, adhesion))
-    goals = [float(d) for d in (() if depths is None else depths)]
+        if adhesion.law == "sharp":
+            return sharp_states(blank, goals, modulus)
+        return _walk(blank, goals, *_first_force(blank, forces, adhesion))
     if form.mean_free and measured.all() and max(goals) >= (full := float(separation.mean())):
         raise ValueError(
             f"a depth of {max(goals):.6g} m is not below the mean separation {full:.6g} m: there a periodic surface is "
@@ -107,6 +113,8 @@ def states_along(
         )
     far = -REACH * adhesion.range
     blank = Blank(operator, separation, form, by_depth, tolerance, resolved)
+    if adhesion.law == "sharp":
+        return sharp_states(blank, goals, modulus)
     first = min(far, goals[0])
     return _walk(blank, goals, first, np.zeros(form.shape), BRACKET * (max(0.0, *goals) - far))
 
