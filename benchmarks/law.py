@@ -2,6 +2,7 @@
 
     python benchmarks/law.py                     # writes the tables and pictures of docs/law.md
     python benchmarks/law.py --collect DIR       # takes over the studies DIR/NAME before
+    python benchmarks/law.py --cost              # seconds of a processor a curve on every grid
     python benchmarks/law_check.py               # one member of each, by another solver
 
 The studies are those of examples/law: ``roughcontact study run examples/law/NAME.toml --out DIR/NAME``. They can be
@@ -13,20 +14,26 @@ from __future__ import annotations
 
 import argparse
 import re
+import time
 import tomllib
 from pathlib import Path
 
 from law_check import check
-from law_ensembles import FOLDER, ROOT, STUDIES, collect, read
+from law_ensembles import FOLDER, ROOT, STUDIES, collect, error, read
 from law_findings import findings
 from law_formula import formula
 from law_others import e3, e4, e5, e6, e7
 from law_pictures import pictures
-from law_tables import e1, e2, markdown
+from law_tables import e1, e1_laws, e2, markdown
 from reproduction import save
 
+from roughcontact.study.cases.curve_case import CASE
+from roughcontact.study.study import Study
+from roughcontact.study.task import generator
+
 PAGE = ROOT / "docs" / "law.md"
-PARTS = (findings, formula, e1, e2, e3, e4, e5, e6, e7)
+PARTS = (formula, e1, e2, e3, e4, e5, e6, e7)
+WANTED = {"alpha": 0.005, "zeta": 0.015}  # standard errors
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -42,7 +49,7 @@ def runs(folder: Path = FOLDER) -> str:
         done = ("0", "-") if found is None else (str(found.sizes["sample"]), f"{found.attrs['hours']:.1f}")
         name = f"[`{path.stem}`](../examples/law/{path.name})"
         rows.append([name, words, str(asked), *done])
-    return markdown((["study", "what", "samples wanted", "done", "hours of one core"], rows))
+    return markdown((["study", "what", "samples wanted", "done", "hours"], rows))
 
 
 def checked() -> str:
@@ -59,10 +66,41 @@ def checked() -> str:
 
 def tables(folder: Path = FOLDER) -> dict[str, str]:
     """Return every table by its name."""
-    found = {"runs": runs(folder)}
+    found = {"runs": runs(folder), "counts": counts(folder)}
     for each in PARTS:
         found |= each(folder)
-    return found
+    said = findings(folder) + [found.pop(name) for name in [*found] if name.endswith(" said")]
+    return found | {"findings": "\n".join(f"{number}. {words}" for number, words in enumerate(said, 1))}
+
+
+def counts(folder: Path = FOLDER) -> str:
+    """Return a table of how single surfaces of E1 scatter, and how many of them the errors take that are wanted."""
+    ensemble = read("e1-surfaces", folder)
+    if ensemble is None:
+        return "Not computed yet."
+    laws = e1_laws(ensemble)
+    samples = laws.attrs["samples"]
+    scatter = [error(laws[f"{name}_mean"], samples) * samples**0.5 for name in WANTED]
+    rows = [
+        [
+            f"{float(h):g}",
+            *(f"{one:.2f}" for one in pair),
+            *(f"{(one / wanted) ** 2:.0f}" for one, wanted in zip(pair, WANTED.values(), strict=True)),
+        ]
+        for h, *pair in zip(laws["hurst"], *(each.to_numpy() for each in scatter), strict=True)
+    ]
+    names = [f"surfaces for {name} to {wanted:g}" for name, wanted in WANTED.items()]
+    return markdown((["H", *(f"scatter of {name}" for name in WANTED), *names], rows))
+
+
+def cost() -> None:
+    """Print the seconds of a processor that one curve of E2 takes on every grid."""
+    for name in ("e2-grids", "e2-grids-2048"):
+        for parameters in Study.read(STUDIES / f"{name}.toml").combinations():
+            if parameters.hurst in (0.25, 1.3, 2.95) and parameters.short_cutoff is None:
+                start = time.process_time()
+                CASE.run(parameters, generator(27, 0))
+                print(f"{parameters.points}², H = {parameters.hurst:g}: {time.process_time() - start:.2f} s")
 
 
 def filled(text: str, found: dict[str, str]) -> str:
@@ -76,7 +114,13 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--collect", type=Path, metavar="DIR", help="folder with the folders of the studies")
+    parser.add_argument(
+        "--cost", action="store_true", help="say how long curves take on every grid, and no more"
+    )
     options = parser.parse_args()
+    if options.cost:
+        cost()
+        return
     if options.collect is not None:
         collect(options.collect)
     text = PAGE.read_text(encoding="utf-8")

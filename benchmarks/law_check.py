@@ -6,7 +6,7 @@ A plain conjugate-gradient iteration (I. A. Polonsky, L. M. Keer, Wear 231, 206 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -108,10 +108,10 @@ def stiffnesses(judge: Judge, contact: Array, cell: float) -> tuple[float, float
     return k, k / (1 - float(judge.displacement(unit).mean()))
 
 
-def check() -> list[list[str]]:
+def check(names: Iterable[str] = tuple(MEMBERS)) -> list[list[str]]:
     """Return a row for every ensemble: k by both programs, and how far k, K and depth differ at most."""
     rows = []
-    for name in MEMBERS:
+    for name in names:
         parameters, record, surface = member(name)
         cell = surface.grid.spacing[0] * surface.grid.spacing[1]
         judge = Judge(surface.grid.shape, surface.grid.spacing, parameters.periodic, parameters.modulus)

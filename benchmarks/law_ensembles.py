@@ -84,7 +84,11 @@ def read(name: str, folder: Path = FOLDER) -> xarray.Dataset | None:
         return None
     with xarray.open_dataset(path, engine="h5netcdf") as data:
         found = data.load()
-    return found.assign({each: found[each].astype(np.float64) for each in _ALONG if each in found})
+    found = found.assign({each: found[each].astype(np.float64) for each in _ALONG if each in found})
+    if "cell_stiffness" in found:  # kept once where it is the same for all
+        other = found[_ALONG[0]].isel(sample=0, load=0, drop=True)
+        found["cell_stiffness"] = found["cell_stiffness"].broadcast_like(other)
+    return found
 
 
 def grid(ensemble: xarray.Dataset, points: int, short_cutoff: float | None = None) -> xarray.Dataset | None:

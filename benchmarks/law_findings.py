@@ -25,10 +25,9 @@ from law_tables import (
 SIDE, UP = 2, 3  # standard errors within which a difference is none, and beyond which it is one
 
 
-def findings(folder: Path = FOLDER) -> dict[str, str]:
-    """Return a numbered list of what is found."""
-    said = [*_exponents(folder), *_grids(folder), *_averages(folder)]
-    return {"findings": "\n".join(f"{number}. {words}" for number, words in enumerate(said, 1))}
+def findings(folder: Path = FOLDER) -> list[str]:
+    """Return what E1 and E2 say."""
+    return [*_exponents(folder), *_grids(folder), *_averages(folder)]
 
 
 def word(off: float, spread: float, what: str) -> str:

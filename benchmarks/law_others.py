@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 import xarray
-from law_ensembles import FOLDER, Values, interpolated, law, paired, read, resampled, value
+from law_ensembles import CELLS, FOLDER, Values, error, interpolated, law, paired, read, resampled, value
 from law_tables import (
     HIGHEST,
     MIDDLE,
@@ -30,6 +31,11 @@ SIZE_FORCE = (0.07, 0.035)  # F/(E* h L) of the smallest size at which sizes are
 def one(found: Values) -> Values:
     """Return a number of every replicate as the only one of a row."""
     return found.expand_dims("one", 1)
+
+
+def at_hurst(words: Iterable[str], hurst: Values) -> str:
+    """Return what is found at every Hurst exponent, in a row of words."""
+    return ", ".join(f"{found} at H = {float(h):g}" for found, h in zip(words, hurst, strict=True))
 
 
 # E3
@@ -58,7 +64,9 @@ def e3(folder: Path = FOLDER) -> dict[str, str]:
     ]
     points = [int(n) for n in ensemble["points"]]
     ends = f"{points[-1]}² less {points[0]}²", f"k at 0.07, {points[-1]}² over {points[0]}²"
-    return {"e3": markdown((["H", *(f"{n}²" for n in points), *ends], body))}
+    change = at_hurst(each(last - alpha.isel(points=0), samples, 3, "+"), ensemble["hurst"])
+    said = f"At low H, in one window of forces, the exponent on {points[-1]}² less that on {points[0]}² is {change}."
+    return {"e3": markdown((["H", *(f"{n}²" for n in points), *ends], body)), "e3 said": said}
 
 
 # E4
@@ -99,7 +107,17 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
         "alpha, difference",
         "k, difference",
     ]
-    return {"e4": markdown((head, body))}
+    first = level.isel(row=0).sel(amplitudes="exact")
+    models = {
+        "Gaussian amplitudes": {"row": 0, "amplitudes": 1},
+        "A disc of wave vectors": {"row": 1, "amplitudes": 0},
+    }
+    said = " ".join(
+        f"{words} change{'s' * (words[0] == 'A')} the mean stiffness at {MIDDLE:g} E\\* h L by "
+        f"{at_hurst(each_percent(level.isel(place) / first - 1, samples), ensemble['hurst'])}."
+        for words, place in models.items()
+    )
+    return {"e4": markdown((head, body)), "e4 said": said}
 
 
 # E5
@@ -111,11 +129,24 @@ def e5(folder: Path = FOLDER) -> dict[str, str]:
     for name in ("e5-flat", "e5-flat-1024"):
         ensemble = read(name, folder)
         if ensemble is not None:
-            tables[name] = markdown(flat(ensemble))
+            head, body = flat(ensemble)
+            tables[name] = markdown((head, body))
+            tables["e5 said"] = flat_words(int(ensemble["points"]), body)
     patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
     if patches is not None:
         tables["e5-patches"] = markdown(patched(patches, whole))
     return tables
+
+
+def flat_words(points: int, body: list[list[str]]) -> str:
+    """Return in a sentence what a table of `flat` says."""
+    grows = ", ".join(f"{line[1]} for l = {line[0]}" for line in body)
+    *_, last = body
+    return (
+        f"Rolled off at l on {points}², K of a periodic surface grows as the pressure to the power of {grows}. From "
+        f"p l/(E\\* h) = {PRESSURES[0]:g} to {PRESSURES[-1]:g} the K of a free square of L = 32 l is off that of the "
+        f"periodic one by {last[4]} to {last[8]}, while its k/K falls from {last[5]} to {last[9]}."
+    )
 
 
 def flat(ensemble: xarray.Dataset) -> Table:
@@ -207,7 +238,14 @@ def e6(folder: Path = FOLDER) -> dict[str, str]:
         "with alpha, zeta of E1",
         "1024² over 512²",
     ]
-    return {"e6": markdown((head, body))}
+    carried = np.flatnonzero(value(mean) > CELLS * ensemble["cell_stiffness"])
+    off = value(mean).to_numpy()[carried] / closed[carried] - 1
+    most = float((error(mean, samples) / value(mean))[carried].max())
+    said = (
+        f"Rough spheres are {100 * off.min():+.1f} to {100 * off.max():+.1f} % (± {100 * most:.1f} % or less) off "
+        f"eq. 5.9 where more than {CELLS} cells carry."
+    )
+    return {"e6": markdown((head, body)), "e6 said": said}
 
 
 def fitted_roughness(folder: Path) -> tuple[float, float] | None:
@@ -215,7 +253,8 @@ def fitted_roughness(folder: Path) -> tuple[float, float] | None:
     ensemble = read("e1-surfaces", folder)
     if ensemble is None:
         return None
-    force, stiffness, _ = curves(ensemble.sel(hurst=SPHERE["hurst"]))
+    ensemble = ensemble.sel(hurst=SPHERE["hurst"])
+    force, stiffness, _ = curves(ensemble)
     mean = resampled(stiffness)
     alpha, zeta = law(force, mean, resolved(ensemble, mean))
     return float(value(alpha)), float(value(zeta))
@@ -239,7 +278,7 @@ def e7(folder: Path = FOLDER) -> dict[str, str]:
     force, stiffness, samples = curves(ensemble)
     mean = resampled(stiffness)
     sizes = ensemble["points"] / int(ensemble["points"][0])
-    body = []
+    body, words = [], []
     for place, h in enumerate(ensemble["hurst"].to_numpy()):
         for at in SIZE_FORCE:
             # At one F/(E* Theta) the force F/(E* h L) goes as L^-(H+1), and k/E* is k/(E* L) times L.
@@ -251,5 +290,13 @@ def e7(folder: Path = FOLDER) -> dict[str, str]:
             ].isel(hurst=place)
             line = [each_percent(one(ratio.isel(points=n)), samples)[0] for n in range(1, sizes.size)]
             body.append([f"{h:g}", f"{at:g}", *line, ", ".join(f"{float(c):.0f}" for c in cells)])
+        words.append(body[-len(SIZE_FORCE)][sizes.size])
     names = [f"size {float(size):g} over size 1" for size in sizes[1:]]
-    return {"e7": markdown((["H", "F/(E\\* h L) of size 1", *names, "cells of stiffness"], body))}
+    said = (
+        f"At one Theta and one force a square of {float(sizes[-1]):g} times the side has k/E\\* off by "
+        f"{at_hurst(words, ensemble['hurst'])}."
+    )
+    return {
+        "e7": markdown((["H", "F/(E\\* h L) of size 1", *names, "cells of stiffness"], body)),
+        "e7 said": said,
+    }

@@ -28,6 +28,7 @@ from roughcontact.thesis.line_match import Ensemble, match
 
 HIGHEST = 0.07  # F/(E* h L), where the fits of the thesis end
 ROUND = 1e-9
+FEWEST = 3  # samples of a grid: fewer would leave too few to all others
 MIDDLE = 0.02  # force at which laws are compared: there the errors of exponent and prefactor hardly matter
 DECADES = ((7e-5, 7e-4), (7e-4, 7e-3), (7e-3, 7e-2))
 ALL = None  # no cut-off: all waves of the grid
@@ -114,6 +115,7 @@ def e1_laws(ensemble: xarray.Dataset) -> xarray.Dataset:
     for name, (exponent, prefactor) in laws.items():
         found[f"alpha_{name}"], found[f"zeta_{name}"] = exponent, prefactor
         found[f"k_{name}"] = prefactor * MIDDLE**exponent
+    found["k_fits"] = resampled(zeta * MIDDLE**alpha)
     found["lowest"] = force.where(inside).min("load")
     return xarray.Dataset(found, attrs={"samples": samples})
 
@@ -179,7 +181,7 @@ def e1_lines(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Table:
             Ensemble.of(each, cell)
             for each, cell in (
                 (finest.isel(hurst=place), 1 / int(finest["points"])),
-                (surfaces.isel(hurst=place), float(surfaces["cell_stiffness"])),
+                (surfaces.isel(hurst=place), float(surfaces["cell_stiffness"].isel(hurst=place))),
             )
         ]
         found = match(*pair, 0.05)
@@ -212,7 +214,8 @@ def nested(
     ensembles: list[xarray.Dataset], wanted: Sequence[tuple[int, float | None]]
 ) -> dict[int, xarray.Dataset]:
     """Return the same surfaces on several grids, (points, short cut-off), by their number of points."""
-    there = {n: found for n, cut in wanted for one in ensembles if (found := grid(one, n, cut)) is not None}
+    enough = [one for one in ensembles if one.sizes["sample"] >= FEWEST]
+    there = {n: found for n, cut in wanted for one in enough if (found := grid(one, n, cut)) is not None}
     return dict(zip(there, paired(*there.values()), strict=True)) if there else {}
 
 

@@ -92,6 +92,7 @@ HEAD = """# The thesis, computed again
 R. Pohrt, *Normal Stiffness of Multiscale Rough Surfaces in Elastic Contact* (TU Berlin, 2013), says that a rough square
 pressed into an elastic half-space has a contact stiffness that grows as a power of the force, and that the exponent is
 1/(H + 1), H the Hurst exponent of its roughness. Here its figures are computed anew, and its claims are judged by them.
+Larger ensembles, the same surfaces on many grids, and a formula with errors: [law.md](law.md).
 """
 
 RULES = f"""## How claims are judged

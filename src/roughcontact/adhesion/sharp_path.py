@@ -17,17 +17,11 @@ from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
 
-__all__ = ["require_drawn_back", "sharp_states"]
+__all__ = ["sharp_states"]
 
 
-def require_drawn_back(goals: list[float]) -> None:
-    """Refuse a path that is not one of detachment.
-
-    Raises
-    ------
-    ValueError
-        If there is one value alone, the first is not positive, or one is above that before.
-    """
+def _require_drawn_back(goals: list[float]) -> None:
+    """Refuse a path that is not one of detachment."""
     if len(goals) < 2 or not goals[0] > 0 or any(b > a for a, b in pairwise(goals)):
         raise ValueError(
             "the sharp law says when stuck cells let go, not how they come to be stuck: give at least two falling "
@@ -36,17 +30,25 @@ def require_drawn_back(goals: list[float]) -> None:
         )
 
 
-def sharp_states(blank: Blank, goals: list[float], modulus: float) -> Iterator[AdhesiveState]:
-    """Yield the state at each of falling depths or forces, the first pressed without attraction, and then stuck.
+def sharp_states(blank: Blank, goals: list[float]) -> Iterator[AdhesiveState]:
+    """Return the states at falling depths or forces, the first pressed without attraction, and then stuck.
 
     Parameters
     ----------
     blank : Blank
     goals : list of float
         Depths [m] or forces [N], as the blank is controlled.
-    modulus : float
-        Reduced modulus E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If there is one value alone, the first is not positive, or one is above that before.
     """
+    _require_drawn_back(goals)
+    return _drawn_back(blank, goals)
+
+
+def _drawn_back(blank: Blank, goals: list[float]) -> Iterator[AdhesiveState]:
     control, by_force = blank.control, isinstance(blank.control, ForceControl)
     inside, counter = blank.form.inside, Counter()
     with one_blas_thread():
@@ -58,7 +60,7 @@ def sharp_states(blank: Blank, goals: list[float], modulus: float) -> Iterator[A
             blank.separation,
             pressed.gap[inside] <= 0,
             work,
-            mean_compliance(blank.operator.grid, modulus),
+            mean_compliance(blank.operator.grid, blank.modulus),
         )
     here = goals[0]
     for goal in goals:
