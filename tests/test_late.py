@@ -34,7 +34,8 @@ def test_each_name_is_there_once(package):
 
 def test_another_name_is_refused_with_those_that_there_are():
     with pytest.raises(
-        AttributeError, match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; it has adhesive_wave"
+        AttributeError,
+        match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; it has adhesive_asperities",
     ):
         _ = rc.theory.hurtz
 

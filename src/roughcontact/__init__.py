@@ -21,6 +21,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
+    from roughcontact.adhesion.detachment import Detachment as Detachment
     from roughcontact.adhesion.quasi_static import Jump as Jump
     from roughcontact.contact.adhesive_branches import AdhesiveLoop as AdhesiveLoop
     from roughcontact.contact.adhesive_loop import adhesive_loop as adhesive_loop

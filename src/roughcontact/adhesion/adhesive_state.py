@@ -10,11 +10,13 @@ import numpy as np
 
 from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
+from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import released
 from roughcontact.adhesion.quasi_static import Jump, Station
 from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
+from roughcontact.adhesion.sharp_law import SharpLaw
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
@@ -96,6 +98,9 @@ class AdhesiveState:
         Instabilities on the way from the state before.
     products : int
         Products with the stiffness or the compliance of the body since the state before.
+    detachments : tuple of Detachment
+        Of the sharp law: cells that let go on the way from the state before. Which are events of the lattice alone
+        cannot be told on one grid; only that after which nothing is in contact is also among the jumps.
 
     Examples
     --------
@@ -119,6 +124,14 @@ class AdhesiveState:
     residual: float
     jumps: tuple[Jump, ...]
     products: int
+    detachments: tuple[Detachment, ...] = ()
+
+    @property
+    def directional(self) -> bool:
+        """Whether cells let go by a criterion that depends on the direction of an edge of the contact to the rows."""
+        return (
+            isinstance(self.attraction, SharpLaw) and self.contact.ndim == 2 and min(self.contact.shape) > 1
+        )
 
     @property
     def status(self) -> Status:
@@ -188,7 +201,8 @@ class AdhesiveState:
     @property
     def adhesive_energy(self) -> float:
         """Energy of the attraction over all cells [J], negative."""
-        return float(np.sum(self.attraction.energy(np.maximum(self.gap, 0.0)) * self._weights))
+        gap = np.where(self.contact, 0.0, np.maximum(self.gap, 0.0))
+        return float(np.sum(self.attraction.energy(gap) * self._weights))
 
     @property
     def energy(self) -> float:

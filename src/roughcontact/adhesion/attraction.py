@@ -8,11 +8,11 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from roughcontact.validation import Array, positive, positive_scalar, shown
+from roughcontact.validation import Array, positive, positive_scalar, require, shown
 
 __all__ = ["Adhesion", "Attraction", "Law"]
 
-Law = Literal["exponential", "dugdale"]
+Law = Literal["exponential", "dugdale", "sharp"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,10 +24,11 @@ class Adhesion:
     work : float or array, shape of the grid
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
     range : float
-        Length over which the attraction falls, or as far as which it reaches [m].
-    law : {"exponential", "dugdale"}
+        Length over which the attraction falls, or as far as which it reaches [m]; left out where the law is sharp.
+    law : {"exponential", "dugdale", "sharp"}
         Attraction ``(w/range) exp(-gap/range)``, or the constant w/range up to the gap `range`, with a hard wall at the
-        gap zero.
+        gap zero; or none across a gap, the cells in contact being stuck until one lets go (Pohrt and Popov 2015), for
+        a body that is drawn back.
     allow_unresolved : bool
         Whether to compute although the attraction varies from cell to cell beside a contact (`process_zone` below 1.5
         cells), which is refused otherwise: every state is then one of the lattice, and is marked so.
@@ -48,7 +49,7 @@ class Adhesion:
     """
 
     work: float | Array
-    range: float
+    range: float = 0.0
     law: Law = "exponential"
     allow_unresolved: bool = False
 
@@ -57,15 +58,18 @@ class Adhesion:
         if not np.any(work > 0):
             raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
-        object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
+        if self.law == "sharp":
+            require(self.range == 0, f"the sharp law has no range: leave out {shown(self.range)}")
+        else:
+            object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
         if self.law not in get_args(Law):
             names = ", ".join(map(repr, get_args(Law)))
             raise ValueError(f"the law of adhesion must be one of {names}, not {shown(self.law)}")
 
     @property
     def strength(self) -> float:
-        """Largest attraction of the law [Pa]."""
-        return float(np.max(self.work)) / self.range
+        """Largest attraction of the law [Pa]; infinite where it is sharp."""
+        return math.inf if self.law == "sharp" else float(np.max(self.work)) / self.range
 
     def process_zone(self, modulus: float) -> float:
         """Return Irwin's length ``E* w/(pi s^2)`` [m], on which the attraction varies beside a contact.
@@ -95,7 +99,7 @@ class Adhesion:
         Returns
         -------
         float
-            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov.
+            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov. Infinite where the law is sharp.
 
         Examples
         --------
@@ -105,11 +109,13 @@ class Adhesion:
         '1.46, on rubber 146'
         """
         w = float(np.max(self.work))
-        return float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
+        return (
+            math.inf if self.law == "sharp" else float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
+        )
 
 
 class Attraction(Protocol):
-    """A law on the cells of a computation: `ExponentialLaw` or `DugdaleLaw`."""
+    """A law on the cells of a computation: `ExponentialLaw`, `DugdaleLaw` or `SharpLaw`."""
 
     @property
     def work(self) -> float | Array:

@@ -9,6 +9,8 @@ from roughcontact.late import late_names, open_name
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
     from roughcontact.theory import (
+        adhesive_asperities as adhesive_asperities,
+        adhesive_sphere as adhesive_sphere,
         adhesive_wave as adhesive_wave,
         asperities as asperities,
         beat_wave as beat_wave,
@@ -35,6 +37,7 @@ if TYPE_CHECKING or _LATE is None:
         persson as persson,
         persson_plastic as persson_plastic,
         persson_separation as persson_separation,
+        persson_tosatti as persson_tosatti,
         plasticity as plasticity,
         pohrt_popov as pohrt_popov,
         power_law_indenter as power_law_indenter,

@@ -1,0 +1,190 @@
+r"""Stuck contact that is drawn back: cells let go one by one, each when its tension is too large.
+
+On a plane by Pohrt and Popov (Facta Universitatis, Mech. Eng. 13, 3 (2015)): a cell alone under the tension s releases
+``s^2 c/2`` per area as it relaxes, c being the mean displacement of the cell by a unit pressure on it, and lets go when
+that is w:
+
+    s_c = sqrt(2 w/c)      c = I/(pi E* a b)
+    I = 2 (a^2 b arsinh(b/a) + a b^2 arsinh(a/b)) + 2/3 (a^3 + b^3 - (a^2 + b^2)^(3/2))
+
+for sides a and b; for a square c is 0.946402 a/E*. On rings and lines, where no such constant exists, c is that of the
+cell with all others held, the inverse of the diagonal of the inverse of the influence matrix of the contact:
+``s^2 c/2`` is then what is set free when the cell at the edge lets go.
+
+Between two events the pressure is linear in the depth, so that every event is found where it is, whatever the steps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.halfspace.operators.operator import Operator, exact_of
+from roughcontact.validation import Array, Mask
+
+__all__ = ["Detachment", "StuckContact", "mean_compliance"]
+
+LARGEST = 6000  # cells, of which there is a matrix
+
+
+@dataclass(frozen=True, slots=True)
+class Detachment:
+    """Cells that let go at once: one whose tension was too large, and those that could not stay after it.
+
+    Attributes
+    ----------
+    depth, depth_after : float
+        [m]; NaN where a force pulled the body off.
+    force_before, force_after : float
+        [N]
+    cells : int
+        How many let go.
+    lost : float
+        Elastic energy that is set free less the work of adhesion [J]; infinite where a force pulled the body off. By
+        the criterion of a cell alone it may be negative: what the cells beside it hold back is not set free.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> sharp = rc.Adhesion(work=10e-3, law="sharp")
+    >>> *_, last = rc.loading_path(ball, 1e8, depths=[2e-8, -2e-8], adhesion=sharp)
+    >>> first = last.detachments[0]
+    >>> f"{first.cells} ring lets go at {first.depth * 1e9:.1f} nm", bool(last.contact.any())
+    ('1 ring lets go at 3.0 nm', False)
+    """
+
+    depth: float
+    depth_after: float
+    force_before: float
+    force_after: float
+    cells: int
+    lost: float
+
+
+def mean_compliance(grid: AnyGrid, modulus: float) -> float | None:
+    """Return the mean displacement of a cell of a plane by a unit pressure on it [m/Pa]; none on rings and lines.
+
+    Parameters
+    ----------
+    grid : Grid or RadialGrid
+    modulus : float
+        Reduced modulus E* [Pa].
+    """
+    if isinstance(grid, RadialGrid) or grid.ndim == 1 or min(grid.shape) == 1:
+        return None
+    a, b = grid.spacing
+    mutual = 2 * a * b * (a * math.asinh(b / a) + b * math.asinh(a / b))
+    mutual += 2 / 3 * (a**3 + b**3 - math.hypot(a, b) ** 3)
+    return mutual / (math.pi * modulus * a * b)
+
+
+class StuckContact:
+    """Cells that are stuck, and what holds them; cells leave, and none joins.
+
+    Parameters
+    ----------
+    operator : Operator
+    separation : array, shape of the grid
+        [m]
+    contact : array of bool
+        The cells that are stuck.
+    work : array
+        Work of adhesion [J/m^2].
+    compliance : float, optional
+        See `mean_compliance`.
+
+    Raises
+    ------
+    ValueError
+        If there are too many cells for their matrix.
+    """
+
+    def __init__(
+        self, operator: Operator, separation: Array, contact: Mask, work: Array, compliance: float | None
+    ) -> None:
+        self.cells = np.flatnonzero(contact)
+        if len(self.cells) > LARGEST:
+            raise ValueError(
+                f"{len(self.cells)} cells in contact are too many for the sharp law, which needs their matrix (at most "
+                f"{LARGEST}): begin at a smaller depth, or take larger cells"
+            )
+        weights = np.broadcast_to(np.asarray(operator.weights, float), separation.shape)
+        self.areas, self.work = weights.ravel()[self.cells], np.ravel(work)[self.cells]
+        self.compliance, self.shape = compliance, separation.shape
+        self.inverse = np.linalg.inv(exact_of(operator).as_matrix(self.cells))
+        self.base = -self.inverse @ separation.ravel()[self.cells]
+        self.unit = self.inverse.sum(axis=1)
+
+    @property
+    def stiffness(self) -> float:
+        """Force per depth [N/m]."""
+        return float(self.unit @ self.areas)
+
+    def force(self, depth: float) -> float:
+        """Return the force at a depth [N]."""
+        return float((self.base + depth * self.unit) @ self.areas)
+
+    def depth(self, force: float) -> float:
+        """Return the depth under a force [m]."""
+        return (force - float(self.base @ self.areas)) / self.stiffness if len(self.cells) else -math.inf
+
+    def pressure(self, depth: float) -> tuple[Array, Mask]:
+        """Return the pressure [Pa] and the contact on the grid."""
+        pressure = np.zeros(math.prod(self.shape))
+        contact = np.zeros(pressure.shape, bool)
+        contact[self.cells] = True
+        if len(self.cells):
+            pressure[self.cells] = self.base + depth * self.unit
+        return pressure.reshape(self.shape), contact.reshape(self.shape)
+
+    def drawn_back(self, here: float, target: float, by_force: bool) -> Iterator[Detachment]:
+        """Let cells go on the way from a depth (or force) down to another; yield the events."""
+        while len(self.cells):
+            index, depth = self._next()
+            value = self.force(depth) if by_force else depth
+            if value < target:
+                return
+            value = min(here, value)
+            here = value
+            start = self.depth(value) if by_force else value
+            before, lost, count, end = self.force(start), 0.0, 0, start
+            while count == 0 or (len(self.cells) and depth >= end):
+                lost += self._let_go(index, end, by_force)
+                count += 1
+                if len(self.cells):
+                    end = self.depth(value) if by_force else value
+                    index, depth = self._next()
+            after = self.force(end) if len(self.cells) else 0.0
+            end = end if len(self.cells) or not by_force else math.nan
+            yield Detachment(start, end, before, after, count, lost)
+
+    def _next(self) -> tuple[int, float]:
+        """Return the cell that lets go next, and at which depth."""
+        held = 1 / np.diagonal(self.inverse) if self.compliance is None else self.compliance
+        # A cell whose pressure does not fall as the body is drawn back lets go never.
+        depths = np.full(len(self.cells), -np.inf)
+        np.divide(-np.sqrt(2 * self.work / held) - self.base, self.unit, out=depths, where=self.unit > 0)
+        index = int(np.argmax(depths))
+        return index, float(depths[index])
+
+    def _let_go(self, index: int, depth: float, by_force: bool) -> float:
+        """Free a cell; return the energy that is lost."""
+        area, tension = self.areas[index], self.base[index] + depth * self.unit[index]
+        rigidity = self.inverse[index, index]
+        rest = rigidity - area * self.unit[index] ** 2 / self.stiffness if by_force else rigidity
+        last = by_force and len(self.cells) == 1
+        lost = math.inf if last else (0.5 * tension**2 / rest - self.work[index]) * area
+        column = self.inverse[:, index] / rigidity
+        self.base = self.base - column * self.base[index]
+        self.unit = self.unit - column * self.unit[index]
+        kept = np.arange(len(self.cells)) != index
+        self.inverse = (self.inverse - np.outer(column, self.inverse[index]))[np.ix_(kept, kept)]
+        for name in ("cells", "areas", "work", "base", "unit"):
+            setattr(self, name, getattr(self, name)[kept])
+        return float(lost)
