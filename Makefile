@@ -4,6 +4,7 @@
 #   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm";
 #                           of what bodies: ARGS="--materials steel,aluminium")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
+#   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
 #   make docs               build the site of the documentation in build/docs
@@ -27,11 +28,11 @@ TORCH ?= torch==2.13.0+cpu
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test nox lint docs bench clean
+.PHONY: help demo test browser nox lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,13s/^# *//p' Makefile
+	@sed -n '3,14s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -41,6 +42,12 @@ demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
 test: $(ENV)/.ready-to-test
 	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
 	  && echo "test: OK" || { echo "test: FAILED"; exit 1; }
+
+# What the tests in a browser need beside it; where it cannot be had they are skipped, and say so.
+browser: $(ENV)/.ready-to-test
+	@$(BIN)/python $(INSTALL) -e ".[browser]" && { command -v chromium || command -v chromium-browser || command -v google-chrome \
+	  || timeout 300 $(BIN)/python -m playwright install chromium; } >/dev/null 2>&1 \
+	  && echo "browser: OK" || echo "browser: cannot be had here, its tests are skipped"
 
 nox: $(ENV)/.ready-to-test
 	@$(BIN)/python -m nox $(ARGS) \
@@ -53,6 +60,7 @@ lint: $(ENV)/.ready-to-test
 docs: $(DOCS_ENV)/.ready
 	@rm -rf build/docs
 	@$(DOCS_ENV)/bin/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
+	  && $(DOCS_ENV)/bin/python docs/search_check.py build/docs \
 	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
 
 bench: $(BENCH_ENV)/.ready
@@ -84,7 +92,8 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 $(DOCS_ENV)/.ready: pyproject.toml
 	@$(call create,$(DOCS_ENV))
 	@echo "Installing what the site is built with ..."
-	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs]"
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs,formats]"
+	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this
@@ -93,7 +102,7 @@ $(BENCH_ENV)/.ready: pyproject.toml
 	@$(call create,$(BENCH_ENV))
 	@echo "Installing roughcontact and its peers into $(BENCH_ENV) ..."
 	@$(BENCH_ENV)/bin/python $(INSTALL) -e .
-	@for peer in tamaas ContactMechanics; do \
+	@for peer in tamaas ContactMechanics Adhesion; do \
 	  $(BENCH_ENV)/bin/python $(INSTALL) $$peer || echo "$$peer: cannot be installed here, not shown"; done
 	@CMAKE_ARGS="-DASPHER_NATIVE=ON" $(BENCH_ENV)/bin/python -m pip install -qq --no-binary=aspher aspher \
 	  || echo "aspher: needs g++, cmake and Eigen (Debian: libeigen3-dev) to build, not shown"

@@ -106,7 +106,7 @@ def kernels(session: nox.Session, blas: str, cpu: str) -> None:
 
 def install(session: nox.Session, *options: str) -> None:
     """Install what the tests need into the environment of the session, from wheels."""
-    session.install("--only-binary=:all:", *options, "--editable", ".[formats,test]")
+    session.install("--only-binary=:all:", *options, "--editable", ".[formats,page,test]")
 
 
 def lower_bound(requirement: Requirement) -> str:

@@ -1,10 +1,12 @@
 """Surfaces that stick: whether states depend on the step, and random problems.
 
-    python benchmarks/adhesion.py [--surfaces 10] [--count 1000]
+    python benchmarks/adhesion.py [--surfaces 10] [--approaches 60] [--count 1000]
 
 Ten strongly adhesive rough surfaces, free and periodic in turn, with Irwin's length from 1.5 to 4 cells, are approached
 and drawn back in 10, 20, 50 and 100 steps: forces at the depths that all four share, relative to the largest, and
-depths of the jumps, relative to the way from where the attraction begins. Then random problems under random depths or
+depths of the jumps, relative to the way from where the attraction begins. Then states that are reached at once, by
+`press`, beside those at the end of an approach from where nothing attracts, on free and periodic planes and on rings:
+gaps relative to the range. Then random problems under random depths or
 forces: certified to 1e-8 and stable, or what their status says. Ends with 1 if numbers of jumps differ, a force by more
 than 1e-6, a jump's depth by more than 1e-6, or if a state is neither certified and stable nor says so.
 """
@@ -25,6 +27,7 @@ from sticking import rough, sticky
 
 STEPS = (1, 2, 5, 10)
 ALLOWED = 1e-6
+SAME = 1e-5  # of the range: as two states that are one in the library
 
 
 def steps(number: int) -> bool:
@@ -57,6 +60,45 @@ def steps(number: int) -> bool:
     return force <= ALLOWED and place <= ALLOWED
 
 
+def approach(number: int) -> tuple[str, int, float]:
+    """Return the body of a random problem, the jumps of an approach and how far `press` is from its end."""
+    rng = np.random.default_rng(number)
+    kind = ("free", "periodic", "rings")[number % 3]
+    modulus, depth = 1.0, rng.uniform(-0.1, 0.4)
+    if kind == "rings":
+        rings = rc.RadialGrid.uniform(int(rng.integers(40, 80)), radius=6e-7)
+        wavy = rng.uniform(0, 3e-9) * np.cos(2 * np.pi * rings.radii / rng.uniform(0.8e-7, 3e-7))
+        body: rc.Surface | rc.RadialProfile = rc.RadialProfile(
+            wavy - rings.radii**2 / (2 * 10 ** rng.uniform(-5.6, -4.6)), rings
+        )
+        adhesion = rc.Adhesion(
+            10 ** rng.uniform(-2.3, -1.5), 10 ** rng.uniform(-8.7, -7.9), allow_unresolved=True
+        )
+        modulus, depth = 1e8, 3e-8 * depth
+    else:
+        body = rough(20, periodic=kind == "periodic", slope=rng.uniform(0.02, 0.1), seed=number)
+        adhesion = sticky(rng.uniform(1.5, 2.5))
+        depth *= float(body.heights.max() - body.heights.mean())
+    far = -40 * adhesion.range
+    *_, end = rc.loading_path(body, modulus, depths=[far, depth], adhesion=adhesion)
+    once = rc.press(body, modulus, depth=depth, adhesion=adhesion)
+    return kind, len(end.jumps), float(np.abs(once.gap - end.gap).max()) / adhesion.range
+
+
+def approaches(count: int) -> bool:
+    """Compare states that are reached at once with those of an approach."""
+    apart = {"free": 0.0, "periodic": 0.0, "rings": 0.0}
+    jumping = dict.fromkeys(apart, 0)
+    for number in range(count):
+        kind, jumps, distance = approach(number)
+        apart[kind] = max(apart[kind], distance)
+        jumping[kind] += jumps > 0
+    print(f"reached at once and by an approach: {count} problems, gaps apart by at most (of the range)")
+    for kind, distance in apart.items():
+        print(f"  {kind:9} {distance:.1e}, jumps on the way in {jumping[kind]}", flush=True)
+    return max(apart.values()) <= SAME
+
+
 def random_problem(number: int) -> list[rc.AdhesiveState]:
     """Return three states of a random problem, which depends on its number alone."""
     rng = np.random.default_rng(number)
@@ -77,9 +119,10 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--surfaces", type=int, default=10)
+    parser.add_argument("--approaches", type=int, default=60)
     parser.add_argument("--count", type=int, default=1000)
     options = parser.parse_args()
-    found = [steps(number) for number in range(options.surfaces)]
+    found = [steps(number) for number in range(options.surfaces)] + [approaches(options.approaches)]
     certified = missed = unstable = jumps = doubtful = 0
     worst = 0.0
     for number in range(options.count):

@@ -31,14 +31,14 @@ PURPOSES = {
 }
 
 
-def needed(name: str) -> set[str]:
-    """Return the names of what a distribution needs in this environment, without extras."""
+def needed(name: str, extra: str = "") -> set[str]:
+    """Return the names of what a distribution needs in this environment, with those of an extra or of none."""
     texts = distribution(name).requires or []
     found = (Requirement(text) for text in texts)
     return {
         canonicalize_name(each.name)
         for each in found
-        if not each.marker or each.marker.evaluate({"extra": ""})
+        if not each.marker or each.marker.evaluate({"extra": extra})
     }
 
 
@@ -76,5 +76,14 @@ def table() -> list[str]:
     return lines
 
 
+def page() -> str:
+    """Return what the extra of the page adds to that."""
+    direct = needed("roughcontact", "page") - needed("roughcontact")
+    added = closure(direct) - closure(needed("roughcontact"))
+    brought = sorted(added - direct, key=size)[::-1]
+    return f"The extra `page`: {sum(map(size, added)):.1f} MB ({', '.join([*sorted(direct), *brought])})."
+
+
 if __name__ == "__main__":
     print("\n".join(table()))
+    print(page())

@@ -55,6 +55,7 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_show_sourcelink = html_copy_source = False
 html_math_renderer = "mathml"
+html_search_scorer = str(HERE / "search_order.js")
 html_theme_options = {"navigation_with_keys": False, "header_links_before_dropdown": 8, "show_toc_level": 2}
 html_context = {"default_mode": "auto"}  # light or dark, as the reader has it
 

@@ -5,37 +5,40 @@ import shutil
 import subprocess
 import sys
 from collections import defaultdict
+from collections.abc import Collection
 from enum import Enum
 from inspect import cleandoc, isclass
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
+from format_page import formats
+
 from public_names import PublicName, public_names
 
 HOME = "roughcontact"
-TITLES = {
-    "adhesion": "Adhesion",
-    "contact": "Contact",
-    "files": "Files",
-    "friction": "Friction",
+TITLES = {  # in this order
+    "surface": "Surfaces",
     "grid": "Grids",
-    "halfspace": "Operators",
     "material": "Solids",
     "materials": "Metals by name",
-    "mdr": "Dimensionality reduction",
-    "plot": "Pictures",
+    "contact": "Contact",
+    "friction": "Friction",
+    "adhesion": "Adhesion",
+    "halfspace": "Operators",
     "solver": "Solvers",
     "statistics": "Statistics",
-    "study": "Studies",
-    "surface": "Surfaces",
     "theory": "Theory",
+    "mdr": "Dimensionality reduction",
+    "study": "Studies",
+    "plot": "Pictures",
+    "files": "Files",
     "thesis": "Figures of the thesis",
 }
 
 
 def write_reference(folder: Path) -> None:
-    """Write a page for each room, each name of the package, each module that it names, and for the commands."""
+    """Write a page for each room, each name of the package, each module that it names, commands, and file formats."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     rooms: dict[str, dict[str, list[PublicName]]] = defaultdict(lambda: defaultdict(list))
@@ -52,6 +55,23 @@ def write_reference(folder: Path) -> None:
     for page, names in modules.items():
         _write(folder / f"{page}.rst", _page(page, names))
     _write(folder / "commands.md", [_commands()])
+    _write(folder / "formats.md", formats())
+    _write(folder / "parts.inc", _parts(rooms.keys()))
+
+
+def _parts(rooms: Collection[str]) -> list[str]:
+    """Return a list of all parts, with a sentence each, and the menu of them."""
+    about = {
+        "commands": ("Command line", "every command with its options, and lines to copy."),
+        "formats": ("File formats", "what is read and written, by the ending of the file."),
+    }
+    for room in sorted(rooms, key=list(TITLES).index):
+        about[room] = (TITLES[room], _summary(resolve_name(f"{HOME}.{room}")))
+    return [
+        *(f"* [{title}](reference/{page}): {text}" for page, (title, text) in about.items()),
+        "",
+        *("```{toctree}", ":hidden:", *(f"reference/{page}" for page in about), "```"),
+    ]
 
 
 def _room(room: str, groups: dict[str, list[PublicName]]) -> list[str]:

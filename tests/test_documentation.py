@@ -4,6 +4,7 @@ Every block of Python is a program of its own; what a page's comments or blocks 
 lines of a page run one after the other. Both start in a folder that holds the files that the pages name.
 """
 
+import importlib.util
 import io
 import re
 import shlex
@@ -24,6 +25,8 @@ PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
 NOT_HERE = {"cluster.md", "law.md", "reproduction.md"}
 # Counts of a study that take minutes, and what is run in their place.
 FEWER = {"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"}
+# Libraries that a block may want and a machine may lack.
+OPTIONAL = re.compile(r"^import (torch)$", re.MULTILINE)
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 
@@ -31,7 +34,9 @@ COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 def blocks():
     for page in PAGES:
         for number, (code, printed) in enumerate(BLOCK.findall(page.read_text(encoding="utf-8"))):
-            yield pytest.param(code, printed, id=f"{page.name}-{number}")
+            lacking = [each for each in OPTIONAL.findall(code) if importlib.util.find_spec(each) is None]
+            skipped = pytest.mark.skipif(bool(lacking), reason=f"{', '.join(lacking)}: not installed")
+            yield pytest.param(code, printed, id=f"{page.name}-{number}", marks=skipped)
 
 
 def commands():

@@ -1,7 +1,7 @@
 """How values are drawn: the door from what is computed to the room that draws.
 
-`Surface`, `Solution`, `Curve` and `Loop` have these functions as their methods. What draws is imported when they are
-called.
+`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState` and `AdhesiveLoop` have these functions as their methods. What
+draws is imported when they are called.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
+    from roughcontact.contact.adhesive_branches import AdhesiveLoop
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("curve_html", "loop_html", "solution_html", "surface_html"),
-    *("plot_curve", "plot_loop", "plot_solution", "plot_surface"),
+    *("plot_adhesive_loop", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
 ]
 
 
@@ -191,6 +193,59 @@ def plot_loop(
     if quantity not in draw:
         raise ValueError(f"quantity must be one of {', '.join((*draw, 'bearing'))}, not {quantity!r}")
     return draw[quantity](loop, ax)
+
+
+def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
+    """Draw the pressure of surfaces that stick, tension in blue, the contact outlined; of a line or rings a curve.
+
+    Parameters
+    ----------
+    state : AdhesiveState
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
+    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state.plot().get_xlabel()
+    'x [nm]'
+    """
+    from roughcontact.plot.tension import tension_map, tension_profile
+
+    return tension_map(state, ax) if state.blank.operator.grid.ndim == 2 else tension_profile(state, ax)
+
+
+def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+    """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
+
+    Parameters
+    ----------
+    loop : AdhesiveLoop
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
+    >>> loop.plot().get_ylabel()
+    'force [nN]'
+    """
+    from roughcontact.plot.jumps import jump_loop
+
+    return jump_loop(loop, ax)
 
 
 def surface_html(surface: Surface) -> str | None:

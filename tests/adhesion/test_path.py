@@ -171,7 +171,7 @@ def test_what_cannot_be_is_refused_at_once():
         rc.loading_path(surface, 1.0, depths=[0.0], hardness=1.0, adhesion=adhesion)
     with pytest.raises(ValueError, match="takes no flow"):
         rc.loading_path(surface, 1.0, depths=[0.0], flow="raised", adhesion=adhesion)
-    with pytest.raises(ValueError, match="exactly one of depths and forces"):
+    with pytest.raises(ValueError, match="exactly one of depths, forces and mean_gaps"):
         rc.loading_path(surface, 1.0, adhesion=adhesion)
     with pytest.raises(ValueError, match="finite numbers"):
         rc.loading_path(surface, 1.0, adhesion=adhesion, depths=[])

@@ -4,6 +4,7 @@ import base64
 import csv
 import io
 import json
+import re
 import shlex
 import threading
 import time
@@ -53,7 +54,7 @@ class Tab:
     told: list  # errors of scripts, and requests to elsewhere
 
     def text(self, name):
-        return self.page.locator(f"#{name}").inner_text()
+        return self.page.locator(f"#{name}").text_content()  # folded away or not
 
     def wait(self, condition, argument=None):
         """Wait for a condition in the page; its policy lets no function wait there that is given as words."""
@@ -263,7 +264,7 @@ def test_what_is_exported_is_what_the_stated_command_prints(tab, part, tmp_path,
     name, content = exported(tab, "csv")
     [row] = table_of(content.decode())
     printed = numbers_of(tab.text("command"))
-    assert name == "press.csv"
+    assert re.fullmatch(r"part-pressure-[\d.]+[kM]?Pa\.csv", name)
     for key in ("force", "depth", "contact_area", "stiffness"):
         assert float(row[key]) == printed[key], key
 
@@ -383,3 +384,72 @@ def test_an_address_without_its_key_opens_nothing(chromium, desk):
 def test_the_address_keeps_no_key(tab):
     assert "token" not in tab.page.url
     assert tab.page.evaluate("document.cookie") == ""
+
+
+def computed(tab, control, start, end, count):
+    """Compute a curve by loads of a range, and wait for its end."""
+    tab.page.select_option("#loads", control)
+    for name, text in (("from", start), ("to", end), ("count", str(count))):
+        tab.page.fill(f"#{name}", text)
+    tab.page.locator("#start").click()
+    tab.wait("() => document.getElementById('curve_facts').children.length > 0")
+    tab.wait("() => !document.getElementById('start').disabled")
+
+
+def test_a_row_of_the_points_shows_its_contact(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    computed(tab, "pressure", "1 MPa", "4 MPa", 3)
+    assert tab.page.evaluate(POINTS) == 3
+    assert "--pressures '1 MPa:4 MPa:3'" in tab.text("curve_command")
+    tab.page.locator("#points button").nth(1).press("Enter")
+    tab.settled()
+    assert tab.facts["nominal pressure"] == "2 MPa"
+    tab.wait("() => document.querySelector('#points tr[aria-current] button') === document.activeElement")
+
+
+def test_a_theory_is_drawn_or_says_why_it_is_not(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    computed(tab, "force", "1 mN", "0.1 N", 4)
+    persson, cmy = (tab.page.locator(f"#theories input[value={name}]") for name in ("persson", "cmy"))
+    persson.check()
+    tab.wait("() => document.querySelector('#curve .legend').textContent.includes('Persson')")
+    assert "--theory persson" in tab.text("curve_command")
+    cmy.click()
+    tab.wait("() => document.getElementById('theories').textContent.includes('give the hardness')")
+    assert persson.is_checked()
+    assert not cmy.is_checked()
+
+
+def test_two_surfaces_stand_under_one_load(tab, part):
+    assert tab.drop("one.npz", part)
+    tab.settled()
+    tab.page.locator("#keep").click()
+    assert tab.drop("two.npz", part)
+    tab.settled()
+    tab.page.fill("#load", "3 MPa")
+    tab.page.keyboard.press("Enter")
+    row = "() => [...document.querySelectorAll('#both tr')].map((row) => row.textContent)"
+    tab.until(lambda: "nominal pressure3 MPa3 MPa" in tab.page.evaluate(row))
+    assert tab.text("kept_name") == "Kept: one.npz"
+    assert tab.text("other_name") == "Open: two.npz"
+
+
+def test_a_cut_is_moved_by_keys_and_by_number(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.wait("() => (document.getElementById('cut').getAttribute('aria-label') || '').includes('row')")
+    tab.page.locator("#map").press("ArrowRight")
+    tab.wait("() => document.getElementById('cut').getAttribute('aria-label').includes('column 34')")
+    tab.page.fill("#cut_place", "7")
+    tab.wait("() => document.getElementById('cut').getAttribute('aria-label').includes('column 7:')")
+
+
+def test_a_load_that_is_none_is_refused_beside_its_field(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.fill("#load", "12 kg")
+    tab.page.keyboard.press("Enter")
+    tab.wait("() => document.getElementById('load').getAttribute('aria-invalid') === 'true'")
+    assert "not a pressure" in tab.text("load_trouble")

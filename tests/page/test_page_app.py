@@ -272,7 +272,7 @@ def test_a_session_of_which_nothing_is_heard_ends_and_leaves_no_file(server, tmp
             each.heard = monotonic() - 11
         assert (await answer(application(server), *post("/alive", f"session={spoken}"))).status == 200
         watching = asyncio.create_task(server.sessions.watch())
-        while silent in server.sessions.known:
+        while silent in server.sessions.known or left_in(tmp_path):
             await asyncio.sleep(0.01)
         watching.cancel()
 

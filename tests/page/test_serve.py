@@ -14,6 +14,7 @@ import pytest
 pytest.importorskip("starlette", reason="the page needs the extra 'page'")
 pytest.importorskip("uvicorn", reason="the page needs the extra 'page'")
 
+import roughcontact as rc
 from served import PATIENCE, ended, started
 
 MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}
@@ -82,6 +83,19 @@ def test_files_that_mean_harm_are_refused_with_a_reason(served):
         assert end["message"]
         assert str(served.folder) not in str(end)
     assert last(served.order(session, "look", {"source": MADE}, key="last"))["how"] == "done"
+    served.ask("POST", f"/end?session={session}")
+
+
+def test_a_map_larger_than_the_screen_is_reduced_and_keeps_its_highest_point(served):
+    session = served.begin()
+    source = {**MADE, "size": "200um", "points": 200}
+    messages = served.order(session, "look", {"source": source}, more={"pixels": 64})
+    [found] = [each for each in messages if each["type"] == "map"]
+    assert (found["shape"], found["cells"], found["factor"]) == ([50, 50], [200, 200], 4)
+    grid = rc.Grid((200, 200), 1e-6)
+    heights = rc.self_affine(grid, 0.8, 0.1e-6, np.random.default_rng(1)).levelled("plane").heights
+    # In single precision, as it goes to the screen.
+    assert found["ends"][1] == np.float32((heights - heights.mean()).max())
     served.ask("POST", f"/end?session={session}")
 
 

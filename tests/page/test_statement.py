@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import roughcontact as rc
 from roughcontact.cli.app import app
 from roughcontact.page.recipe import as_recipe
-from roughcontact.page.reduced import as_seen
+from roughcontact.page.reduced import as_seen, factor_for
 from roughcontact.page.statement import stated
 from roughcontact.page.workbench import UploadedFile, Workbench
 
@@ -82,6 +82,22 @@ def test_bodies_are_stated(bodies, part):
 def test_what_a_file_leaves_open_is_stated(reading, part):
     np.save("heights.npy", 1e9 * rc.read("part.npz").heights)
     check({**part, **reading}, {}, {"modulus": "100GPa"}, "heights.npy")
+
+
+@pytest.mark.parametrize("shape", [(4096, 4096), (1023, 517), (7, 1025), (64, 64)])
+def test_a_reduced_map_fits_the_screen_and_loses_no_peak(shape):
+    """Peaks of one cell, wherever they are; the lowest of a gap likewise."""
+    rng = np.random.default_rng(sum(shape))
+    field = rng.normal(size=shape)
+    for _ in range(5):
+        place = tuple(rng.integers(shape))
+        field[place] = 1e3
+        factor = factor_for(shape, 256)
+        seen = as_seen(field, factor)
+        assert max(seen.shape) <= 256
+        assert seen[place[0] // factor, place[1] // factor] == 1e3 == seen.max()
+        assert as_seen(-field, factor, lowest=True).min() == -1e3
+        field[place] = 0.0
 
 
 def test_a_reduced_map_keeps_its_highest_points_and_what_is_missing():

@@ -3,7 +3,8 @@ Tangential and normal stiffness
 ===============================
 
 Sticking contact of two like bodies has (1 - nu)/(1 - nu/2) of its normal stiffness (Mindlin 1949, for a round
-spot). A rough contact has nearly the same, at any load, in any direction.
+spot). Of any other shape the harmonic mean of both directions has at least that, and a rough contact hardly
+more, at any load.
 """
 
 import matplotlib.pyplot as plt
@@ -26,6 +27,7 @@ axes.axhline(mindlin, color="k", linestyle="--", label="Mindlin")
 axes.set(xlabel="force [N]", ylabel="tangential / normal stiffness", ylim=(0, 1))
 axes.legend()
 
-deviation = np.abs(np.mean(ratios, axis=1) / mindlin - 1).max()
-print(f"mean of both directions: within {deviation:.3f} of Mindlin's ratio")
-assert deviation < 0.03
+above = 2 / np.sum(1 / np.array(ratios), axis=1) / mindlin - 1
+print(f"the harmonic mean is above Mindlin's ratio by {above.min():.2%} to {above.max():.2%}")
+# The traction of a flat punch, turned sideways, has that mean energy, and what is there has the least.
+assert np.all(above > 0)

@@ -13,17 +13,10 @@ import numpy as np
 import roughcontact as rc
 
 counts, areas, stiffnesses = np.array([64, 128, 256, 512]), [], []
+waves = {"hurst": 0.8, "rms": 1e-7, "rms_band": (256e-6, 16e-6), "rolloff": 64e-6, "short_cutoff": 16e-6}
 for count in counts:
     grid = rc.Grid((int(count),) * 2, 256e-6 / count, periodic=True)
-    surface = rc.self_affine(
-        grid,
-        hurst=0.8,
-        rms=1e-7,
-        rms_band=(256e-6, 16e-6),
-        short_cutoff=16e-6,
-        rolloff=64e-6,
-        rng=np.random.default_rng(1),
-    )
+    surface = rc.self_affine(grid, **waves, rng=np.random.default_rng(1))
     solution = rc.press(surface, 110e9, pressure=2e7)
     areas.append(solution.contact_fraction)
     stiffnesses.append(solution.stiffness)

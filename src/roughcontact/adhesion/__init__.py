@@ -1,1 +1,1 @@
-"""Contact of surfaces that attract each other."""
+"""Surfaces that attract each other: the law of attraction, equilibria, their stability, jumps, and loops."""

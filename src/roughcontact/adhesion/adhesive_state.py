@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.adhesion.attraction import Attraction
+from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
@@ -17,9 +18,16 @@ from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
-from roughcontact.halfspace.operators.operator import Operator, exact_of
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
+from roughcontact.pictures import plot_state
 from roughcontact.solver.control import Status
+from roughcontact.surface.radial import RadialProfile
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["AdhesiveState", "Blank", "state_of"]
 
@@ -36,6 +44,12 @@ class Blank:
         The body.
     separation : array, shape of the grid
         Undeformed gap at first touch [m]; infinite where nothing was measured.
+    adhesion : Adhesion
+        What holds the bodies together.
+    modulus : float
+        Reduced modulus E* [Pa].
+    surface : Surface or RadialProfile, optional
+        Where the separation comes from.
     form : ElasticForm
         Its elastic form.
     control : DepthControl or ForceControl
@@ -48,6 +62,9 @@ class Blank:
 
     operator: Operator
     separation: Array
+    adhesion: Adhesion
+    modulus: float
+    surface: Surface | RadialProfile | None
     form: ElasticForm
     control: DepthControl | ForceControl
     tolerance: float
@@ -90,6 +107,8 @@ class AdhesiveState:
     '-440 nN at a depth of zero, on 34 rings'
     >>> state.residual < 1e-8, state.stability > 0
     (True, True)
+    >>> f"{float(state.to_dataset()['adhesive_energy']) * 1e15:.1f} fJ of adhesion", state.to_record()["law"]
+    ('-5.7 fJ of adhesion', 'exponential')
     """
 
     blank: Blank
@@ -133,6 +152,18 @@ class AdhesiveState:
     def attracted(self) -> Mask:
         """Cells apart from the wall by no more than the range of the attraction."""
         return np.asarray(~self.contact & (self.gap <= self.attraction.range))
+
+    @property
+    def geometry(self) -> Geometry:
+        """What the cells are: those of a surface, a line, or rings."""
+        return geometry_of(self.blank.operator)
+
+    @property
+    def mean_gap(self) -> float:
+        """Gap averaged over the measured cells [m]."""
+        there = np.isfinite(self.blank.separation)
+        areas = np.broadcast_to(np.asarray(self._weights, np.float64), there.shape)[there]
+        return float(np.average(self.gap[there], weights=areas))
 
     @property
     def force(self) -> float:
@@ -196,6 +227,32 @@ class AdhesiveState:
         """Cells in contact whose reaction is as good as none."""
         scale = self._energy.scale(self._point)
         return np.asarray(self.contact & (self.reaction <= WEAK * scale))
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return fields and numbers as an `xarray.Dataset` with units and long names; the jumps lie along ``jump``.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
+        from roughcontact.adhesion.state_dataset import state_dataset
+
+        return state_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        """
+        from roughcontact.adhesion.state_dataset import state_record
+
+        return state_record(self)
+
+    plot = plot_state
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

@@ -19,7 +19,8 @@ from roughcontact.validation import Array
 __all__ = ["Landing", "flow", "released"]
 
 STEPS = 400
-LOOSE = 1e-2  # residual of a step on the way, relative to that at its start
+LOOSE = 5e-1  # residual of a step on the way, relative to that at its start
+ROUGH = 1e-5  # residual of an equilibrium that may be the end
 STIFFEST = 4.0  # relative to the largest curvature of the attraction: every step is convex
 REACH = 40.0  # ranges of the attraction, beyond which it is below the rounding of its largest value
 SOFTEST = 1e-4  # springs, relative to the largest curvature of the attraction
@@ -71,7 +72,8 @@ def flow(
     spring, lost = first, 0.0
     displacement = energy.feasible(start)
     point = energy.at(displacement)
-    wait, taken = 1, 0
+    end: Equilibrium | None = None
+    age, renewed = 0, 1
     for _ in range(STEPS):
         step = minimise(
             energy,
@@ -90,12 +92,16 @@ def flow(
         if released(energy, point):
             return Landing(step, lost)
         spring = max(SOFTEST, growth * spring)
-        taken += 1
-        if taken >= wait:
-            end = minimise(energy, displacement, counter, convex_only=True)
-            if end.converged and convex(energy, point, end.point):
+        age += 1
+        if end is None or age >= renewed:
+            found = minimise(energy, displacement, counter, tolerance=ROUGH, convex_only=True)
+            end, age, renewed = (found if found.converged else None), 0, min(2 * renewed, 8)
+        # An equilibrium that was found from an earlier point is as good, if nothing lies between it and this one.
+        if end is not None and convex(energy, point, end.point):
+            end = minimise(energy, end.point.displacement, counter, convex_only=True)
+            if end.converged:
                 return Landing(end, lost - energy.change(point, end.point))
-            wait, taken = min(2 * wait, 8), 0
+            end = None
     end = minimise(energy, displacement, counter)
     return Landing(end, lost + end.lost)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,12 +11,15 @@ import numpy as np
 from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
-from roughcontact.adhesion.elastic_form import elastic_form
+from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
+from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.adhesion.gradient_flow import REACH, released
 from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
-from roughcontact.adhesion.truncated_newton import minimise
+from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.surface.radial import RadialProfile
+from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
 
@@ -24,6 +28,7 @@ __all__ = ["is_resolved", "states_along"]
 # Of the way from beyond the attraction to the largest depth (or of the largest force): how closely the end of a branch
 # is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
 BRACKET = 1e-8
+HARD = 1e-3  # residual of the contact without attraction, from which the attraction draws
 SHARP, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
 CELLS = 1.5  # that Irwin's length must span
 
@@ -43,12 +48,20 @@ def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> 
     """
     if not is_resolved(adhesion, operator, modulus):
         zone, cell = adhesion.process_zone(modulus), max(operator.grid.spacing)
-        finest = adhesion.range * (CELLS * cell / zone) ** 0.5
+        # Rounded to where it is allowed: who takes the number as it stands is not refused again.
+        finest = _three_digits(zone / CELLS, math.floor)
+        longest = _three_digits(adhesion.range * math.sqrt(CELLS * cell / zone), math.ceil)
         raise ValueError(
             f"the attraction varies over {zone / cell:.2g} cells beside a contact (Irwin's length E* w/(pi s^2)), and "
-            f"the lattice would trap every state: take cells of at most {zone / CELLS:.3g} m or a range of at least "
-            f"{finest:.3g} m, or give the adhesion allow_unresolved=True"
+            f"the lattice would trap every state: take cells of at most {finest:g} m or a range of at least "
+            f"{longest:g} m, or give the adhesion allow_unresolved=True"
         )
+
+
+def _three_digits(value: float, rounded: Callable[[float], int]) -> float:
+    """Return a number with three digits, rounded up or down."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return float(f"{rounded(value / unit) * unit:.3g}")
 
 
 def states_along(
@@ -59,9 +72,11 @@ def states_along(
     modulus: float,
     depths: Array | None = None,
     forces: Array | None = None,
+    mean_gaps: Array | None = None,
+    surface: Surface | RadialProfile | None = None,
     tolerance: float = 1e-8,
 ) -> Iterator[AdhesiveState]:
-    """Yield the state at each depth or under each force, in order, of a body that comes from afar.
+    """Yield the state at each depth, force or mean gap, in order, of a body that comes from afar.
 
     Parameters
     ----------
@@ -72,15 +87,19 @@ def states_along(
     modulus : float
         Reduced modulus E* [Pa].
     depths, forces : array
-        One of them: [m] or [N]; of either sign, up and down, the first force at least 0.
+        One of them, or `mean_gaps`: [m] or [N]; of either sign, up and down, the first force at least 0.
+    mean_gaps : array
+        Mean gaps of a whole periodic surface [m], above 0, up and down.
+    surface : Surface or RadialProfile, optional
+        Where the separation comes from, for the record.
     tolerance : float
         Largest residual.
 
     Raises
     ------
     ValueError
-        If the lattice would trap every state, the work has another shape than the grid, or a depth or force cannot be
-        reached.
+        If the lattice would trap every state, the work has another shape than the grid, or a depth, a force or a mean
+        gap cannot be reached.
     """
     if not adhesion.allow_unresolved:
         require_resolved(adhesion, operator, modulus)
@@ -97,31 +116,55 @@ def states_along(
     resolved = is_resolved(adhesion, operator, modulus)
     if forces is not None:
         control = ForceControl.of(by_depth)
-        blank = Blank(operator, separation, form, control, tolerance, resolved)
-        return _walk(blank, [float(f) for f in forces], *_first_force(blank, forces, adhesion))
+        blank = Blank(operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved)
+        cell = float(np.min(operator.weights))
+        bracket = BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
+        return _walk(blank, _checked_forces(forces), bracket)
+    if mean_gaps is not None:
+        depths = _depths_of(mean_gaps, form, separation)
     goals = [float(d) for d in (() if depths is None else depths)]
     if form.mean_free and measured.all() and max(goals) >= (full := float(separation.mean())):
         raise ValueError(
             f"a depth of {max(goals):.6g} m is not below the mean separation {full:.6g} m: there a periodic surface is "
             "in full contact; give a smaller depth"
         )
-    far = -REACH * adhesion.range
-    blank = Blank(operator, separation, form, by_depth, tolerance, resolved)
-    first = min(far, goals[0])
-    return _walk(blank, goals, first, np.zeros(form.shape), BRACKET * (max(0.0, *goals) - far))
+    blank = Blank(operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved)
+    return _walk(blank, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
 
 
-def _first_force(blank: Blank, forces: Array, adhesion: Adhesion) -> tuple[float, Array, float]:
-    """Return the first force, the displacement to start from and the bracket."""
-    first = float(forces[0])
-    if first < 0:
+def _depths_of(mean_gaps: Array, form: ElasticForm, separation: Array) -> Array:
+    """Return the depths at which a periodic surface, whose mean displacement is zero, has these mean gaps."""
+    if not (form.mean_free and np.isfinite(separation).all()):
+        why = "some cells are missing" if form.mean_free else "the body is not periodic"
+        raise ValueError(
+            f"a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; here "
+            f"{why}: give depths or forces"
+        )
+    if not mean_gaps.min() > 0:
+        raise ValueError(
+            f"a mean gap of {mean_gaps.min():.6g} m is full contact or beyond it: give mean gaps above 0"
+        )
+    return np.asarray(float(separation.mean()) - mean_gaps)
+
+
+def _checked_forces(forces: Array) -> list[float]:
+    if forces[0] < 0:
         raise ValueError(
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
-            f"{first:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
+            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
         )
-    apart = blank.form.extended(np.full(blank.separation.shape, blank.control.attraction.near), 0.0)
-    cell = float(np.min(blank.operator.weights))
-    return first, apart, BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
+    return [float(force) for force in forces]
+
+
+def _apart(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
+    """Return the displacement at which bodies from afar would rest if there were no attraction."""
+    form, law = control.form, control.attraction
+    hard = replace(control, attraction=ExponentialLaw(0.0, law.range)).energy_at(value)
+    if isinstance(control, ForceControl) and value <= 0:
+        return form.extended(np.full(control.separation.shape, law.near), 0.0)
+    if isinstance(control, DepthControl) and not hard.obstacle.max() > 0:
+        return np.zeros(form.shape)
+    return minimise(hard, np.zeros(form.shape), counter, tolerance=HARD).point.displacement
 
 
 def _sharpened(walk: QuasiStatic, station: Station) -> Station:
@@ -134,18 +177,19 @@ def _sharpened(walk: QuasiStatic, station: Station) -> Station:
     return replace(station, point=better.point, residual=better.residual)
 
 
-def _walk(
-    blank: Blank, goals: list[float], first: float, displacement: Array, bracket: float
-) -> Iterator[AdhesiveState]:
+def _walk(blank: Blank, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
     walk = QuasiStatic(blank.control, bracket)
-    with one_blas_thread():
-        station = walk.start(first, displacement)
+    station: Station | None = None
     for goal in goals:
         before = walk.counter.products
         with one_blas_thread():
-            if released(blank.control.energy_at(station.value), station.point) and goal >= 0:
-                station = walk.start(goal, displacement)  # nothing pulls any more: the bodies draw near again
-            station = walk.go(station, goal)
+            if station is None or (
+                released(blank.control.energy_at(station.value), station.point) and goal >= 0
+            ):
+                # From afar. Where nothing pulls any more, the bodies draw near again.
+                station = walk.start(goal, _apart(blank.control, goal, walk.counter))
+            else:
+                station = walk.go(station, goal)
             if isinstance(blank.control, ForceControl):
                 station = _sharpened(walk, station)
             state = state_of(blank, station, walk.counter.products - before)

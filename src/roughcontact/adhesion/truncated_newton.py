@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.adhesion.elastic_form import ElasticForm
-from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.adhesion.gap_energy import GapEnergy, Point, balance
 from roughcontact.validation import Array, Mask
 
 __all__ = ["Counter", "Equilibrium", "conjugate_gradients", "minimise"]
@@ -27,6 +27,7 @@ ARMIJO = 1e-4
 SHIFT = 0.05  # the first shift of an indefinite Hessian, of the largest curvature of the attraction
 STIFFEST = 100.0  # shift, of the same, at which a step that lowers no energy tells of rounding
 FORCING = 0.1
+ENOUGH = 0.1  # of the tolerance, to which the last linear system is solved
 
 
 @dataclass(slots=True)
@@ -100,7 +101,8 @@ def minimise(
         free = held.free
         bent = np.where(free, energy.attraction.curvature(point.gap), 0.0)
         curvature, most = bent - proximal, float(np.max(bent))
-        forcing = min(FORCING, math.sqrt(residual))
+        # No closer than what is wanted: the last system need not be solved beyond the tolerance.
+        forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
         step, negative = conjugate_gradients(
             energy.form, free, curvature - shift, -held.reaction, forcing, counter
         )
@@ -128,6 +130,8 @@ def _held(energy: GapEnergy, point: Point, anchor: Array, proximal: float) -> Po
         return point
     reaction = point.reaction + proximal * (point.displacement - anchor)
     reaction[~np.isfinite(point.gap)] = point.reaction[~np.isfinite(point.gap)]
+    if energy.form.mean_free:
+        reaction += balance(reaction, point.gap > 0)  # the springs take part in what holds the mean
     return replace(point, reaction=reaction)
 
 

@@ -214,7 +214,7 @@ class CurveAnswer:
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
             local = exponents(curve, self.comparisons)
-            report.print_facts([*_fit_facts(self.fit, curve), *local, *conducting])
+            report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
             if loop is not None:
@@ -225,11 +225,7 @@ class CurveAnswer:
         if missed:
             note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
         if self.fit is not None and not self.fit.straight:
-            low, high = self.fit.ends
-            note(
-                f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
-                f"({self.fit.bend:+.2f} +- {self.fit.bend_error:.2f}); quote local exponents with their windows"
-            )
+            note(report.bend_words(self.fit))
         for name, why in self.left_out.items():
             note(f"theory {name} is left out: {why}")
         for line in self.notes:
@@ -266,19 +262,3 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
         "window": [float(end) for end in law.window],
         "count": int(law.count),
     }
-
-
-def _fit_facts(law: PowerLaw | None, curve: Curve) -> list[tuple[str, str]]:
-    kind = curve.geometry
-    full = report.quantity("full_contact_stiffness", curve.full_contact_stiffness, kind)
-    facts = [
-        ("full-contact stiffness", f"{full}, every measured cell in contact"),
-        ("largest certificate", f"{curve.residual.max():.1e}"),
-    ]
-    if law is not None:
-        low, high = (report.quantity("force", end, kind) for end in law.window)
-        stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
-        text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
-        fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
-        facts = [("power law", text), ("fitted to", fitted), *facts]
-    return facts

@@ -12,20 +12,22 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
+from roughcontact.cli.adhesion_options import POINTS, Sticking
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import note, reported
+from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
+from roughcontact.cli.sticking_curve import curve_sticking
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
-from roughcontact.cli.unit_options import parse_loads
+from roughcontact.cli.unit_options import parse_loads, parse_path
 from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
 
@@ -52,6 +54,8 @@ roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
+roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --loop --depths 100nm --out result
+roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --forces 0N,1mN,-1mN
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
@@ -61,7 +65,7 @@ _FEWEST = 3  # resolved loads that a power law takes
 
 @dataclass(frozen=True, slots=True)
 class Loads:
-    """Rising loads, as the user gave them."""
+    """Loads, as the user gave them: rising, with adhesion of either sign, up and down."""
 
     PANEL: ClassVar = "Loads (at most one of them)"
     forces: str | None = option(
@@ -70,7 +74,11 @@ class Loads:
         "1N:100N:30",
     )
     pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
-    depths: str | None = option("Indentation depths since first touch, likewise.", "1nm:1um:100")
+    depths: str | None = option(
+        "Indentation depths since first touch, likewise. With --work depths and forces go up and down and may be "
+        "negative, and from:to:count is evenly spaced; with --work and --loop one depth, where it turns.",
+        "1nm:1um:100",
+    )
 
     def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64] | None]:
         """Return what the loads are, and their values in SI units; None where they were left out."""
@@ -80,6 +88,24 @@ class Loads:
         name = options.only_one(given, "the loads")
         return name, parse_loads(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
 
+    def path(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64]]:
+        """Return what the loads of surfaces that stick are, and their values: of either sign, up and down.
+
+        Raises
+        ------
+        UsageError
+            If they are pressures, or none are named: no search finds them.
+        """
+        given = asdict(self)
+        if given["pressures"] is not None:
+            raise UsageError(
+                "--pressures does not go with --work: give --forces, pressures times area, or --depths"
+            )
+        name = options.only_one(
+            {key: given[key] for key in ("depths", "forces")}, "the loads of surfaces that stick"
+        )
+        return name, parse_path(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
+
 
 def curve(
     reading: options.Reading,
@@ -87,6 +113,8 @@ def curve(
     given: Loads,
     elasticity: options.Elasticity,
     plastic: LoopLoads,
+    sticking: Sticking,
+    points: int | None = POINTS,
     materials: Materials,
     theories: Theories,
     errors: Errors,
@@ -100,6 +128,24 @@ def curve(
     """
     file, out = reading.source.file, asked.out
     with reported(file, out, as_json=asked.json):
+        if sticking.asked:
+            others: dict[str, Any] = {
+                "--flow": plastic.flow,
+                "--theory": theories.theory,
+                "--table": tables.table,
+            }
+            others |= {"--hardness": elasticity.hardness, "--errors": errors.errors}
+            others |= {"--resistivity": materials.resistivity, "--conductivity": materials.conductivity}
+            sticking.refuse(
+                others | {"--unit-stiffness": units.unit_stiffness, "--unit-pressure": units.unit_pressure}
+            )
+            prescribed = given.path(reading.profile)
+            curve_sticking(reading, prescribed, elasticity, sticking, asked, loop=plastic.loop, points=points)
+            return
+        if points is not None:
+            raise UsageError(
+                "--points is about a --loop of surfaces that stick: leave it out, or give --work"
+            )
         name, loads = given.values(reading.profile)
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), plastic.hardness(elasticity)

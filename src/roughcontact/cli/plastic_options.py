@@ -129,7 +129,7 @@ class LoopLoads:
     PANEL: ClassVar = "Plastic flow"
     loop: bool = option(
         "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
-        "surface. Takes a --hardness, or --materials.",
+        "surface. Takes a --hardness, or --materials. With --work: approach and retreat.",
         default=False,
     )
     flow: FlowChoice | None = _FLOW

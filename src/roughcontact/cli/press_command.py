@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import typer
 
 from roughcontact.cli import options
+from roughcontact.cli.adhesion_options import Sticking
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, plain, reported
@@ -19,7 +20,8 @@ from roughcontact.cli.plastic_options import AfterLoad
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
-from roughcontact.cli.unit_options import parse_load
+from roughcontact.cli.sticking_press import press_sticking
+from roughcontact.cli.unit_options import parse, parse_load
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -34,6 +36,7 @@ roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
 roughcontact press part.x3p --force 10N --after 100N --materials steel,aluminium --hardness aluminium --out result
+roughcontact press part.x3p --depth -2nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """,
@@ -52,13 +55,31 @@ class Load:
     PANEL: ClassVar = "Load (one of them)"
     force: str | None = option("Normal force.", "10N")
     pressure: str | None = option("Nominal pressure: force over area.", "1MPa")
-    depth: str | None = option("Indentation depth: approach since first touch.", "1um")
+    depth: str | None = option(
+        "Indentation depth: approach since first touch; with --work also negative.", "1um"
+    )
 
     def value(self, body: ProfileBody | None) -> dict[str, float]:
         """Return the load in SI units, by its name."""
         given = asdict(self)
         name = options.only_one(given, "one load")
         return {name: parse_load(given[name], kinds_of(body)[name], f"--{name}")}
+
+    def signed(self, body: ProfileBody | None) -> dict[str, float]:
+        """Return a depth of either sign or a force of at least 0, of surfaces that stick."""
+        given = asdict(self)
+        name = options.only_one(given, "one load")
+        if name == "pressure":
+            raise UsageError(
+                "--pressure does not go with --work: give --force, pressure times area, or --depth"
+            )
+        value = parse(given[name], kinds_of(body)[name], f"--{name}")
+        if name == "force" and value < 0:
+            raise UsageError(
+                f"--force {given[name]} pulls, and a press is the end of an approach: a tension comes on the way back; "
+                f"give 'curve --forces 0N,{given[name]}'"
+            )
+        return {name: value}
 
 
 def press(
@@ -67,6 +88,7 @@ def press(
     load: Load,
     elasticity: options.Elasticity,
     plastic: AfterLoad,
+    sticking: Sticking,
     theory: Theory | None = _THEORY,
     errors: Errors,
     answer: options.Answer,
@@ -74,6 +96,11 @@ def press(
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
     with reported(file, out, as_json=answer.json):
+        if sticking.asked:
+            others: dict[str, Any] = {"--after": plastic.after, "--flow": plastic.flow, "--theory": theory}
+            sticking.refuse(others | {"--hardness": elasticity.hardness, "--errors": errors.errors})
+            press_sticking(reading, load.signed(reading.profile), elasticity, sticking, answer)
+            return
         given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:

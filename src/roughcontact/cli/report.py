@@ -11,9 +11,17 @@ from rich.console import Console
 from rich.status import Status
 
 from roughcontact.cli.messages import note
+from roughcontact.plot.adhesive_facts import (
+    ADHESIVE_COLUMNS,
+    adhesive_facts,
+    adhesive_loop_facts,
+    law_facts,
+)
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
+    bend_words,
+    curve_facts,
     load_table,
     loop_facts,
     quantity,
@@ -27,10 +35,16 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 __all__ = [
+    "ADHESIVE_COLUMNS",
     "AREAL_COLUMNS",
     "CURVE_COLUMNS",
+    "adhesive_facts",
+    "adhesive_loop_facts",
+    "bend_words",
+    "curve_facts",
     "doing",
     "emit",
+    "law_facts",
     "load_table",
     "loop_facts",
     "note_files",

@@ -14,6 +14,7 @@ from roughcontact.files import quantity
 from roughcontact.files.quantity import (
     AREA,
     CONDUCTIVITY,
+    ENERGY_PER_AREA,
     FORCE,
     FORCE_PER_LENGTH,
     LENGTH,
@@ -26,6 +27,7 @@ from roughcontact.files.quantity import (
 __all__ = [
     "AREA",
     "CONDUCTIVITY",
+    "ENERGY_PER_AREA",
     "FORCE",
     "FORCE_PER_LENGTH",
     "LENGTH",
@@ -39,6 +41,7 @@ __all__ = [
     "parse_loads",
     "parse_modulus",
     "parse_number",
+    "parse_path",
     "parse_points",
     "parse_positive",
     "parse_seed",
@@ -203,6 +206,37 @@ def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
     if not (np.diff(loads) > 0).all():
         raise UsageError(f"{option}: the loads must increase from one to the next, not as in {text!r}")
     return loads
+
+
+def parse_path(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    """Return loads of either sign, up and down, in SI, shape (n,).
+
+    The text is a comma list of loads and of ranges ``from:to:count``, evenly spaced.
+
+    Raises
+    ------
+    UsageError
+        If the text holds no load, or a range that is none.
+    """
+    loads: list[float] = []
+    for part in (part for part in text.split(",") if part.strip()):
+        ends = part.split(":")
+        if len(ends) == 1:
+            loads.append(parse(part, kind, option))
+            continue
+        if len(ends) != 3 or re.fullmatch(r"\s*\d{1,6}\s*", ends[2]) is None:
+            raise UsageError(
+                f"{option}: {part!r} is no range; write from:to:count, such as -20n{kind.unit}:20n{kind.unit}:41"
+            )
+        low, high = (parse(end, kind, option) for end in ends[:2])
+        if not 2 <= int(ends[2]) <= _MOST_LOADS:
+            raise UsageError(f"{option}: a range holds from 2 to {_MOST_LOADS} loads, not {int(ends[2])}")
+        loads += np.linspace(low, high, int(ends[2])).tolist()
+    if not loads:
+        raise UsageError(
+            f"{option}: no load given; write 0{kind.unit},20n{kind.unit},-20n{kind.unit} or a range"
+        )
+    return np.array([load for k, load in enumerate(loads) if k == 0 or load != loads[k - 1]])
 
 
 def parse_size(text: str, option: str) -> tuple[float, ...]:

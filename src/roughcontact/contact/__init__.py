@@ -1,1 +1,1 @@
-"""The contact: inequality, solvers, stiffness, curves."""
+"""Contact: a pressed surface, loading curves and loops, stiffness, spots, errors, conductance, laws of interfaces."""

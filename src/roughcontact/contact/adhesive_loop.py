@@ -2,88 +2,24 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.gradient_flow import REACH
-from roughcontact.adhesion.quasi_static import Jump
+from roughcontact.contact.adhesive_branches import AdhesiveLoop, collect_states
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
-from roughcontact.validation import Array, Mask, numeric, require, shown, whole
+from roughcontact.validation import Array, numeric, require, shown, whole
 
-__all__ = ["AdhesiveLoop", "adhesive_loop"]
+__all__ = ["adhesive_loop", "loop_depths", "until_off"]
 
+NEAR = 10.0  # ranges of the attraction, from which an approach is recorded
 MOST = 100  # as many points as on the approach, after which a retreat ends
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AdhesiveLoop:
-    """An approach and a retreat under prescribed depth; made by `adhesive_loop`.
-
-    Attributes
-    ----------
-    depth : array, shape (n,)
-        [m], in the order of the path.
-    force : array, shape (n,)
-        [N], tension negative; on a line [N/m].
-    contact_area : array, shape (n,)
-        [m^2]; on a line [m].
-    energy : array, shape (n,)
-        Elastic and adhesive energy [J].
-    residual : array, shape (n,)
-        The certificate of each state.
-    approach : array of bool, shape (n,)
-        Whether the depth was growing.
-    jumps : tuple of Jump
-        Every instability, in order.
-    unresolved : bool
-        Whether the attraction varies from cell to cell, so that the lattice traps the states.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
-    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9)
-    >>> f"pulled off at {loop.pull_off_force * 1e9:.0f} nN, {loop.lost * 1e18:.0f} aJ are lost", loop.ambiguous
-    ('pulled off at 495 nN, 478 aJ are lost', False)
-    """
-
-    depth: Array
-    force: Array
-    contact_area: Array
-    energy: Array
-    residual: Array
-    approach: Mask
-    jumps: tuple[Jump, ...]
-    unresolved: bool
-
-    @property
-    def pull_off_force(self) -> float:
-        """Largest tension of the retreat [N], positive, at the points and at the jumps."""
-        back = self.force[~self.approach]
-        jumps = [jump.force_before for jump in self.jumps if not jump.approach]
-        return -float(min(0.0, *back.tolist(), *jumps))
-
-    @property
-    def jump_in_force(self) -> float:
-        """Tension from which the body first jumped on the approach [N], positive; NaN if it never did."""
-        return next((-jump.force_before for jump in self.jumps if jump.approach), math.nan)
-
-    @property
-    def lost(self) -> float:
-        """Energy lost in all jumps [J]: the area of the loop, if it is closed."""
-        return math.fsum(jump.lost for jump in self.jumps)
-
-    @property
-    def ambiguous(self) -> bool:
-        """Whether two integrations of the flow after a jump ended in different states."""
-        return any(jump.ambiguous for jump in self.jumps)
 
 
 @numeric
@@ -137,25 +73,35 @@ def adhesive_loop(
     >>> f"pull-off {loop.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R"
     'pull-off 1.62 pi w R'
     """
-    count = whole(int(points), "points")
     require(isinstance(adhesion, Adhesion), f"an Adhesion is wanted, not {shown(adhesion)}")
-    near = -10 * adhesion.range
+    depths = loop_depths(adhesion, depth, points)
+    path = loading_path(
+        surface, modulus, depths=depths, operator=operator, tolerance=tolerance, adhesion=adhesion
+    )
+    return collect_states(until_off(path, points), depths)
+
+
+def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
+    """Return the depths of an approach and of a retreat by the same steps, further than any retreat goes [m].
+
+    Raises
+    ------
+    ValueError
+        If the approach has no point, or would begin beyond its end.
+    """
+    count, near = whole(int(points), "points"), -NEAR * adhesion.range
     require(depth > near, f"the depth must be above {near:.3g} m, ten ranges of the attraction apart", depth)
     step = (depth - near) / count
-    there = [near + step * k for k in range(count)] + [depth]
-    back = [depth - step * k for k in range(1, count * MOST)]
-    far = -REACH * adhesion.range
-    rows: list[tuple[float, ...]] = []
-    jumps: list[Jump] = []
-    path = loading_path(
-        surface, modulus, depths=[*there, *back], operator=operator, tolerance=tolerance, adhesion=adhesion
-    )
+    far = -REACH * adhesion.range  # the path begins where nothing attracts, to meet every jump
+    there = [far, *(near + step * k for k in range(count)), depth]
+    return np.array(there + [depth - step * k for k in range(1, count * MOST)])
+
+
+def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveState]:
+    """Yield the states of a loop until its body is off on the retreat."""
     for k, state in enumerate(path):
-        rows.append((state.depth, state.force, state.contact_area, state.energy, state.residual))
-        jumps += state.jumps
-        off = not state.contact.any() and float(state.gap.min()) > -near
-        if k > count and (off or state.depth < 50 * far):
+        yield state
+        reach = state.blank.adhesion.range
+        off = not state.contact.any() and float(state.gap.min()) > NEAR * reach
+        if k > points and (off or state.depth < -50 * REACH * reach):
             break
-    depths, forces, areas, energies, residuals = np.array(rows).T
-    approach = np.arange(len(rows)) <= count
-    return AdhesiveLoop(depths, forces, areas, energies, residuals, approach, tuple(jumps), state.unresolved)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -11,7 +13,7 @@ __all__ = ["ConvergenceError"]
 
 
 class ConvergenceError(RuntimeError):
-    """A solve that missed its tolerance; `solution` is the best that was reached.
+    """A solve that missed its tolerance; `solution` is the best that was reached, with adhesion an `AdhesiveState`.
 
     Examples
     --------
@@ -24,13 +26,14 @@ class ConvergenceError(RuntimeError):
     The solver ran out of steps above the tolerance; allow it more steps.
     """
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution | AdhesiveState) -> None:
         super().__init__(solution)  # in `args`, so that the error can be pickled
-        self.solution = solution
+        self.solution: Any = solution  # which of the two, whoever pressed knows
 
     def __str__(self) -> str:
         solution = self.solution
-        return (
-            f"residual {solution.residual:.1e} after {solution.steps} steps, tolerance "
-            f"{solution.problem.tolerance:.1e}: {solution.status.message}"
-        )
+        if isinstance(solution, AdhesiveState):
+            tolerance, words = solution.blank.tolerance, "the path"
+        else:
+            tolerance, words = solution.problem.tolerance, f"{solution.steps} steps"
+        return f"residual {solution.residual:.1e} after {words}, tolerance {tolerance:.1e}: {solution.status.message}"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.contact.adhesive_branches import AdhesiveLoop, collect_states
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import FlowReading, flow_reading
@@ -18,7 +19,7 @@ from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.sticking import sticking_states
+from roughcontact.contact.sticking import refuse_gaps, sticking_states
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
@@ -45,6 +46,7 @@ def loading_path(
     hardness: Hardness | None = None,
     flow: FlowReading = "removed",
     adhesion: None = None,
+    mean_gaps: None = None,
 ) -> Iterator[Solution]: ...
 
 
@@ -58,6 +60,7 @@ def loading_path(
     operator: Operator | None = None,
     tolerance: float = 1e-8,
     adhesion: Adhesion,
+    mean_gaps: Loads | None = None,
 ) -> Iterator[AdhesiveState]: ...
 
 
@@ -75,6 +78,7 @@ def loading_path(
     hardness: Hardness | None = None,
     flow: FlowReading = "removed",
     adhesion: Adhesion | None = None,
+    mean_gaps: Loads | None = None,
 ) -> Iterator[Solution] | Iterator[AdhesiveState]:
     """Yield the solution of every load, in order; each starts from the one before.
 
@@ -103,6 +107,9 @@ def loading_path(
         What holds the bodies together. They come from beyond its reach, and `depths` or `forces` of either sign may go
         up and down: the bodies stay in the basin of their energy, and jump where it ends. States do not depend on the
         steps. The first force must be at least 0; one that pulls the bodies off ends the contact.
+    mean_gaps : array, shape (n,), optional
+        With adhesion, on a whole periodic grid, instead of depths: mean gaps [m], up and down. There the mean
+        displacement is zero, and a mean gap is the mean separation less the depth.
 
     Yields
     ------
@@ -133,7 +140,9 @@ def loading_path(
         raised = None if flow == "removed" else flow
         refused = {"pressures": pressures, "solver": solver, "hardness": hardness, "flow": raised}
         grid_of(surface)
-        return sticking_states(surface, modulus, adhesion, depths, forces, operator, tolerance, **refused)
+        loads = depths, forces, mean_gaps
+        return sticking_states(surface, modulus, adhesion, loads, operator, tolerance, **refused)
+    refuse_gaps(mean_gaps)
     raises, keeps = flow_reading(flow), hardness is not None
     if raises and depths is not None:
         raise ValueError(
@@ -152,6 +161,7 @@ def loading_path(
     return follow(problem, controls, solver or ActiveSet())
 
 
+@overload
 def loading_curve(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -164,7 +174,40 @@ def loading_curve(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
     flow: FlowReading = "removed",
-) -> Curve:
+    adhesion: None = None,
+    mean_gaps: None = None,
+) -> Curve: ...
+
+
+@overload
+def loading_curve(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+    adhesion: Adhesion,
+    mean_gaps: Loads | None = None,
+) -> AdhesiveLoop: ...
+
+
+def loading_curve(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    forces: Loads | None = None,
+    depths: Loads | None = None,
+    pressures: Loads | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    hardness: Hardness | None = None,
+    flow: FlowReading = "removed",
+    adhesion: Adhesion | None = None,
+    mean_gaps: Loads | None = None,
+) -> Curve | AdhesiveLoop:
     """Return stiffness, contact area, depth and more as functions of load.
 
     Parameters
@@ -188,11 +231,16 @@ def loading_curve(
     flow : {"removed", "raised"}
         Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
         volume conserved (Pullen and Williamson 1972), which changes the depth alone.
+    adhesion : Adhesion, optional
+        What holds the bodies together, see `loading_path`: loads of either sign go up and down.
+    mean_gaps : array, shape (n,), optional
+        With adhesion, see `loading_path`.
 
     Returns
     -------
-    Curve
+    Curve or AdhesiveLoop
         One point for each load, marked where a load missed its tolerance; fields are not kept, see `loading_path`.
+        With adhesion an `AdhesiveLoop`, with the branch of each point and the jumps.
 
     Raises
     ------
@@ -206,20 +254,21 @@ def loading_curve(
     >>> curve = rc.loading_curve(ball, 1e9, forces=[1e-3, 4e-3])
     >>> f"{curve.contact_area[1] / curve.contact_area[0]:.1f}"  # about 4^(2/3)
     '2.5'
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> soft = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
+    >>> curve = rc.loading_curve(soft, 1e8, depths=[0.0, 20e-9, 0.0, -5e-9], adhesion=adhesion)
+    >>> curve.approach.tolist(), f"{curve.pull_off_force * 1e9:.0f} nN"
+    ([True, True, False, False], '507 nN')
     """
-    path = loading_path(
-        surface,
-        modulus,
-        forces=forces,
-        depths=depths,
-        pressures=pressures,
-        operator=operator,
-        solver=solver,
-        tolerance=tolerance,
-        hardness=hardness,
-        flow=flow,
-    )
-    return collect(path)
+    given: dict[str, Any] = {"forces": forces, "depths": depths, "pressures": pressures}
+    given |= {"operator": operator, "solver": solver, "tolerance": tolerance, "hardness": hardness}
+    given |= {"flow": flow, "adhesion": adhesion, "mean_gaps": mean_gaps}
+    path: Iterator[Any] = loading_path(surface, modulus, **given)
+    if adhesion is None:
+        return collect(path)
+    loads = np.negative(mean_gaps) if mean_gaps is not None else forces if depths is None else depths
+    return collect_states(path, np.atleast_1d(np.asarray(loads, np.float64)))
 
 
 def _controls(
@@ -236,6 +285,6 @@ def _controls(
         at = int(np.argmin(np.diff(values) > 0))
         raise ValueError(
             f"the {name}s must increase strictly, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}; "
-            "only under a hardness do loads go up and down"
+            "only under a hardness or with an adhesion do loads go up and down"
         )
     return [control_of(grid, **{name: float(v)}) for v in values]

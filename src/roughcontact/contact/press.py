@@ -14,7 +14,7 @@ from roughcontact.contact.problem import Body, ContactProblem, require_memory_fo
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
-from roughcontact.contact.sticking import sticking_states
+from roughcontact.contact.sticking import refuse_gaps, sticking_states
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -47,6 +47,7 @@ def press(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
     adhesion: None = None,
+    mean_gap: None = None,
 ) -> Solution: ...
 
 
@@ -60,6 +61,7 @@ def press(
     operator: Operator | None = None,
     tolerance: float = 1e-8,
     adhesion: Adhesion,
+    mean_gap: float | None = None,
 ) -> AdhesiveState: ...
 
 
@@ -75,6 +77,7 @@ def press(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
     adhesion: Adhesion | None = None,
+    mean_gap: float | None = None,
 ) -> Solution | AdhesiveState:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
@@ -98,14 +101,15 @@ def press(
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
         or a function of the radii of the contact spots [m], such as `NixGao`.
     adhesion : Adhesion, optional
-        What holds the bodies together: the end of an approach from beyond its reach, by a `depth` of either sign or a
-        `force` of at least 0.
+        What holds the bodies together: the end of an approach from beyond its reach, by a `depth` of either sign, a
+        `force` of at least 0 or a `mean_gap`.
+    mean_gap : float, optional
+        With adhesion, on a whole periodic grid: the mean gap [m], which there is the mean separation less the depth.
 
     Returns
     -------
     Solution or AdhesiveState
-        Pressure, depth and certificate; area, stiffness and more follow from it. With adhesion an `AdhesiveState`,
-        whose `status` says whether the tolerance was met.
+        Pressure, depth and certificate; area, stiffness and more follow from it. With adhesion an `AdhesiveState`.
 
     Raises
     ------
@@ -127,7 +131,12 @@ def press(
     grid = grid_of(surface)
     if adhesion is not None:
         refused = {"pressure": pressure, "solver": solver, "hardness": hardness}
-        return next(sticking_states(surface, modulus, adhesion, depth, force, operator, tolerance, **refused))
+        loads = depth, force, mean_gap
+        state = next(sticking_states(surface, modulus, adhesion, loads, operator, tolerance, **refused))
+        if not state.status.converged:
+            raise ConvergenceError(state)
+        return state
+    refuse_gaps(mean_gap)
     control = control_of(grid, force=force, depth=depth, pressure=pressure)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),

@@ -1,4 +1,4 @@
-"""Surfaces that stick, from what a user gives to states along prescribed depths or forces."""
+"""Surfaces that stick, from what a user gives to states along prescribed depths, forces or mean gaps."""
 
 from __future__ import annotations
 
@@ -10,52 +10,77 @@ import numpy as np
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.path_states import states_along
-from roughcontact.contact.problem import Body, separation_of
+from roughcontact.contact.problem import Body, require_memory_for, separation_of
 from roughcontact.halfspace.operators.build import body_on
-from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, exactly_one, number, require, shown
 
-__all__ = ["sticking_states"]
+__all__ = ["refuse_gaps", "sticking_states"]
+
+Given = float | Sequence[float] | Array | None
 
 
 def sticking_states(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     adhesion: Adhesion,
-    depths: float | Sequence[float] | Array | None,
-    forces: float | Sequence[float] | Array | None,
+    loads: tuple[Given, Given, Given],
     operator: Operator | None,
     tolerance: float,
     **others: Any,
 ) -> Iterator[AdhesiveState]:
-    """Yield the state of a surface at each depth or under each force, in order.
+    """Yield the state of a surface at each depth, under each force or at each mean gap, in order.
 
-    What a contact that sticks cannot take is refused at once.
+    The `loads` are depths, forces and mean gaps, of which one is given. What a contact that sticks cannot take is
+    refused at once.
 
     Raises
     ------
     ValueError
-        If not one of depths and forces is given, or something among `others` is.
+        If not one of depths, forces and mean gaps is given, or something among `others` is.
     """
     require(isinstance(adhesion, Adhesion), f"an Adhesion is wanted, not {shown(adhesion)}")
     given = [name for name, value in others.items() if value is not None]
     if given:
         raise ValueError(f"a contact that sticks takes no {' or '.join(given)}: give depths or forces")
-    name, loads = exactly_one(depths=depths, forces=forces)
-    goals = np.atleast_1d(number(loads, f"the list of {name}"))
+    name, values = exactly_one(**dict(zip(("depths", "forces", "mean_gaps"), loads, strict=True)))
+    words = name.replace("_", " ")
+    goals = np.atleast_1d(number(values, f"the list of {words}"))
     if goals.ndim != 1 or not len(goals) or not np.isfinite(goals).all():
-        raise ValueError(f"the list of {name} must hold finite numbers in one row, not {shown(loads)}")
+        raise ValueError(f"the list of {words} must hold finite numbers in one row, not {shown(values)}")
+    require_memory_for(surface)
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
+    if geometry_of(body) is Geometry.FOUNDATION:
+        raise ValueError(
+            "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
+            "for bodies of revolution see mdr.adhesion"
+        )
     allowed = checked_tolerance(tolerance)
     return states_along(
         body,
         separation_of(surface),
         adhesion,
         modulus=value,
-        depths=goals if name == "depths" else None,
-        forces=goals if name == "forces" else None,
+        **{name: goals},
+        surface=surface,
         tolerance=allowed,
     )
+
+
+def refuse_gaps(mean_gaps: Given) -> None:
+    """Refuse mean gaps of bodies that do not stick, which have depths for it.
+
+    Raises
+    ------
+    ValueError
+        If any are given.
+    """
+    if mean_gaps is not None:
+        raise ValueError(
+            "mean gaps are prescribed with adhesion alone: give depths, on a whole periodic grid the mean separation "
+            "less the gap"
+        )

@@ -17,7 +17,7 @@ from roughcontact.files.text import read_text
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
-__all__ = ["channels_of", "either", "height_map", "profile_of"]
+__all__ = ["READERS", "channels_of", "either", "height_map", "profile_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,8 @@ def _alone(read: Callable[[bytes], HeightMap]) -> _Reader:
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
 _PROFILE = _alone(read_profile)  # of a text that holds no map
-_OURS = {
+# By the ending of a file; whatever has none here goes to the readers of others.
+READERS = {
     ".npy": _alone(read_npy),
     **dict.fromkeys(_TEXTS, _alone(read_text)),
     ".xyz": _alone(read_xyz),
@@ -85,13 +86,13 @@ def either(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
 
 def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
-    if kind not in _OURS:
+    if kind not in READERS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        holding = (each for each in _OURS if each != ".xyz")
+        holding = (each for each in READERS if each != ".xyz")
         raise ContentError(
             problem, f"name a text .txt, or export it as one of {', '.join(holding)}; read a map by read"
         )
-    found = (_PROFILE if kind in _TEXTS else _OURS[kind]).read(data, channel)
+    found = (_PROFILE if kind in _TEXTS else READERS[kind]).read(data, channel)
     require_line(found)
     return found
 
@@ -107,7 +108,7 @@ def channels_of(data: bytes, kind: str) -> tuple[Channel, ...]:
 
 
 def _reader(kind: str) -> _Reader:
-    return _OURS.get(kind) or _Reader(partial(read_foreign, kind), partial(list_foreign, kind))
+    return READERS.get(kind) or _Reader(partial(read_foreign, kind), partial(list_foreign, kind))
 
 
 def _points_on_a_line(data: bytes, kind: str) -> int:

@@ -30,7 +30,7 @@ from roughcontact.files.heightmap import (
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.validation import Array
 
-__all__ = ["list_foreign", "read_foreign"]
+__all__ = ["NOT_FOREIGN", "list_foreign", "read_foreign"]
 
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
@@ -39,6 +39,7 @@ _OURS = {
     **{"nc": ".nc", "sur": ".sur"},
 }
 _TEXTS = {"asc", "matrix", "xyz"}
+NOT_FOREIGN = {*_OURS, *_TEXTS}  # what the library reads and is not asked to
 # Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
 _UNMARKED = {".hgt": "hgt", ".nms": "nms"}
 # Formats whose lateral size comes out wrong (by 1e6): the size must be given.

@@ -11,6 +11,7 @@ from typing import Any
 __all__ = [
     "AREA",
     "CONDUCTIVITY",
+    "ENERGY_PER_AREA",
     "FORCE",
     "FORCE_PER_LENGTH",
     "LENGTH",
@@ -51,6 +52,7 @@ AREA = Kind("an area", "m^2", "1mm^2")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
+ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
 
 

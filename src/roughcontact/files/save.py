@@ -13,11 +13,14 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import on_host
+from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.contact.loop import Loop
+from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes
@@ -37,7 +40,8 @@ __all__ = ["require_surface_file", "write"]
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
-Writable = Surface | Solution | TangentialSolution | Curve | Loop | SlipCurve | InterfaceTable
+Pressed = Solution | TangentialSolution | AdhesiveState
+Writable = Surface | Pressed | Curve | Loop | AdhesiveLoop | SlipCurve | InterfaceTable
 
 
 def write(what: Writable, path: str | os.PathLike[str]) -> None:
@@ -46,7 +50,8 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     ==========  ==================================================================================================
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
     ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
-                loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`
+                loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
+                adhesion by `read_adhesive_loop`
     ``.csv``    a curve, a loop, or the table of an interface: one line a load
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
                 history, for which the format has no place
@@ -60,7 +65,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    what : Surface, Solution, TangentialSolution, Curve, Loop, SlipCurve or InterfaceTable
+    what : Surface, Solution, TangentialSolution, AdhesiveState, Curve, Loop, AdhesiveLoop, SlipCurve or InterfaceTable
         What is written.
     path : str or path
         File to write; one that is there is replaced.
@@ -78,7 +83,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    if isinstance(what, Curve | SlipCurve | Loop):
+    if isinstance(what, Curve | SlipCurve | Loop | AdhesiveLoop):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return
@@ -86,7 +91,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
         kind = _require_kind(path, type(what).__name__, _OF_AN_INTERFACE)
         _OF_AN_INTERFACE[kind](what, path)
         return
-    if not isinstance(what, Surface | Solution | TangentialSolution):
+    if not isinstance(what, Surface | Pressed):
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
     formats: Mapping[str, Callable[[Any], bytes]] = (
         _OF_A_SURFACE if isinstance(what, Surface) else _OF_A_SOLUTION
@@ -128,14 +133,17 @@ def _netcdf(surface: Surface) -> bytes:
     return netcdf_bytes(dataset.assign_attrs(provenance(surface)))
 
 
-def _solution(solution: Solution | TangentialSolution) -> bytes:
-    problem = _pressed(solution).problem
-    lines = provenance(problem.surface, modulus=problem.modulus)
+def _solution(solution: Pressed) -> bytes:
+    origin = solution.blank if isinstance(solution, AdhesiveState) else _pressed(solution).problem
+    lines = provenance(origin.surface, modulus=origin.modulus)
     return netcdf_bytes(solution.to_dataset().assign_attrs(lines))
 
 
-def _solution_vti(solution: Solution | TangentialSolution) -> bytes:
-    fields = _fields(_pressed(solution))
+def _solution_vti(solution: Pressed) -> bytes:
+    if isinstance(solution, AdhesiveState):
+        return _vti_bytes(_fields(solution, solution.blank.surface), solution.blank.operator.grid)
+    pressed = _pressed(solution)
+    fields = _fields(pressed, pressed.problem.surface)
     if isinstance(solution, TangentialSolution):
         fields |= _tangential_fields(solution)
     return _vti_bytes(fields, _pressed(solution).problem.grid)
@@ -146,8 +154,7 @@ def _pressed(solution: Solution | TangentialSolution) -> Solution:
     return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
 
 
-def _fields(solution: Solution) -> dict[str, Field]:
-    surface = solution.problem.surface
+def _fields(solution: Solution | AdhesiveState, surface: Body | None) -> dict[str, Field]:
     heights = {} if surface is None else {"heights": surface.heights}
     return heights | {
         "pressure": solution.pressure,

@@ -1,1 +1,1 @@
-"""The elastic half-space: from pressure to displacement."""
+"""Operators from pressure to displacement, of half-spaces, layers, lines, rings and springs; stress below."""

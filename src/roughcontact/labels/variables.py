@@ -101,6 +101,35 @@ _VARIABLES = {
     "branch": Variable("", "branch of the loop: first loading, unloading or reloading"),
     "work": Variable("J", "work of first loading up to the largest load"),
     "dissipated_work": Variable("J", "work of loading that unloading does not give back"),
+    # adhesion
+    "work_of_adhesion": Variable("J m-2", "work of adhesion, to part a unit area", "work of adhesion w"),
+    "adhesion_range": Variable("m", "length over which the attraction falls", "range of the attraction"),
+    "allow_unresolved": Variable("", "whether an attraction that varies from cell to cell was allowed"),
+    "unresolved": Variable("", "attraction varies from cell to cell: states are those of the lattice"),
+    "adhesive_energy": Variable("J", "energy of the attraction"),
+    "energy": Variable("J", "elastic and adhesive energy; its slope with the depth is the force"),
+    "contact_stiffness": Variable(
+        "N m-1", "slope of the force with the depth, contact and attraction held fixed"
+    ),
+    "stability": Variable(
+        "1", "smallest eigenvalue of the Hessian over that without attraction, as it is controlled"
+    ),
+    "stability_bound": Variable("1", "distance within which an eigenvalue lies from the stability"),
+    "attracted": Variable("", "whether the cell is apart from the wall by no more than the range"),
+    "largest_tension": Variable("Pa", "largest tension of a cell"),
+    "pull_off_force": Variable("N", "largest tension of the retreat"),
+    "jump_in_force": Variable("N", "tension from which the body first jumped on the approach"),
+    "lost_energy": Variable("J", "energy lost in all jumps", "energy lost"),
+    "jumped": Variable("1", "load, counted from 0, that the jump came on the way to"),
+    "jump_depth": Variable("m", "last depth of the branch that ends"),
+    "jump_depth_after": Variable("m", "depth after the jump"),
+    "jump_force_before": Variable("N", "force before the jump"),
+    "jump_force_after": Variable("N", "force after the jump"),
+    "jump_depth_bracket": Variable("m", "depth between the last state of the branch and the first beyond it"),
+    "jump_force_bracket": Variable("N", "force between the last state of the branch and the first beyond it"),
+    "jump_lost": Variable("J", "energy lost in the jump"),
+    "jump_approach": Variable("", "whether the depth or the force was growing"),
+    "jump_ambiguous": Variable("", "whether two integrations of the flow after the jump end apart"),
     # tangential loading
     "tangential_force": Variable("N", "tangential force that body 2 exerts upon body 1"),
     "tangential_displacement": Variable(

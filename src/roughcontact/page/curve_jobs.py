@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
-from roughcontact.labels.variables import CURVE_POINTS
+from roughcontact.page.conducting import conductors_of
+from roughcontact.page.curve_point import columns, point_of
 from roughcontact.page.order import Order, Send
-from roughcontact.page.recipe import PageLoads
+from roughcontact.page.recipe import PageLoads, PageRecipe
 from roughcontact.page.statement import stated
 from roughcontact.page.stopping import Stopped
 from roughcontact.page.workbench import Workbench, hardness_of, modulus_of
 
 if TYPE_CHECKING:
+    from roughcontact.contact.compare import Comparison
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
+    from roughcontact.theory.law import LoadingLaw
 
-__all__ = ["curve", "theories", "whole_curve"]
+__all__ = ["compared", "curve", "theories", "whole_curve"]
 
 
 def curve(order: Order, bench: Workbench, send: Send) -> None:
@@ -27,15 +31,22 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
     if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
         send({"type": "doing", "words": "Looking for the loads that suit this surface"})
     loads, notes = bench.loads(recipe, order.files)
-    statement = stated(recipe, order.file)
-    words = {"command": statement.command, "python": statement.python}
-    send({"type": "loads", "count": len(loads), "notes": notes, **words})
+    conductors = conductors_of(recipe.bodies)
+    send({"type": "loads", "count": len(loads), "notes": notes, "columns": columns(conductors)})
+    send(_statement(recipe, order))
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         done = 0
         try:
             for solution in path:
-                send({"type": "point", "number": done, "load": float(loads[done]), **_point(solution)})
+                send(
+                    {
+                        "type": "point",
+                        "load": float(loads[done]),
+                        **point_of(solution, conductors),
+                        **_judged(solution),
+                    }
+                )
                 done += 1
                 yield solution
         except Stopped:
@@ -49,29 +60,40 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
 
 def theories(order: Order, bench: Workbench, send: Send) -> None:
     """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
-    import roughcontact as rc
-
-    computed = whole_curve(order, bench)
-    surface = bench.surface(order.recipe, order.files)
-    modulus, hardness = modulus_of(order.recipe.bodies), hardness_of(order.recipe.bodies)
-    known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
-    for name in order.more.get("names", []):
-        try:
-            [law] = rc.loading_laws(surface, modulus, str(name), **known)
-            found = computed.compare(law)
-        except ValueError as error:
-            send({"type": "theory", "name": name, "refused": str(error)})
-            continue
+    loads = order.recipe.loads or PageLoads()
+    found, refused = compared(order, bench)
+    for name, why in refused.items():
+        send({"type": "theory", "name": name, "refused": why})
+    for name, (_, comparison) in found.items():
         send(
             {
                 "type": "theory",
                 "name": name,
-                "label": found.name,
-                "source": found.source,
-                "words": found.words(),
-                "predicted": {key: plain_values(values) for key, values in found.predicted.items()},
+                "label": comparison.name,
+                "words": comparison.words(),
+                "predicted": {key: plain_values(values) for key, values in comparison.predicted.items()},
             }
         )
+    apply = replace(loads, theories=tuple(found))
+    send(_statement(replace(order.recipe, load=None, loads=apply), order))
+
+
+def compared(
+    order: Order, bench: Workbench
+) -> tuple[dict[str, tuple[LoadingLaw, Comparison]], dict[str, str]]:
+    """Return each theory that the recipe names beside the curve, and why others do not apply."""
+    computed, loads = whole_curve(order, bench), order.recipe.loads or PageLoads()
+    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
+    refused: dict[str, str] = {}
+    for name in loads.theories:
+        try:
+            law = _law(name, order, bench)
+            found[name] = law, computed.compare(law)
+        except ValueError as error:
+            if not is_ours(error):
+                raise
+            refused[name] = str(error)
+    return found, refused
 
 
 def whole_curve(order: Order, bench: Workbench) -> Curve:
@@ -85,40 +107,60 @@ def whole_curve(order: Order, bench: Workbench) -> Curve:
     return computed
 
 
+def _law(name: str, order: Order, bench: Workbench) -> LoadingLaw:
+    import roughcontact as rc
+    from roughcontact.theory.laws import LAWS
+
+    bodies = order.recipe.bodies
+    hardness = hardness_of(bodies)
+    if hardness is None and name in LAWS and "hardness" in LAWS[name].needs:
+        raise ValueError(
+            "it is about spots that flow: give the hardness of the softer body, and start the curve again"
+        )
+    known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
+    [law] = rc.loading_laws(bench.surface(order.recipe, order.files), modulus_of(bodies), name, **known)
+    return law
+
+
+def _statement(recipe: PageRecipe, order: Order) -> Mapping[str, Any]:
+    statement = stated(recipe, order.file)
+    return {"type": "stated", "command": statement.command, "python": statement.python}
+
+
 def _collected(path: Iterator[Solution]) -> Curve:
     from roughcontact.contact.curve import collect
 
     return collect(path)
 
 
-def _point(solution: Solution) -> dict[str, Any]:
-    point = {name: plain_values(getattr(solution, name)) for name in CURVE_POINTS}
-    return point | {
-        "nominal_pressure": solution.force / solution.problem.grid.area,
-        "contact_fraction": solution.contact_fraction,
-        "spots": solution.spot_count,
-        "resolved": bool(solution.resolved),
-        "converged": solution.status.converged,
-        "residual": solution.residual,
-    }
+def _judged(solution: Solution) -> dict[str, Any]:
+    converged = solution.status.converged
+    return {"resolved": bool(solution.resolved and converged), "status": solution.status.value}
 
 
 def _whole(computed: Curve) -> dict[str, Any]:
+    from roughcontact.contact.curve import REMEDY
+    from roughcontact.plot.facts import bend_words, curve_facts
+
+    resolved = int(computed.resolved.sum())
     try:
         law = computed.fit()
     except ValueError as error:
-        return {"fit": None, "why": str(error), "resolved": int(computed.resolved.sum())}
-    low, high = law.window
+        why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
+        return {
+            "facts": curve_facts(computed, None),
+            "notes": [f"No power law: {why}."],
+            "resolved": resolved,
+        }
+    inside = (computed.force >= law.window[0]) & (computed.force <= law.window[1])
+    force = computed.force[inside]
     return {
+        "facts": curve_facts(computed, law),
+        "notes": [] if law.straight else [f"There is {bend_words(law)}."],
+        "resolved": resolved,
         "fit": {
             "exponent": float(law.exponent),
-            "prefactor": float(law.prefactor),
-            "scatter": float(law.scatter),
-            "straight": bool(law.straight),
-            "window": [float(low), float(high)],
-            "count": int(law.count),
+            "force": force.tolist(),
+            "stiffness": law.stiffness(force).tolist(),
         },
-        "force_scale": computed.force_scale,
-        "stiffness_scale": computed.stiffness_scale,
-        "resolved": int(computed.resolved.sum()),
     }

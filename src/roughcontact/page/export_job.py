@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.page.curve_jobs import whole_curve
+from roughcontact.page.conducting import conductors_of
+from roughcontact.page.curve_jobs import compared, whole_curve
 from roughcontact.page.order import Order, Send
+from roughcontact.page.recipe import FileSource, PageLoads
 from roughcontact.page.statement import Statement, stated
 from roughcontact.page.workbench import Workbench, modulus_of
 
@@ -33,17 +37,25 @@ def export(order: Order, bench: Workbench, send: Send) -> None:
         folder = Path(name)
         if kind == "zip":
             _everything(order, bench, statement, folder)
-            send({"type": "file", "name": "roughcontact.zip"}, _zipped(folder))
+            send({"type": "file", "name": _name(order, "contact", kind)}, _zipped(folder))
             return
-        if order.more.get("of") == "curve":
-            written = _curve_files(order, bench, statement)
-        elif order.more.get("of") == "load":
+        load, loads = order.recipe.load, order.recipe.loads
+        if order.more.get("of") == "curve" and loads is not None:
+            written, what = _curve_files(order, bench, statement), f"curve-{loads.control}"
+        elif order.more.get("of") == "load" and load is not None:
             written = _load_files(bench.solution(order.recipe, order.files), order, statement)
+            what = f"{load.control}-{load.text}"
         else:
-            raise ValueError("a load or a curve is exported: say which")
+            raise ValueError("there is nothing to export yet: press the surface, or start the curve")
         file = folder / next(file for file in written if file.endswith(f".{kind}"))
         written[file.name](file)
-        send({"type": "file", "name": file.name}, file.read_bytes())
+        send({"type": "file", "name": _name(order, what, kind)}, file.read_bytes())
+
+
+def _name(order: Order, what: str, ending: str) -> str:
+    """Return the name of a file that tells of what surface it is and what it holds."""
+    stem = Path(order.file).stem if isinstance(order.recipe.source, FileSource) else "made-surface"
+    return re.sub(r"[^\w.-]+", "", f"{stem}-{what}") + f".{ending}"
 
 
 def _everything(order: Order, bench: Workbench, statement: Statement, folder: Path) -> None:
@@ -101,17 +113,27 @@ def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[
 
 
 def _curve_files(order: Order, bench: Workbench, statement: Statement) -> dict[str, Callable[[Path], None]]:
-    """Return how the files of a curve are written, by their names."""
+    """Return how the files of a curve and of what was asked for beside it are written, by their names."""
+    from roughcontact.contact.compare import with_theories
+    from roughcontact.contact.conduction import with_conductance
     from roughcontact.contact.dataset import curve_dataset, curve_record
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.canvas import curve_figure, save
+    from roughcontact.plot.canvas import areal_figure, curve_figure, save
 
-    curve, surface = whole_curve(order, bench), bench.surface(order.recipe, order.files)
-    loads = order.recipe.loads
-    control = f"{len(curve)} {'force' if loads is None else loads.control}s"
+    curve, loads = whole_curve(order, bench), order.recipe.loads or PageLoads()
+    theories, _ = compared(order, bench)
+    comparisons = {name: comparison for name, (_, comparison) in theories.items()}
+    dataset = with_theories(curve_dataset(curve), comparisons)
+    conductors = conductors_of(order.recipe.bodies) if loads.conducting else None
+    if conductors is not None:
+        dataset = with_conductance(dataset, conductors)
     source = provenance(
-        surface, modulus=curve.modulus, control=control, tolerance=1e-8, command=statement.command
+        bench.surface(order.recipe, order.files),
+        modulus=curve.modulus,
+        control=f"{len(curve)} {loads.control}s",
+        tolerance=1e-8,
+        command=statement.command,
     )
 
     def picture(path: Path) -> None:
@@ -119,14 +141,22 @@ def _curve_files(order: Order, bench: Workbench, statement: Statement) -> dict[s
             law = curve.fit()
         except ValueError:
             law = None
-        save(curve_figure(curve, law), path)
+        laws = [
+            replace(theory, quantities={key: theory.quantities[key] for key in comparison.predicted})
+            for theory, comparison in theories.values()
+        ]
+        per_area = loads.control == "pressure" or all(curve.periodic)
+        save((areal_figure if per_area else curve_figure)(curve, law, laws), path)
 
+    record = curve_record(curve) | {
+        "theories": {name: each.to_record() for name, each in comparisons.items()}
+    }
     return {
-        "curve.csv": lambda path: write_csv(curve_dataset(curve), path, source),
-        "curve.nc": lambda path: write_netcdf(curve_dataset(curve), path, source),
+        "curve.csv": lambda path: write_csv(dataset, path, source),
+        "curve.nc": lambda path: write_netcdf(dataset, path, source),
         "curve.png": picture,
         "curve.svg": picture,
-        "curve.json": lambda path: write_json(curve_record(curve), path, source),
+        "curve.json": lambda path: write_json(record, path, source),
     }
 
 

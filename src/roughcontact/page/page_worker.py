@@ -12,7 +12,7 @@ import os
 import sys
 import threading
 import traceback
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
@@ -36,7 +36,8 @@ def main() -> None:
     stopping.install()
     threading.Thread(target=_listen, args=(orders, stopping, inbox), daemon=True).start()
     logging.disable(logging.CRITICAL)
-    _warm_up()
+    warming = _warm_up()
+    next(warming)
     _limit_memory()
 
     def send(header: Mapping[str, Any], data: bytes = b"") -> None:
@@ -48,6 +49,9 @@ def main() -> None:
 
     with contextlib.suppress(BrokenPipeError):
         send({"type": "ready"})
+        for _ in warming:
+            if not inbox.empty():  # who asks need not wait for the rest
+                break
         while True:
             perform(inbox.get(), bench, send, stopping)
 
@@ -111,21 +115,32 @@ def _listen(orders: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str, A
     os._exit(0)  # the server is gone, whatever is being computed
 
 
-def _warm_up() -> None:
-    """Load what every order takes, and the machine code of the solvers."""
-    import numpy as np
+def _warm_up() -> Iterator[None]:
+    """Load, step by step, what orders take: modules, units, and the machine code of the solvers."""
 
-    import roughcontact as rc
-    from roughcontact.page.recipe import as_recipe
-    from roughcontact.plot.facts import solution_facts
+    def made(points: int, *, periodic: bool = False) -> dict[str, Any]:
+        return {
+            **{"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "0.5mm"},
+            **{"points": points, "periodic": periodic},
+        }
 
-    _job("look")
-    as_recipe({"source": {"kind": "file", "file": ""}})
-    for points, repeats in ((512, False), (64, True)):  # 512: large enough for every method of the solvers
-        grid = rc.Grid((points, points), 1e-6, periodic=repeats)
-        surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
-        for solution in rc.loading_path(surface.levelled("plane"), 1e11, pressures=[1e5, 1e7]):
-            solution_facts(solution)
+    light, heavy = ({"control": "pressure", "text": text} for text in ("0.1MPa", "10MPa"))
+    steps: list[tuple[str, dict[str, Any]]] = [
+        ("look", {"source": made(64)}),
+        ("press", {"source": made(64, periodic=True), "load": light}),
+        # Large enough for every method of the solvers.
+        ("press", {"source": made(512), "load": light}),
+        ("press", {"source": made(512), "load": heavy}),
+        ("study", {"source": made(64)}),
+    ]
+    bench = Workbench()
+    for job, recipe in steps:
+        _job(job)(_order({"recipe": recipe, "files": {}}), bench, _unsent)
+        yield
+
+
+def _unsent(header: Mapping[str, Any], data: bytes = b"") -> None:
+    """Send nothing."""
 
 
 def _limit_memory() -> None:

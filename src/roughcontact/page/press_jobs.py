@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from roughcontact.labels.labelled import plain_values
+from roughcontact.page.conducting import conductors_of
+from roughcontact.page.curve_point import point_of
 from roughcontact.page.order import Order, Send, send_map
 from roughcontact.page.statement import stated
 from roughcontact.page.workbench import Workbench
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
 
 __all__ = ["cut", "press"]
 
 
 def press(order: Order, bench: Workbench, send: Send) -> None:
     """Send the maps of pressure and gap, then numbers, notes and the distribution of the pressure."""
-    from roughcontact.contact.dataset import solution_record
+    import numpy as np
+
     from roughcontact.plot.facts import solution_facts
 
     span = bench.span(order.recipe, order.files)
@@ -28,14 +34,15 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
     place: dict[str, Any] = {"lengths": grid.lengths, "periodic": list(grid.periodic)}
     send_map(send, "pressure", solution.pressure, most, unit="Pa", **place)
     send_map(send, "gap", solution.gap, most, lowest=True, unit="m", **place)
+    highest = np.unravel_index(int(solution.pressure.argmax()), grid.shape)
     send(
         {
             "type": "state",
             "force": solution.force,
             "pressure": solution.force / grid.area,
             "depth": solution.depth,
-            "fraction": solution.contact_fraction,
-            "converged": solution.status.converged,
+            "highest": [int(index) for index in highest],
+            "advice": _advice(solution),
         }
     )
     statement = stated(order.recipe, order.file)
@@ -43,7 +50,7 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
         {
             "type": "numbers",
             "facts": solution_facts(solution),
-            "record": solution_record(solution),
+            "point": point_of(solution, conductors_of(order.recipe.bodies)),
             "notes": solution.notes,
             "command": statement.command,
             "python": statement.python,
@@ -64,19 +71,32 @@ def cut(order: Order, bench: Workbench, send: Send) -> None:
     count = problem.grid.shape[0 if along_row else 1]
     at = min(order.whole("place", 1, count), count) - 1
     line = (at, slice(None)) if along_row else (slice(None), at)
-    step = problem.grid.spacing[1 if along_row else 0]
     gap = solution.gap[line]
     send(
         {
             "type": "cut",
             "axis": "row" if along_row else "column",
             "place": at,
-            "x": [step * (k + 0.5) for k in range(len(gap))],
+            "count": count,
+            "x": problem.grid.coordinates[1 if along_row else 0].tolist(),
+            "across": float(problem.grid.coordinates[0 if along_row else 1][at]),
             # The flat lies at 0, in both.
             "before": plain_values(
                 np.where(problem.measured[line], solution.depth - problem.separation[line], np.nan)
             ),
             "under": plain_values(-gap),
+            "gap": plain_values(gap),
             "pressure": plain_values(solution.pressure[line]),
         }
     )
+
+
+def _advice(solution: Solution) -> str:
+    """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
+    if not solution.status.converged:
+        return "The solver has missed its tolerance: take another load, or filter the shortest waves."
+    if solution.contact.any() and not solution.above_cells:
+        return (
+            "So few cells bear this load that the grid sets the stiffness: take a larger load or a finer map."
+        )
+    return ""

@@ -133,13 +133,23 @@ class PageLoad:
 
 @dataclass(frozen=True, slots=True)
 class PageLoads:
-    """The loads of a curve: from, to and how many, evenly spaced in the logarithm; or each by its number in SI."""
+    """The loads of a curve: from, to and how many, evenly spaced in the logarithm; or each by its number in SI.
+
+    Parameters
+    ----------
+    theories : tuple of str
+        What is laid over the curve.
+    conducting : bool
+        Whether what two named materials conduct belongs to it.
+    """
 
     control: Literal["force", "pressure", "depth"] = "force"
     start: str | None = None
     end: str | None = None
     count: int = 24
     values: tuple[float, ...] | None = None
+    theories: tuple[str, ...] = ()
+    conducting: bool = False
 
     @property
     def ends(self) -> tuple[float, float] | None:
@@ -150,11 +160,15 @@ class PageLoads:
             raise ValueError(
                 "give both ends of the loads, or neither: then loads that suit the surface are found"
             )
-        if not 2 <= self.count <= 1000:
-            raise ValueError(f"a curve has 2 to 1000 loads, not {self.count}")
-        low, high = parse(self.start, _KINDS[self.control]), parse(self.end, _KINDS[self.control])
-        if not 0 < low < high:
-            raise ValueError(f"the loads rise from above zero, not from {self.start} to {self.end}")
+        with at_field("count"):
+            if not 2 <= self.count <= 1000:
+                raise ValueError(f"a curve has 2 to 1000 loads, not {self.count}")
+        with at_field("from"):
+            low = parse(self.start, _KINDS[self.control])
+        with at_field("to"):
+            high = parse(self.end, _KINDS[self.control])
+            if not 0 < low < high:
+                raise ValueError(f"the loads rise from above zero, not from {self.start} to {self.end}")
         return low, high
 
 

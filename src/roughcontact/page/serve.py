@@ -54,7 +54,6 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
                 application(server),
                 # What is installed beside them changes nothing.
                 http="h11",
-                loop="asyncio",
                 ws="none",
                 lifespan="on",
                 proxy_headers=False,

@@ -7,6 +7,7 @@ import shlex
 from dataclasses import dataclass
 
 from roughcontact.files.quantity import LENGTH, PRESSURE, parse, parse_number
+from roughcontact.page.conducting import conducting_pair
 from roughcontact.page.preparation_calls import calls_of, written_value
 from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoad, PageLoads, PageRecipe
 
@@ -60,7 +61,8 @@ def _commands(recipe: PageRecipe, file: str) -> list[str]:
         load = [f"--{recipe.load.control}", recipe.load.text]
         lines.append(_line("press", file, *reading, *steps, *load, *bodies))
     if recipe.loads is not None:
-        lines.append(_line("curve", file, *reading, *steps, *_loads_options(recipe.loads), *bodies))
+        beside = _beside_options(recipe.loads, recipe.bodies)
+        lines.append(_line("curve", file, *reading, *steps, *_loads_options(recipe.loads), *bodies, *beside))
     return lines
 
 
@@ -116,6 +118,15 @@ def _loads_options(loads: PageLoads) -> list[str]:
     return [f"--{loads.control}s", f"{loads.start}:{loads.end}:{loads.count}"]
 
 
+def _beside_options(loads: PageLoads, bodies: Bodies) -> list[str]:
+    """Return what is asked for beside a curve."""
+    options = ["--theory", ",".join(loads.theories)] if loads.theories else []
+    pair = conducting_pair(bodies) if loads.conducting else None
+    if pair is None:
+        return options
+    return [*options, "--resistivity", ",".join(pair), "--conductivity", ",".join(pair)]
+
+
 def _python(recipe: PageRecipe, file: str) -> list[str]:
     source = recipe.source
     spaced = recipe.loads is not None and recipe.loads.values is None and recipe.loads.ends is not None
@@ -131,6 +142,23 @@ def _python(recipe: PageRecipe, file: str) -> list[str]:
         lines.append(f"solution = rc.press(surface, modulus, {_load(recipe.load)}{hardness})")
     if recipe.loads is not None:
         lines.append(f"curve = rc.loading_curve(surface, modulus{_loads(recipe.loads)}{hardness})")
+        lines += _beside(recipe.loads, recipe.bodies, hardness)
+    return lines
+
+
+def _beside(loads: PageLoads, bodies: Bodies, hardness: str) -> list[str]:
+    lines: list[str] = []
+    if loads.theories:
+        names = ", ".join(written_value(name) for name in loads.theories)
+        lines.append(f"theories = rc.loading_laws(surface, modulus, [{names}]{hardness})")
+        lines.append("comparisons = [curve.compare(theory) for theory in theories]")
+    pair = conducting_pair(bodies) if loads.conducting else None
+    if pair is not None:
+        lines.append(f"bodies = [rc.handbook(name) for name in {list(pair)!r}]".replace("'", '"'))
+        numbers = ("resistivities=[body.resistivity", "conductivities=[body.conductivity")
+        lines.append(
+            f"conductance = rc.conductance(curve, {', '.join(f'{each} for body in bodies]' for each in numbers)})"
+        )
     return lines
 
 

@@ -85,13 +85,14 @@ class Workbench:
 
         def pressed() -> Solution:
             surface = self.surface(recipe, files)
-            given: dict[str, Any] = {load.control: load.value}
-            try:
-                return rc.press(
-                    surface, modulus_of(recipe.bodies), **given, hardness=hardness_of(recipe.bodies)
-                )
-            except rc.ConvergenceError as error:
-                return error.solution
+            modulus, hardness = modulus_of(recipe.bodies), hardness_of(recipe.bodies)
+            with at_field("load"):
+                given: dict[str, Any] = {load.control: load.value}
+                try:
+                    return rc.press(surface, modulus, **given, hardness=hardness)
+                except rc.ConvergenceError as error:
+                    best: Solution = error.solution
+                    return best
 
         return self._once("solution", replace(recipe, loads=None), pressed)
 

@@ -35,6 +35,11 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.plot.engineering_units import Scale as Scale
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
+    from roughcontact.plot.jumps import (
+        jump_area as jump_area,
+        jump_figure as jump_figure,
+        jump_loop as jump_loop,
+    )
     from roughcontact.plot.loops import (
         bearing_curves as bearing_curves,
         depth_loop as depth_loop,
@@ -55,6 +60,11 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
     from roughcontact.plot.stress_map import von_mises_section as von_mises_section
     from roughcontact.plot.study_picture import study_figure as study_figure
+    from roughcontact.plot.tension import (
+        state_figure as state_figure,
+        tension_map as tension_map,
+        tension_profile as tension_profile,
+    )
     from roughcontact.plot.view import surface_view as surface_view
 
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 __all__ = ["Scale", "pretty", "scale", "written"]
 
-_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+_PREFIXES = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
@@ -39,8 +39,8 @@ def scale(largest: float, unit: str) -> Scale:
 
     The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and counts as often as
     that unit does (``"m2"`` becomes µm², a factor of 1e12, ``"m-2"`` 1/µm²). A prefix of an area is a million times
-    the next: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length. A
-    stiffness per area is in N/µm/mm² (MPa/µm).
+    the next: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length; energies
+    alone go below pico. A stiffness per area is in N/µm/mm² (MPa/µm).
     """
     if unit == "Pa m-1":  # the unit of machine design, whatever the number
         return Scale(1e-12, "N/µm/mm²")
@@ -54,7 +54,8 @@ def scale(largest: float, unit: str) -> Scale:
         decades = math.log10(largest * (1 + 1e-9)) - lowest
         exponent = 3 * math.floor(decades / (3 * abs(power))) * (1 if power > 0 else -1)
     highest = 3 if first.startswith("m") else 12
-    exponent = min(max(exponent, -12), highest)
+    smallest = -18 if first == "J" else -12
+    exponent = min(max(exponent, smallest), highest)
     # A division by an exact power of ten rounds once.
     shift = -exponent * power
     factor = 10.0**shift if shift >= 0 else 1 / 10.0**-shift

@@ -15,13 +15,15 @@ from roughcontact.solver.control import Status
 if TYPE_CHECKING:
     import xarray
 
+    from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.grid import AnyGrid
+    from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("AREAL_COLUMNS", "CURVE_COLUMNS"),
+    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "curve_facts"),
     *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
@@ -64,7 +66,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("contact area", quantity("contact_area", solution.contact_area, kind)),
         ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
         ("contact spots", str(solution.spots.count)),
-        ("mean gap", quantity("mean_gap", float(_closed(solution.mean_gap, solution.depth)), kind)),
+        ("mean gap", quantity("mean_gap", float(closed_gap(solution.mean_gap, solution.depth)), kind)),
         ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
@@ -116,6 +118,32 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
     return facts
 
 
+def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
+    """Return what a curve is worth telling as a whole, line by line: its power law, if it has one, and its limits."""
+    kind = curve.geometry
+    full = quantity("full_contact_stiffness", curve.full_contact_stiffness, kind)
+    facts = [
+        ("full-contact stiffness", f"{full}, every measured cell in contact"),
+        ("largest certificate", f"{curve.residual.max():.1e}"),
+    ]
+    if law is None:
+        return facts
+    low, high = (quantity("force", end, kind) for end in law.window)
+    stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
+    text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
+    fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
+    return [("power law", text), ("fitted to", fitted), *facts]
+
+
+def bend_words(law: PowerLaw) -> str:
+    """Return what is to be said of a law whose exponent changes over its window."""
+    low, high = law.ends
+    return (
+        f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
+        f"({law.bend:+.2f} +- {law.bend_error:.2f}); quote local exponents with their windows"
+    )
+
+
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
     """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
     header, columns = [], []
@@ -123,7 +151,11 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
     for name in names:
         values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
-            values = _closed(values, dataset["depth"].to_numpy())
+            values = closed_gap(values, dataset["depth"].to_numpy())
+        if values.dtype.kind in "OUT":
+            header.append(VARIABLES[name].label)
+            columns.append([str(value) for value in values])
+            continue
         plain = known in ("", "1")
         chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
         label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
@@ -175,10 +207,10 @@ def _scale(values: Any, unit: str, known: str) -> Scale:
     """Return the unit that suits a column; one that the user chose stays."""
     if unit != known:
         return Scale(1.0, unit)
-    return scale(float(np.max(values, initial=0.0, where=np.isfinite(values))), unit)
+    return scale(float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values))), unit)
 
 
-def _closed(gap: Any, depth: Any) -> Any:
+def closed_gap(gap: Any, depth: Any) -> Any:
     """Return mean gaps with 0 for those that are mere rounding of the depth."""
     return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
 

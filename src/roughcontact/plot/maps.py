@@ -21,7 +21,7 @@ from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 
-__all__ = ["contact_map", "height_map", "pressure_map"]
+__all__ = ["colour_limit", "contact_map", "height_map", "pressure_map"]
 
 _CONTACT = "#c8290b"
 _SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of a ring [points^2]
@@ -109,7 +109,7 @@ def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window |
     _backdrop(axes, solution, window)
     chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
     pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
-    highest, cut = _limit(pressure[~np.isnan(pressure)])
+    highest, cut = colour_limit(pressure[~np.isnan(pressure)])
     end = written(highest / chosen.factor, VARIABLES["pressure"].unit)
     words = f"\n(colours end at {end})" if cut else ""
     image = show(axes, pressure, grid, cells, "inferno", (0.0, highest))
@@ -171,7 +171,7 @@ def contact_map(
     return axes
 
 
-def _limit(pressures: Array) -> tuple[float, bool]:
+def colour_limit(pressures: Array) -> tuple[float, bool]:
     """Return the upper end of the colours, and whether it cuts off some pressures."""
     if pressures.size == 0:
         return 1.0, False

@@ -18,7 +18,7 @@ from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, require
 
-__all__ = ["contact_profile", "pressure_profile", "profile_curve"]
+__all__ = ["contact_profile", "places_of", "pressure_profile", "profile_curve"]
 
 _LINE, _SPIKE, _CONTACT = "#0072b2", "#d55e00", "#c8290b"
 _FLAT = (7.0, 2.8)  # size of a picture of a line
@@ -117,7 +117,7 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     problem = solution.problem
     before = np.where(problem.measured, solution.depth - problem.separation, np.nan)
     z = scale(float(np.nanmax(np.abs(before))), VARIABLES["heights"].unit)
-    x, unit, name = _places(problem.grid)
+    x, unit, name = places_of(problem.grid)
     middle = (x[1:] + x[:-1]) / 2
     for heights, colour, words in ((before, "0.6", "before"), (-solution.gap, _LINE, "under the load")):
         axes.plot(middle, heights * z.factor, color=colour, linewidth=1.0, label=words)
@@ -162,7 +162,7 @@ def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     solution, axes = _of_line(solution), axes_for(ax, _FLAT)
     unit = unit_of("pressure", solution.problem.geometry)
     largest = float(solution.pressure.max())
-    p, (x, of_x, name) = scale(largest, unit), _places(solution.problem.grid)
+    p, (x, of_x, name) = scale(largest, unit), places_of(solution.problem.grid)
     axes.stairs(solution.pressure * p.factor, x, fill=True, color=_LINE)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(bottom=0.0)
@@ -177,7 +177,7 @@ def _of_line(solution: Solution) -> Solution:
     return solution.on_host()
 
 
-def _places(grid: AnyGrid) -> tuple[Array, str, str]:
+def places_of(grid: AnyGrid) -> tuple[Array, str, str]:
     """Return the edges of the cells of a line or of rings, their unit and the name of their axis."""
     x = length_scale(grid)
     if isinstance(grid, RadialGrid):

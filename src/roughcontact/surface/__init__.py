@@ -1,1 +1,1 @@
-"""Surfaces: heights, generation, preparation."""
+"""Surfaces: heights measured or made, their preparation, spectra and parameters."""

@@ -1,59 +1,139 @@
-// Curves on uPlot: distributions, spectra, cuts, loading curves.
+// Curves on uPlot: distributions, cuts, loading curves; redrawn when the room or the colours change.
 
 import { digits, scaleFor } from "./words.js";
 
 /* global uPlot */
 
+const FONT = "12px system-ui, sans-serif";
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const shown = new Set();
 
-// Series: { label, x, y, kind: "line" | "points" | "rings" | "area", colour, dash }. Axes: { label, unit, log }.
-export function chart(root, { x, y, series, zero = false, height = 210, clicked = null, label = "" }) {
-  const scaleX = scaleFor(series.flatMap((each) => [...each.x]), x.unit);
-  const scaleY = scaleFor(series.flatMap((each) => [...each.y]), y.unit);
-  const { xs, columns } = together(series, scaleX.factor, scaleY.factor, x.log, y.log);
+// Series: { label, x, y, kind: "line" | "points" | "rings" | "mark" | "area", colour, dash, gaps }. Axes: { label, unit, log };
+// `y.per` stands for a density over x. `clicked(x)` and `hovered(k)` tell of places in the units of the series.
+export function chart(root, spec) {
+  root.spec = spec;
+  if (!shown.has(root)) {
+    shown.add(root);
+    let width = 0;
+    new ResizeObserver(() => {
+      if (Math.abs(root.clientWidth - width) < 2) return;
+      width = root.clientWidth;
+      if (root.spec) draw(root);
+    }).observe(root);
+  }
+  draw(root);
+}
+
+export function clear(root) {
   if (root.plot) root.plot.destroy();
+  root.plot = root.spec = null;
   root.replaceChildren();
-  if (!xs.length) return;
-  const ratio = { font: "12px system-ui, sans-serif", ink: css("--ink-soft"), grid: css("--line-soft") };
+}
+
+// A line across a chart at a place along x; null takes it away.
+export function mark(root, x) {
+  if (!root.plot) return;
+  root.quiet = true;
+  const left = x === null ? -10 : root.plot.valToPos(x * root.factor, "x");
+  root.plot.setCursor({ left, top: left < 0 ? -10 : 1 });
+  root.quiet = false;
+}
+
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+new MutationObserver(redraw).observe(document.documentElement, { attributes: true });
+
+function redraw() {
+  for (const root of shown) if (root.spec) draw(root);
+}
+
+function draw(root) {
+  const { x, y, series, zero = false, height = 0, label = "", count = null } = root.spec;
+  if (root.plot) root.plot.destroy();
+  root.plot = null;
+  const width = root.clientWidth;
+  const scaleX = scaleFor(series.flatMap((each) => [...each.x]), x.unit);
+  const scaleY = y.per ? { factor: 1 / scaleX.factor, unit: `1/${scaleX.unit}` } : scaleFor(series.flatMap((each) => [...each.y]), y.unit);
+  const { xs, columns } = together(series, scaleX.factor, scaleY.factor, x.log, y.log);
+  root.factor = scaleX.factor;
+  root.replaceChildren();
+  if (!xs.length || !width) return;
+  const ratio = { ink: css("--ink-soft"), grid: css("--line-soft") };
   const axis = (of, scale) => ({
     label: of.label + (scale.unit ? ` [${scale.unit}]` : ""),
-    labelFont: ratio.font,
-    font: ratio.font,
+    labelFont: FONT,
+    font: FONT,
     stroke: ratio.ink,
-    labelSize: 22,
+    labelSize: 20,
+    labelGap: 2,
     grid: { stroke: ratio.grid, width: 1 },
     ticks: { stroke: ratio.grid, width: 1, size: 4 },
     values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : digits(tick, 3))),
   });
-  const log = (on) => (on ? { distr: 3 } : {});
+  const readout = Object.assign(document.createElement("p"), { className: "readout" });
+  const units = { x: scaleX.unit, y: scaleY.unit };
   const options = {
-    width: Math.max(root.clientWidth, 200),
-    height,
-    padding: [10, 12, 0, 0],
+    width,
+    height: height || Math.min(Math.max(220, 0.5 * width), 560),
+    padding: [10, 22, 0, 0],
     legend: { show: false },
-    cursor: { drag: { x: false, y: false }, points: { size: 7 } },
+    cursor: { drag: { x: false, y: false }, points: { size: 8 } },
     scales: {
-      x: { time: false, ...log(x.log) },
-      y: { ...log(y.log), ...(zero ? { range: (_, low, high) => [Math.min(0, low), high * 1.05 || 1] } : {}) },
+      x: { time: false, ...(x.log ? { distr: 3 } : {}) },
+      y: { ...(y.log ? { distr: 3 } : {}), ...(zero ? { range: (_, low, high) => [Math.min(0, low), high * 1.05 || 1] } : {}) },
     },
-    axes: [axis(x, scaleX), { ...axis(y, scaleY), size: 58 }],
-    series: [{}, ...series.map((each) => drawn(each))],
+    axes: [
+      { ...axis(x, scaleX), size: 30 },
+      { ...axis(y, scaleY), size: (_, ticks) => 14 + 7 * Math.max(2, ...(ticks || []).map((each) => each.length)) },
+    ],
+    series: [{}, ...series.map(drawn)],
+    hooks: { setCursor: [(plot) => pointed(root, plot, readout, units)] },
   };
   root.plot = new uPlot(options, [xs, ...columns], root);
+  if (series.length > 1) root.append(legend(series));
+  root.append(readout);
   root.setAttribute("role", "img");
-  root.setAttribute("aria-label", `${label || y.label}: ${y.label} against ${x.label}, ${xs.length} points`);
-  if (clicked) {
-    root.plot.over.addEventListener("click", () => {
-      if (root.plot.cursor.idx !== null) clicked(xs[root.plot.cursor.idx] / scaleX.factor);
-    });
-  }
+  root.setAttribute("aria-label", `${label || y.label}: ${y.label} against ${x.label}, ${count ?? xs.length} points`);
+  root.plot.over.addEventListener("click", () => {
+    const { idx } = root.plot.cursor;
+    if (root.spec.clicked && idx !== null && idx !== undefined) root.spec.clicked(xs[idx] / scaleX.factor);
+  });
 }
 
+// What lies under the cursor, in words.
+function pointed(root, plot, readout, units) {
+  const { idx, left } = plot.cursor;
+  const on = idx !== null && idx !== undefined && left >= 0;
+  if (root.spec.hovered && !root.quiet) root.spec.hovered(on ? idx : null);
+  if (!on) return readout.replaceChildren();
+  const words = [`${root.spec.x.label} ${digits(plot.data[0][idx], 4)} ${units.x}`];
+  root.spec.series.forEach((each, k) => {
+    const value = plot.data[k + 1][idx];
+    if (value !== undefined && value !== null && !each.silent) words.push(`${each.label} ${digits(value, 4)} ${units.y}`);
+  });
+  if (root.spec.more) words.push(root.spec.more(idx));
+  return readout.replaceChildren(words.join("   "));
+}
+
+function legend(series) {
+  const list = Object.assign(document.createElement("ul"), { className: "legend" });
+  for (const each of series) {
+    const item = document.createElement("li");
+    const swatch = document.createElement("span");
+    swatch.className = `swatch ${each.kind}${each.dash ? " dashed" : ""}`;
+    swatch.style.color = colourOf(each);
+    item.append(swatch, each.label);
+    list.append(item);
+  }
+  return list;
+}
+
+const colourOf = (each) => (each.colour.startsWith("--") ? css(each.colour) : each.colour);
+
 function drawn(each) {
-  const stroke = each.colour.startsWith("--") ? css(each.colour) : each.colour;
-  const points = { show: each.kind === "points" || each.kind === "rings", size: 7, width: 1.5, stroke };
-  points.fill = each.kind === "rings" ? css("--card") : stroke;
+  const stroke = colourOf(each);
   const line = each.kind === "line" || each.kind === "area";
+  const points = { show: !line, size: each.kind === "mark" ? 15 : 7, width: each.kind === "mark" ? 2.5 : 1.5, stroke };
+  points.fill = each.kind === "points" ? stroke : each.kind === "mark" ? `${stroke}22` : css("--card");
   return {
     label: each.label,
     stroke,
@@ -76,21 +156,11 @@ function together(series, factorX, factorY, logX, logY) {
     const column = new Array(sorted.length).fill(undefined);
     each.x.forEach((value, k) => {
       const height = each.y[k];
-      const there = height !== null && Number.isFinite(height) && (!logY || height > 0);
+      const there = Number.isFinite(height) && (!logY || height > 0);
       const at = index.get(value);
       if (at !== undefined) column[at] = there ? height * factorY : null;
     });
     return column;
   });
   return { xs: sorted.map((value) => value * factorX), columns };
-}
-
-// Redrawn when the room or the colours change.
-export function redrawn(root, draw) {
-  let width = 0;
-  new ResizeObserver(() => {
-    if (Math.abs(root.clientWidth - width) < 2) return;
-    width = root.clientWidth;
-    draw();
-  }).observe(root);
 }

@@ -8,7 +8,7 @@ const MOST = 0.995; // of the cells that carry pressure lie below the end of the
 const STEPS = [1, 2, 5];
 
 export function mapView(canvas, bar, heard) {
-  const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, drag: null };
+  const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null };
   const picture = document.createElement("canvas");
   const context = canvas.getContext("2d");
 
@@ -30,7 +30,15 @@ export function mapView(canvas, bar, heard) {
     return { x: (canvas.width - w) / 2, y: (canvas.height - h) / 2, w, h };
   }
 
+  // The ends of the colours: those of another map too, where both are to be compared.
   function ends(field) {
+    const own = ownEnds(field);
+    const other = state.beside && state.beside.ends(kind());
+    if (!other) return own;
+    return { low: Math.min(own.low, other.low), high: Math.max(own.high, other.high), beyond: own.beyond || other.beyond };
+  }
+
+  function ownEnds(field) {
     if (kind() === "heights") return { low: field.ends[0], high: field.ends[1], beyond: false };
     if (kind() === "gap") return { low: 0, high: Math.max(field.ends[1], 1e-300), beyond: false };
     const some = [];
@@ -146,6 +154,19 @@ export function mapView(canvas, bar, heard) {
       context.stroke();
     }
     context.setLineDash([]);
+    if (state.mark) drawMark(at, field);
+  }
+
+  function drawMark(at, field) {
+    const x = at.x + ((state.mark.column + 0.5) / field.cells[1]) * at.w;
+    const y = at.y + ((state.mark.row + 0.5) / field.cells[0]) * at.h;
+    for (const [width, colour] of [[5, "rgba(0,0,0,.6)"], [2.5, "#fff"]]) {
+      context.beginPath();
+      context.lineWidth = width * devicePixelRatio;
+      context.strokeStyle = colour;
+      context.arc(x, y, 7 * devicePixelRatio, 0, 2 * Math.PI);
+      context.stroke();
+    }
   }
 
   function drawDrag() {
@@ -196,7 +217,7 @@ export function mapView(canvas, bar, heard) {
   });
   canvas.addEventListener("pointermove", (event) => {
     const cell = cellAt(event, canvas.hasPointerCapture(event.pointerId));
-    heard.over(cell ? valuesAt(cell) : "");
+    heard.over(cell ? valuesAt(cell) : "", cell);
     if (!cell || !canvas.hasPointerCapture(event.pointerId)) return;
     if (state.drag) {
       Object.assign(state.drag, { to: cell.point, last: cell });
@@ -214,17 +235,18 @@ export function mapView(canvas, bar, heard) {
       heard.crop([rows[0], rows[1] + 1, columns[0], columns[1] + 1]);
     } else heard.small();
   });
-  canvas.addEventListener("pointerleave", () => heard.over(""));
+  canvas.addEventListener("pointerleave", () => heard.over("", null));
   canvas.addEventListener("keydown", (event) => {
     const field = shown();
     if (!field) return;
+    if (state.mode === "none") return;
     const step = (event.shiftKey ? 10 : 1) * { ArrowUp: -1, ArrowLeft: -1, ArrowDown: 1, ArrowRight: 1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    state.axis = event.key === "ArrowUp" || event.key === "ArrowDown" ? "row" : "column";
+    const axis = event.key === "ArrowUp" || event.key === "ArrowDown" ? "row" : "column";
+    if (axis !== state.axis) [state.axis, state.place] = [axis, null];
     const count = field.cells[state.axis === "row" ? 0 : 1];
     const from = state.place === null || state.place >= count ? Math.floor(count / 2) : state.place;
-    heard.axis(state.axis);
     setPlace(Math.min(Math.max(from + step, 0), count - 1));
   });
 
@@ -263,6 +285,20 @@ export function mapView(canvas, bar, heard) {
       fit();
       if (state.fields[name] === shown()) paint();
     },
+    // Where the cut lies.
+    place(axis, place) {
+      Object.assign(state, { axis, place });
+      draw();
+    },
+    mark(cell) {
+      state.mark = cell;
+      draw();
+    },
+    middle() {
+      const field = shown();
+      return { row: Math.floor(field.cells[0] / 2), column: Math.floor(field.cells[1] / 2) };
+    },
+    ends: (which) => (kind() === which && shown() ? ownEnds(shown()) : null),
     clear(...names) {
       for (const name of names) delete state.fields[name];
       canvas.dataset.holds = Object.keys(state.fields).join(" ");

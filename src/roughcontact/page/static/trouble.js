@@ -16,7 +16,7 @@ function show(id, text) {
     return;
   }
   if (!line) {
-    line = Object.assign(document.createElement("p"), { className: "trouble", id: place });
+    line = Object.assign(document.createElement("p"), { className: "trouble", id: place, role: "alert" });
     (field.closest("[data-field]") || field.closest("label") || field).after(line);
   }
   line.textContent = text;

@@ -3,9 +3,12 @@
 const PREFIXES = { "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
 // Units whose prefix counts as often as they do: their name without it, and the power.
 const POWERS = { "m²": 2, "m⁴": 4 };
+// Of machine design, whatever the number.
+const FIXED = { "Pa/m": { factor: 1e-12, unit: "N/µm/mm²" } };
 
 function scaleOf(value, unit) {
   if (!unit || !Number.isFinite(value) || value === 0) return { factor: 1, unit };
+  if (FIXED[unit]) return FIXED[unit];
   const power = POWERS[unit] || 1;
   // The hair keeps 1e-6, which floating point may put just below, at one micro.
   let exponent = 3 * Math.floor((Math.log10(Math.abs(value) * (1 + 1e-9)) + 2 * (power - 1)) / (3 * power));
@@ -42,11 +45,11 @@ export function written(value, unit, count = 4) {
   return `${digits(value * factor, count)} ${shown || ""}`.trim();
 }
 
-// A load as the command line takes it: three digits, a unit without letters beyond ASCII.
-export function loadText(value, unit) {
-  const rounded = Number(value.toPrecision(3));
+// A load as the command line takes it: a few digits, a unit without letters beyond ASCII.
+export function loadText(value, unit, count = 3) {
+  const rounded = Number(value.toPrecision(count));
   const { factor, unit: shown } = scaleOf(rounded, unit);
-  return `${Number((rounded * factor).toPrecision(3))} ${shown.replace("µ", "u")}`;
+  return `${Number((rounded * factor).toPrecision(count))} ${shown.replace("µ", "u")}`;
 }
 
 // The number in a text such as "12.3 MPa", where it is one with a prefix that this page writes; else null.

@@ -1,0 +1,76 @@
+"""The page of file formats, from the tables by which files are read and the docstring of what writes them."""
+
+import re
+from inspect import cleandoc, getclosurevars, getmodule
+
+from SurfaceTopography.IO import readers
+
+from roughcontact.files.dispatch import READERS
+from roughcontact.files.foreign import NOT_FOREIGN
+from roughcontact.files.save import write
+
+
+def formats() -> list[str]:
+    """Return the lines of the page."""
+    return [
+        "# File formats",
+        "",
+        "What is read and what is written, by the ending of the file. How, what has to be said beside it, and what is "
+        "refused: [Read and write files](../files.md).",
+        "",
+        "## Read",
+        "",
+        *_table(("ending", "format"), _own()),
+        "",
+        "A reader of ours checks what it reads. A profile is read from all of these but `.xyz`, by `rc.read_line`.",
+        "",
+        "## Read through SurfaceTopography",
+        "",
+        "With the extra `formats`, `pip install 'roughcontact[formats]'`. What it says is checked: the channel is a "
+        "height by its name and unit, sizes and numbers of points fit the data.",
+        "",
+        *_table(("ending", "format"), _foreign()),
+        "",
+        "## Written",
+        "",
+        *_table(("ending", "content"), _written()),
+    ]
+
+
+def _own() -> list[tuple[str, str]]:
+    """Return the endings of each reader of ours, and what its module says."""
+    endings: dict[str, list[str]] = {}
+    for ending, reader in READERS.items():
+        # A reader of a single map stands within the function that chooses it.
+        read = getclosurevars(reader.read).nonlocals.get("read", reader.read)
+        endings.setdefault(getmodule(read).__doc__, []).append(ending)
+    return [(_code(found), _sentence(about)) for about, found in endings.items()]
+
+
+def _foreign() -> list[tuple[str, str]]:
+    found = [
+        (_code(f".{ending}" for ending in reader._file_extensions), reader._name)
+        for reader in readers
+        if reader._format not in NOT_FOREIGN
+    ]
+    return sorted(found, key=lambda row: row[1].lower())
+
+
+def _written() -> list[tuple[str, str]]:
+    """Return the rows of the table in the docstring of what writes, of which a row may go on below."""
+    rows = re.search(r"^=+  =+$(.*?)^=+  =+$", cleandoc(write.__doc__), re.MULTILINE | re.DOTALL)[1]
+    pairs = re.findall(r"^``(\S+)`` +(.*?)(?=^``|\Z)", rows, re.MULTILINE | re.DOTALL)
+    return [(f"`{ending}`", _sentence(about)) for ending, about in pairs]
+
+
+def _code(endings) -> str:
+    return " ".join(f"`{ending}`" for ending in endings)
+
+
+def _sentence(text: str) -> str:
+    """Return a docstring on one line, its names as code."""
+    return re.sub(r"`+([^`]+)`+", r"`\1`", " ".join(text.split())).rstrip(".")
+
+
+def _table(head: tuple[str, str], rows: list[tuple[str, str]]) -> list[str]:
+    return [f"| {' | '.join(row)} |" for row in (head, ("---", "---"), *rows)]

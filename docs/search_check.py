@@ -1,0 +1,106 @@
+"""The site's own search, asked in a browser: the page that answers comes first.
+
+python docs/search_check.py BUILT_SITE [QUESTION]      without a question those below are asked, and must be answered
+"""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from shutil import which
+from threading import Thread
+from urllib.parse import urlencode
+
+QUESTIONS = {
+    "stiffness per area": "joints",
+    "thermal contact": "tutorials/thermal",
+    "read a .sur file": "files",
+    "my curve is unresolved": "unresolved",
+    "which cut-off": "gallery/questions/short_cutoff",
+    "gpu": "devices",
+    "friction loop": "tutorials/friction",
+    "periodic or free": "gallery/bodies/periodic_and_free",
+    "adhesion": "adhesion",
+    "memory": "memory",
+    "hardness": "plastic",
+    "how many threads": "threads",
+    "progress in a notebook": "notebooks",
+    "press": "reference/roughcontact.press",
+}
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """Serve a folder to this machine, and give its address."""
+    handler = partial(QuietHandler, directory=str(folder))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}/"
+        finally:
+            server.shutdown()
+
+
+class QuietHandler(SimpleHTTPRequestHandler):
+    """One that writes no log."""
+
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""
+
+
+@contextmanager
+def browser() -> Iterator:
+    """Start a Chromium: the system's, or the one that playwright has fetched.
+
+    Raises
+    ------
+    LookupError
+        If there is none.
+    """
+    try:
+        from playwright.sync_api import Error, sync_playwright
+    except ImportError:
+        raise LookupError("playwright is not installed") from None
+    with sync_playwright() as playwright:
+        system = next(filter(None, map(which, BROWSERS)), None)
+        try:
+            chromium = playwright.chromium.launch(executable_path=system, args=["--no-sandbox"])
+        except Error as error:
+            raise LookupError(str(error).splitlines()[0]) from None
+        yield chromium
+        chromium.close()
+
+
+def answers(page, site: str, question: str) -> list[str]:
+    """Return the pages that the search names, the best first."""
+    page.goto(f"{site}search.html?{urlencode({'q': question})}")
+    page.wait_for_function("!document.querySelector('p.search-summary')?.innerText == false")
+    links = page.locator("ul.search li > a").evaluate_all("all => all.map(a => new URL(a.href).pathname)")
+    return list(dict.fromkeys(link.removeprefix("/").removesuffix(".html") for link in links))
+
+
+def main(folder: Path, *questions: str) -> str | None:
+    """Ask, print what is found, and return what is wrong."""
+    wrong = []
+    try:
+        with served(folder) as site, browser() as chromium:
+            page = chromium.new_page()
+            elsewhere = []
+            page.on("request", lambda request: elsewhere.append(request.url))
+            for question in questions or QUESTIONS:
+                found = answers(page, site, question)
+                if questions:
+                    print(*found[:8], sep="\n")  # noqa: T201
+                elif found[:1] != [QUESTIONS[question]]:
+                    wrong.append(f"{question!r} finds {found[:3]}, not {QUESTIONS[question]}")
+            wrong += [f"a page asks {url}" for url in elsewhere if not url.startswith((site, "data:"))]
+    except LookupError as error:
+        print(f"docs: the search was not asked, there is no Chromium: {error}")  # noqa: T201
+    return "\n".join(wrong) or None
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]), *sys.argv[2:]))

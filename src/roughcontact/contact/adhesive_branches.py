@@ -1,0 +1,234 @@
+"""Loading curves of surfaces that stick: points of approach and retreat, with the jumps between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.adhesion.control_form import ForceControl
+from roughcontact.adhesion.quasi_static import Jump
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import unit_of
+from roughcontact.pictures import plot_adhesive_loop
+from roughcontact.solver.control import Status
+from roughcontact.validation import Array, Mask
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["AdhesiveLoop", "collect_states"]
+
+_POINTS = (
+    *("depth", "force", "contact_area", "energy", "residual"),
+    *("stiffness", "contact_stiffness", "mean_gap", "elastic_energy"),
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class AdhesiveLoop:
+    """Points of a path of surfaces that stick, and its jumps; made by `adhesive_loop`, or `loading_curve`.
+
+    Attributes
+    ----------
+    depth : array, shape (n,)
+        [m], in the order of the path; minus infinity where a force has pulled the bodies off.
+    force : array, shape (n,)
+        [N], tension negative; on a line [N/m].
+    contact_area : array, shape (n,)
+        [m^2]; on a line [m].
+    energy : array, shape (n,)
+        Elastic and adhesive energy [J].
+    residual : array, shape (n,)
+        The certificate of each state.
+    approach : array of bool, shape (n,)
+        Whether what is prescribed brought the bodies together: the depth or the force was growing.
+    jumps : tuple of Jump
+        Every instability, in order.
+    jumped : tuple of int
+        The point, counted from 0, that each jump came on the way to.
+    unresolved : bool
+        Whether the attraction varies from cell to cell, so that the lattice traps the states.
+    stiffness, contact_stiffness : array, shape (n,)
+        Slope of the force with the depth along the branch, and at fixed contact and attraction [N/m].
+    mean_gap, elastic_energy : array, shape (n,)
+        [m], over the measured cells; [J].
+    status : tuple of Status
+    control : {"depth", "force"}
+        What was prescribed.
+    adhesion : Adhesion
+    modulus : float
+        Reduced modulus E* [Pa].
+    tolerance : float
+        Of each state.
+    lengths, spacing, periodic : tuple
+        Sides of the grid and of a cell [m], y first; whether the surface repeats itself.
+    nominal_area, rms : float
+        Area of all cells [m^2], and root mean square height of the surface [m].
+    geometry : Geometry
+        What the cells are.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9)
+    >>> f"pulled off at {loop.pull_off_force * 1e9:.0f} nN, {loop.lost * 1e18:.0f} aJ are lost", loop.ambiguous
+    ('pulled off at 495 nN, 478 aJ are lost', False)
+    >>> loop.plot().get_xlabel(), loop.to_dataset()["jump_lost"].attrs["units"], loop.to_record()["law"]
+    ('depth [nm]', 'J', 'exponential')
+    """
+
+    depth: Array
+    force: Array
+    contact_area: Array
+    energy: Array
+    residual: Array
+    approach: Mask
+    jumps: tuple[Jump, ...]
+    jumped: tuple[int, ...]
+    unresolved: bool
+    stiffness: Array
+    contact_stiffness: Array
+    mean_gap: Array
+    elastic_energy: Array
+    status: tuple[Status, ...]
+    control: Literal["depth", "force"]
+    adhesion: Adhesion
+    modulus: float
+    tolerance: float
+    lengths: tuple[float, ...]
+    spacing: tuple[float, ...]
+    periodic: tuple[bool, ...]
+    nominal_area: float
+    rms: float
+    geometry: Geometry
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+    @property
+    def pull_off_force(self) -> float:
+        """Largest tension of the retreat [N], positive, at the points and at the jumps; 0 where nothing pulls back."""
+        back = self.force[~self.approach]
+        jumps = [jump.force_before for jump in self.jumps if not jump.approach]
+        return float(max((0.0, *(-force for force in (*back.tolist(), *jumps)))))
+
+    @property
+    def jump_in_force(self) -> float:
+        """Tension from which the body first jumped on the approach [N], positive; NaN if it never did."""
+        return next((-jump.force_before for jump in self.jumps if jump.approach), math.nan)
+
+    @property
+    def lost(self) -> float:
+        """Energy lost in all jumps [J]: the area of the loop, if it is closed."""
+        return math.fsum(jump.lost for jump in self.jumps)
+
+    @property
+    def ambiguous(self) -> bool:
+        """Whether two integrations of the flow after a jump ended in different states."""
+        return any(jump.ambiguous for jump in self.jumps)
+
+    @property
+    def converged(self) -> bool:
+        """Whether every state met the tolerance."""
+        return all(status.converged for status in self.status)
+
+    @property
+    def adhesive_energy(self) -> Array:
+        """Energy of the attraction [J], negative, shape (n,)."""
+        return self.energy - self.elastic_energy
+
+    @property
+    def contact_fraction(self) -> Array:
+        """Contact area over the nominal area, shape (n,)."""
+        return self.contact_area / self.nominal_area
+
+    def __repr__(self) -> str:
+        """Say what the path spans, not its numbers."""
+        unit = unit_of("force", self.geometry)
+        return (
+            f"AdhesiveLoop({len(self)} points, {len(self.jumps)} jumps, "
+            f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points and the jumps as an `xarray.Dataset`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Points along ``load``, of which ``branch`` says whether they are of the approach or the retreat; jumps along
+            ``jump``. Each variable has its unit and a long name.
+        """
+        from roughcontact.contact.adhesive_loop_dataset import adhesive_loop_dataset
+
+        return adhesive_loop_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        """
+        from roughcontact.contact.adhesive_loop_dataset import adhesive_loop_record
+
+        return adhesive_loop_record(self)
+
+    plot = plot_adhesive_loop
+
+
+def collect_states(states: Iterable[AdhesiveState], loads: Array) -> AdhesiveLoop:
+    """Drain a path into its points; fields are not kept.
+
+    Parameters
+    ----------
+    states : iterable of AdhesiveState
+        At least one.
+    loads : array
+        What grows as the bodies approach: depths, forces, or mean gaps with a minus. The path may end before them.
+    """
+    rows: list[tuple[float, ...]] = []
+    jumps: list[Jump] = []
+    jumped: list[int] = []
+    status: list[Status] = []
+    for state in states:
+        jumped += [len(rows)] * len(state.jumps)
+        rows.append(tuple(float(getattr(state, name)) for name in _POINTS))
+        jumps += state.jumps
+        status.append(state.status)
+    blank, points = state.blank, np.array(rows).T
+    grid, surface = blank.operator.grid, blank.surface
+    return AdhesiveLoop(
+        **dict(zip(_POINTS, points, strict=True)),
+        approach=_approaches(loads)[: len(rows)],
+        jumps=tuple(jumps),
+        jumped=tuple(jumped),
+        unresolved=state.unresolved,
+        status=tuple(status),
+        control="force" if isinstance(blank.control, ForceControl) else "depth",
+        adhesion=blank.adhesion,
+        modulus=blank.modulus,
+        tolerance=blank.tolerance,
+        lengths=tuple(grid.lengths),
+        spacing=tuple(grid.spacing),
+        periodic=tuple(grid.periodic),
+        nominal_area=float(grid.area),
+        rms=math.nan if surface is None else surface.rms,
+        geometry=state.geometry,
+    )
+
+
+def _approaches(loads: Array) -> Mask:
+    """Return where loads grow: of equal ones the later goes the way of the earlier, and the first is an approach."""
+    steps = np.sign(np.diff(loads, prepend=-np.inf))
+    latest = np.maximum.accumulate(np.where(steps != 0, np.arange(steps.size), 0))
+    return np.asarray(steps[latest] > 0)

@@ -1,0 +1,128 @@
+"""Read a path of surfaces that stick back from the file that `write` made of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from roughcontact.adhesion.attraction import Adhesion, Law
+from roughcontact.adhesion.quasi_static import Jump
+from roughcontact.adhesion.state_dataset import JUMPS
+from roughcontact.contact.adhesive_branches import AdhesiveLoop
+from roughcontact.contact.adhesive_loop_dataset import LOOP_POINTS, LOOP_SCALES
+from roughcontact.files.content import content
+from roughcontact.files.file_errors import ContentError
+from roughcontact.files.netcdf import StoredVariable, opened
+from roughcontact.files.stored_columns import (
+    REMEDY,
+    numbers_of,
+    require_columns,
+    sizes_of,
+    statuses_of,
+    word_of,
+)
+from roughcontact.validation import Array
+
+__all__ = ["read_adhesive_loop"]
+
+_SCALARS = (*LOOP_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
+
+
+def read_adhesive_loop(path: str | os.PathLike[str]) -> AdhesiveLoop:
+    """Return the path of surfaces that stick in a ``.nc`` file that `write` made of it.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+
+    Returns
+    -------
+    AdhesiveLoop
+        To the last bit the one that was written.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, empty, damaged or holds no such path.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9, points=4)
+    >>> rc.write(loop, "loop.nc")
+    >>> rc.read_adhesive_loop("loop.nc").jumps == loop.jumps
+    True
+    """
+    with content(path) as (_, data):
+        if Path(path).suffix.casefold() != ".nc":
+            raise ContentError("paths of surfaces that stick are read from NetCDF files (.nc) only", REMEDY)
+        with opened(data) as (variables, attributes):
+            return _loop(variables, attributes)
+
+
+def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> AdhesiveLoop:
+    if "interfacial_stiffness" in variables:
+        raise ContentError("it holds a curve of surfaces that do not stick", "read it with read_curve")
+    control: Literal["depth", "force"] = "force" if "jump_force_bracket" in variables else "depth"
+    bracket = f"jump_{control}_bracket"
+    jumps = (*JUMPS, bracket, "jumped")
+    needed = (*LOOP_POINTS, *_SCALARS, *jumps, "work_of_adhesion", "branch", "status", "spacing")
+    require_columns(variables, needed)
+    geometry, sizes = sizes_of(variables, attributes)
+    shape, count = variables["force"].shape, variables[bracket].shape
+    points: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in LOOP_POINTS}
+    scalars: dict[str, Any] = {name: float(numbers_of(variables, name, ())) for name in _SCALARS}
+    columns = {
+        "bracket" if name == bracket else JUMPS[name]: numbers_of(variables, name, count).tolist()
+        for name in (*JUMPS, bracket)
+    }
+    branches = [word_of(value) for value in variables["branch"].load().reshape(-1).tolist()]
+    if len(branches) != shape[0] or not set(branches) <= {"approach", "retreat"}:
+        raise ContentError(f"its branches are {', '.join(sorted(set(branches)))}", REMEDY)
+    return AdhesiveLoop(
+        **points,
+        approach=np.array([word == "approach" for word in branches]),
+        jumps=tuple(
+            Jump(**_with_truths(dict(zip(columns, row, strict=True))))
+            for row in zip(*columns.values(), strict=True)
+        ),
+        jumped=tuple(int(at) for at in numbers_of(variables, "jumped", count)),
+        unresolved=bool(scalars["unresolved"]),
+        status=statuses_of(variables["status"], shape),
+        control=control,
+        adhesion=_adhesion(variables, attributes, scalars),
+        tolerance=float(np.ravel(attributes.get("tolerance", np.nan))[0]),
+        **{name: scalars[name] for name in LOOP_SCALES},
+        **sizes,
+        geometry=geometry,
+    )
+
+
+def _with_truths(row: dict[str, Any]) -> dict[str, Any]:
+    return row | {name: bool(row[name]) for name in ("approach", "ambiguous")}
+
+
+def _adhesion(
+    variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any], scalars: Mapping[str, float]
+) -> Adhesion:
+    law: Any = word_of(attributes.get("law", ""))
+    if law not in get_args(Law):
+        raise ContentError(f"its law of adhesion is {law!r}", REMEDY)
+    work = variables["work_of_adhesion"]
+    values: Array = numbers_of(variables, "work_of_adhesion", work.shape)
+    try:
+        return Adhesion(
+            float(values) if values.ndim == 0 else values,
+            scalars["adhesion_range"],
+            law,
+            bool(scalars["allow_unresolved"]),
+        )
+    except ValueError as error:
+        raise ContentError(str(error), REMEDY) from error

@@ -1,0 +1,39 @@
+// Files that the server writes: of the load, of the curve, or all in one archive.
+
+import { order } from "./wire.js";
+
+const KINDS = { csv: "CSV", nc: "NetCDF", png: "PNG", svg: "SVG" };
+
+// `wanted()` gives the recipe with the loads of a curve, if there is one.
+export function exports(root, { wanted, say, failed }) {
+  const group = (label, of) => {
+    const made = Object.assign(document.createElement("optgroup"), { label });
+    made.append(...Object.entries(KINDS).map(([kind, name]) => new Option(name, of === "load" ? kind : `${of} ${kind}`)));
+    return made;
+  };
+  root.replaceChildren(new Option("choose", ""), group("This load", "load"), group("The curve", "curve"), new Option("All, as ZIP", "zip"));
+
+  root.onchange = async ({ target }) => {
+    const [kind, of] = target.value.split(" ").reverse();
+    target.value = "";
+    if (!kind) return;
+    const recipe = wanted();
+    if (!recipe.source) return say("There is nothing to export yet: drop a file, or choose an example.");
+    // What is under the hand is known in front; the curve behind.
+    const lane = kind === "zip" || of === "curve" ? "back" : "front";
+    const sent = order(lane, "export", recipe, { kind, of: of || "load" }, (header, data) => {
+      if (header.type === "doing") say(`${header.words} …`);
+      if (header.type !== "file") return;
+      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([data])), download: header.name });
+      link.click();
+      URL.revokeObjectURL(link.href);
+      say(`${header.name} is saved.`);
+    });
+    try {
+      const end = await sent.ended;
+      if (end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+    } catch (error) {
+      failed(error);
+    }
+  };
+}

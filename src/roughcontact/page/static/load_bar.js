@@ -1,0 +1,70 @@
+// The load: what is prescribed, a slider on a logarithmic scale, and its text.
+
+import { loadText, loadValue } from "./words.js";
+
+export const UNITS = { pressure: "Pa", force: "N", depth: "m" };
+const STEPS = 200;
+const by = (id) => document.getElementById(id);
+
+export function loadBar(recipe) {
+  let spans = null;
+  let state = null; // the loads of the last answer, each in its own words
+  let dragged = null;
+
+  function show() {
+    const { load } = recipe.now;
+    for (const name of ["slider", "load"]) by(name).disabled = !spans || !load;
+    if (!load) return;
+    by("control").value = load.control;
+    by("load").value = load.text;
+    by("slider").setAttribute("aria-valuetext", load.text);
+    const value = loadValue(load.text, UNITS[load.control]);
+    if (!spans || !(value > 0) || dragged) return;
+    const [low, high] = spans[load.control];
+    by("slider").value = String((STEPS * Math.log(value / low)) / Math.log(high / low));
+  }
+
+  by("control").onchange = ({ target: { value: control } }) => {
+    if (!spans) return;
+    // The same state in other words, where it is known.
+    const text = state ? loadText(state[control], UNITS[control], 4) : loadText(spans[control][2], UNITS[control]);
+    recipe.change((next) => (next.load = { control, text }));
+  };
+  by("load").onchange = ({ target }) => recipe.change((next) => (next.load.text = target.value));
+  by("slider").oninput = ({ target }) => {
+    dragged = dragged || structuredClone(recipe.now);
+    const { control } = recipe.now.load;
+    const [low, high] = spans[control];
+    const text = loadText(low * (high / low) ** (target.value / STEPS), UNITS[control]);
+    recipe.change((next) => (next.load.text = text), false);
+  };
+  by("slider").onchange = () => {
+    const before = dragged;
+    dragged = null;
+    if (before) recipe.remember(before);
+  };
+
+  return {
+    show,
+    get dragged() {
+      return Boolean(dragged);
+    },
+    get ready() {
+      return Boolean(spans && recipe.now.load);
+    },
+    // Between which loads the slider goes; without any the surface is flat.
+    spanned({ pressure, force, depth }) {
+      spans = pressure ? { pressure, force, depth } : null;
+      if (spans && !recipe.now.load) {
+        recipe.change((next) => (next.load = { control: "pressure", text: loadText(pressure[2], "Pa") }), false);
+      }
+      show();
+      return Boolean(spans);
+    },
+    answered: (header) => (state = header),
+    forget() {
+      spans = state = null;
+    },
+    usual: (control) => spans && spans[control],
+  };
+}

@@ -1,0 +1,117 @@
+"""What is worth telling of surfaces that stick, line by line: on a screen and in a notebook."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughcontact.plot.facts import closed_gap, quantity, size_of
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
+    from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.adhesion.quasi_static import Jump
+    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.halfspace.operators.geometry import Geometry
+
+__all__ = ["ADHESIVE_COLUMNS", "adhesive_facts", "adhesive_loop_facts", "jump_facts", "law_facts"]
+
+ADHESIVE_COLUMNS = (*("branch", "depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual"),)
+_JUMPS = 12  # that are told one by one: those that lost most
+
+
+def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
+    """Return the law of adhesion, and over how many cells the attraction varies beside a contact."""
+    zone = adhesion.process_zone(modulus)
+    work = (
+        "the work of each cell"
+        if np.ndim(adhesion.work)
+        else quantity("work_of_adhesion", float(adhesion.work))
+    )
+    length = quantity("adhesion_range", adhesion.range)
+    strength = quantity("pressure", adhesion.strength)
+    return [
+        ("reduced modulus E*", quantity("modulus", modulus)),
+        ("adhesion", f"{adhesion.law}, {work} over {length}: at most {strength}"),
+        ("Irwin's length", f"{quantity('spacing', zone)}, {zone / max(spacing):.3g} cells"),
+    ]
+
+
+def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
+    """Return what a state of surfaces that stick is worth telling, line by line."""
+    blank, kind = state.blank, state.geometry
+    grid = blank.operator.grid
+    met = "met" if state.status.converged else "MISSED"
+    tension = float(np.maximum(-state.pressure, 0.0).max())
+    energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
+    return [
+        ("surface", size_of(grid)),
+        *law_facts(blank.adhesion, blank.modulus, grid.spacing),
+        ("force", quantity("force", state.force, kind)),
+        ("nominal pressure", quantity("pressure", state.force / grid.area, kind)),
+        ("largest pressure", quantity("pressure", float(state.pressure.max()), kind)),
+        ("largest tension", quantity("pressure", tension, kind)),
+        ("depth", quantity("depth", state.depth, kind)),
+        ("stiffness along the branch", quantity("stiffness", state.stiffness, kind)),
+        ("stiffness, attraction fixed", quantity("stiffness", state.contact_stiffness, kind)),
+        ("contact area", quantity("contact_area", state.contact_area, kind)),
+        ("relative contact area A/A0", f"{state.contact_fraction:.4g}"),
+        ("mean gap", quantity("mean_gap", float(closed_gap(state.mean_gap, state.depth)), kind)),
+        ("elastic and adhesive energy", " and ".join(energies)),
+        (
+            "stability",
+            f"{state.stability:.3g} +- {state.stability_bound:.1g} (1 without attraction, 0 at a jump)",
+        ),
+        *jump_facts(state.jumps, kind),
+        ("certificate", f"{state.residual:.1e} (tolerance {blank.tolerance:.0e}: {met})"),
+    ]
+
+
+def adhesive_loop_facts(loop: AdhesiveLoop) -> list[tuple[str, str]]:
+    """Return what a path of surfaces that stick is worth telling, line by line."""
+    kind = loop.geometry
+    facts = []
+    if not math.isnan(loop.jump_in_force):
+        facts.append(("first jump in, from", f"{quantity('force', -loop.jump_in_force, kind)}"))
+    if not loop.approach.all():
+        words = "pull-off force" if loop.contact_area[-1] == 0 else "largest tension on retreat"
+        facts.append((words, quantity("pull_off_force", loop.pull_off_force, kind)))
+    lost = math.fsum(jump.lost for jump in loop.jumps if math.isfinite(jump.lost))
+    facts.append(("energy lost in jumps", quantity("lost_energy", lost, kind)))
+    return [
+        *facts,
+        *jump_facts(loop.jumps, kind),
+        ("largest certificate", f"{loop.residual.max():.1e}"),
+    ]
+
+
+def jump_facts(jumps: Sequence[Jump], kind: Geometry) -> list[tuple[str, str]]:
+    """Return one line for each of the jumps that lost most, in their order, and how many others there are."""
+    if not jumps:
+        return [("jumps", "none")]
+    told = sorted(sorted(range(len(jumps)), key=lambda k: -jumps[k].lost)[:_JUMPS])
+    lines = [_jump_line(jumps[k], kind) for k in told]
+    if others := len(jumps) - len(told):
+        lines.append(f"{others} that lost less")
+    return [
+        ("" if k else f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}", line)
+        for k, line in enumerate(lines)
+    ]
+
+
+def _jump_line(jump: Jump, kind: Geometry) -> str:
+    at = f"{'in' if jump.approach else 'out'} at {quantity('depth', jump.depth)}"
+    before = quantity("force", jump.force_before, kind)
+    if math.isnan(jump.depth_after):
+        return f"off at {quantity('depth', jump.depth)}, {before}: nothing stops it"
+    to = quantity("force", jump.force_after, kind)
+    if abs(jump.depth_after - jump.depth) > 2 * jump.bracket:  # under a force
+        words = f"{at} to {quantity('depth', jump.depth_after)}, under {before}"
+    else:
+        words = f"{at}, {before} to {to}"
+    return f"{words}, {quantity('jump_lost', jump.lost, kind)} lost" + (
+        ", ambiguous" if jump.ambiguous else ""
+    )

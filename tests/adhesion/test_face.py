@@ -1,0 +1,174 @@
+"""What a user asks of surfaces that stick: curves up and down, mean gaps, refusals, datasets."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.adhesive_branches import collect_states
+from roughcontact.contact.problem import separation_of
+from sticking import rough, sticky
+
+RINGS = rc.RadialGrid.uniform(30, radius=6e-7)
+BALL = rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS)
+STRONG = rc.Adhesion(work=10e-3, range=4e-9, allow_unresolved=True)
+PLANE = rough(16, periodic=True, slope=0.2, seed=1)
+NAMES = (
+    *("force", "depth", "stiffness", "contact_stiffness", "contact_area", "mean_gap"),
+    *("elastic_energy", "adhesive_energy", "energy", "residual"),
+)
+
+
+def test_a_curve_holds_the_numbers_of_its_path():
+    depths = [-1.0, 0.2, 0.2, 0.4, 0.1, -1.0, 0.0]
+    curve = rc.loading_curve(PLANE, 1.0, depths=depths, adhesion=sticky(2.0))
+    states = list(rc.loading_path(PLANE, 1.0, depths=depths, adhesion=sticky(2.0)))
+    for name in NAMES:
+        np.testing.assert_allclose(
+            getattr(curve, name), [getattr(state, name) for state in states], rtol=1e-12
+        )
+    assert curve.approach.tolist() == [True, True, True, True, False, False, True]
+    assert curve.status == tuple(state.status for state in states)
+    assert len(curve) == len(depths)
+    assert curve.converged
+    assert curve.control == "depth"
+
+
+def test_jumps_know_the_point_that_they_led_to():
+    depths = [-20e-9, 0.0, 10e-9, 0.0, -9e-9]
+    curve = rc.loading_curve(BALL, 1e8, depths=depths, adhesion=STRONG)
+    states = list(rc.loading_path(BALL, 1e8, depths=depths, adhesion=STRONG))
+    assert [at for at, state in enumerate(states) for _ in state.jumps] == list(curve.jumped)
+    assert {1, 4} <= set(curve.jumped)
+    for jump, at in zip(curve.jumps, curve.jumped, strict=True):
+        assert min(depths[at - 1], depths[at]) <= jump.depth <= max(depths[at - 1], depths[at])
+        assert jump.approach == curve.approach[at]
+
+
+def test_a_curve_under_forces_ends_where_they_pull_the_bodies_off():
+    curve = rc.loading_curve(BALL, 1e8, forces=[0.0, 4e-7, -1e-6, 0.0], adhesion=STRONG)
+    assert curve.control == "force"
+    assert curve.approach.tolist() == [True, True, False, True]
+    assert np.isneginf(curve.depth).tolist() == [False, False, True, False]
+    assert math.isinf(curve.lost)
+    assert curve.to_record()["depth"][2] is None
+    assert curve.to_record()["lost_energy"] is None
+
+
+def test_a_mean_gap_is_the_mean_separation_less_the_depth():
+    mean = separation_of(PLANE).mean()
+    gaps = [0.9 * mean, 0.7 * mean, 0.8 * mean]
+    curve = rc.loading_curve(PLANE, 1.0, mean_gaps=gaps, adhesion=sticky(2.0))
+    np.testing.assert_allclose(curve.mean_gap, gaps, rtol=1e-12)
+    assert curve.approach.tolist() == [True, True, False]
+    by_depth = rc.loading_curve(PLANE, 1.0, depths=mean - np.array(gaps), adhesion=sticky(2.0))
+    np.testing.assert_array_equal(curve.force, by_depth.force)
+    one = rc.press(PLANE, 1.0, mean_gap=gaps[1], adhesion=sticky(2.0))
+    assert one.force == pytest.approx(curve.force[1], rel=1e-8)
+    assert one.mean_gap == pytest.approx(gaps[1], rel=1e-12)
+
+
+def test_a_mean_gap_is_refused_where_it_is_no_depth():
+    law = sticky(2.0)
+    with pytest.raises(ValueError, match="the body is not periodic: give depths or forces"):
+        rc.press(rough(16, periodic=False, slope=0.2, seed=1), 1.0, mean_gap=1.0, adhesion=law)
+    heights = PLANE.heights.copy()
+    heights[3, 3] = np.nan
+    with pytest.raises(ValueError, match="some cells are missing: give depths or forces"):
+        rc.press(rc.Surface(heights, PLANE.grid), 1.0, mean_gap=1.0, adhesion=law)
+    with pytest.raises(ValueError, match="full contact or beyond it: give mean gaps above 0"):
+        rc.loading_path(PLANE, 1.0, mean_gaps=[0.5, 0.0], adhesion=law)
+    with pytest.raises(ValueError, match="with adhesion alone: give depths"):
+        rc.press(PLANE, 1.0, mean_gap=1.0)
+    with pytest.raises(ValueError, match="with adhesion alone: give depths"):
+        rc.loading_curve(PLANE, 1.0, mean_gaps=[1.0])
+    with pytest.raises(
+        ValueError, match="exactly one of depths, forces and mean_gaps, not depths and mean_gaps"
+    ):
+        rc.press(PLANE, 1.0, depth=0.1, mean_gap=1.0, adhesion=law)
+
+
+def test_what_a_curve_that_sticks_does_not_take_is_refused():
+    law = sticky(2.0)
+    with pytest.raises(ValueError, match="takes no pressures: give depths or forces"):
+        rc.loading_curve(PLANE, 1.0, pressures=[1.0], adhesion=law)
+    with pytest.raises(ValueError, match="takes no solver"):
+        rc.loading_curve(PLANE, 1.0, depths=[0.1], solver=rc.ActiveSet(), adhesion=law)
+    with pytest.raises(ValueError, match="cannot begin under the tension -1"):
+        rc.loading_curve(PLANE, 1.0, forces=[-1.0], adhesion=law)
+    line = rc.Surface(PLANE.heights[0], rc.Grid(16, 1.0))
+    with pytest.raises(ValueError, match=r"springs .*mdr\.adhesion"):
+        rc.press(line, 1.0, depth=0.1, adhesion=law, operator=rc.foundation(line.grid, 1.0))
+
+
+def test_loads_go_down_only_where_something_makes_a_difference():
+    with pytest.raises(ValueError, match="only under a hardness or with an adhesion"):
+        rc.loading_curve(PLANE, 1.0, depths=[0.2, 0.1])
+
+
+def test_a_missed_tolerance_is_an_error_that_carries_the_state():
+    with pytest.raises(rc.ConvergenceError, match=r"tolerance 1\.1e-14: The residual stopped") as caught:
+        rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG, tolerance=1.1e-14)
+    state = caught.value.solution
+    assert isinstance(state, rc.AdhesiveState)
+    assert not state.status.converged
+    assert state.residual < 1e-8
+    curve = rc.loading_curve(BALL, 1e8, depths=[0.0], adhesion=STRONG, tolerance=1.1e-14)
+    assert not curve.converged  # a curve marks it, and goes on
+
+
+def test_a_state_becomes_a_dataset_and_a_record():
+    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    dataset, record = state.to_dataset(), state.to_record()
+    for name in ("pressure", "gap", "displacement", "contact", "attracted"):
+        np.testing.assert_array_equal(dataset[name], getattr(state, name))
+        assert dataset[name].dims == ("y", "x")
+    np.testing.assert_array_equal(dataset["heights"], PLANE.heights)
+    for name in (*NAMES, "stability", "stability_bound"):
+        assert float(dataset[name]) == record[name] == getattr(state, name)
+    assert dataset.attrs["law"] == record["law"] == "exponential"
+    assert float(dataset["work_of_adhesion"]) == record["work_of_adhesion"] == sticky(2.0).work
+    assert record["modulus"] == 1.0
+    assert dataset.sizes["jump"] == len(state.jumps) == len(record["jump_depth"])
+    assert "tension" in dataset["pressure"].attrs["long_name"]
+    assert all(values.attrs["long_name"] for values in dataset.values())
+
+
+def test_the_surface_of_a_state_is_read_back(tmp_path):
+    small = rc.Surface(PLANE.heights * 1e-8, rc.Grid((16, 16), 1e-8, periodic=True))
+    law = rc.Adhesion(work=10e-3, range=4e-9)
+    state = rc.press(small, 1e8, depth=2e-9, adhesion=law)
+    rc.write(state, tmp_path / "state.nc")
+    back = rc.read(tmp_path / "state.nc")
+    np.testing.assert_array_equal(back.heights, small.heights)
+    assert back.grid == small.grid
+    rc.write(state, tmp_path / "state.vti")
+    assert b'Name="pressure"' in (tmp_path / "state.vti").read_bytes()
+
+
+def test_a_state_on_rings_has_the_mean_gap_over_their_areas():
+    state = rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG)
+    areas = RINGS.cell_area
+    assert state.mean_gap == pytest.approx(float((state.gap * areas).sum() / areas.sum()), rel=1e-12)
+    assert state.to_dataset()["pressure"].dims == ("r",)
+
+
+def test_a_path_that_ends_early_keeps_what_is_done():
+    path = rc.loading_path(PLANE, 1.0, depths=[0.1, 0.2, 0.1], adhesion=sticky(2.0))
+    some = collect_states((next(path) for _ in range(2)), np.array([0.1, 0.2, 0.1]))
+    assert some.depth.tolist() == [0.1, 0.2]
+    assert some.approach.tolist() == [True, True]
+
+
+@pytest.mark.parametrize("cells", [0.013, 0.71, 1.0, 1.4999])
+def test_the_cell_and_the_range_that_a_refusal_names_are_not_refused_again(cells):
+    surface, law = rough(16, periodic=True, slope=0.2, seed=1), sticky(cells)
+    with pytest.raises(ValueError, match="would trap every state") as caught:
+        rc.loading_path(surface, 1.0, depths=[0.0], adhesion=law)
+    found = re.search(r"at most (\S+) m or a range of at least (\S+) m", str(caught.value))
+    cell, reach = map(float, found.groups())
+    rc.loading_path(surface, 1.0, depths=[0.0], adhesion=rc.Adhesion(law.work, reach))
+    fine = rc.Surface(surface.heights, rc.Grid((16, 16), cell, periodic=True))
+    rc.loading_path(fine, 1.0, depths=[0.0], adhesion=law)

@@ -1,0 +1,183 @@
+"""Surfaces that stick, on the command line: the numbers of the library, files, refusals, Ctrl-C."""
+
+import json
+from typing import get_args
+
+import numpy as np
+import pytest
+import xarray
+
+import roughcontact as rc
+from roughcontact.adhesion.attraction import Law
+from roughcontact.cli.adhesion_options import LawChoice
+
+MODULUS = ("--modulus", "10MPa", "--level", "none")
+STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")
+ADHESION = rc.Adhesion(work=10e-3, range=1e-7)
+FEW = ("--depths", "-0.2um,0.05um,-0.1um")
+
+
+@pytest.fixture
+def rough(tmp_path):
+    """Return the file of a small surface on which the attraction is resolved."""
+    surface = rc.self_affine(rc.Grid((16, 16), 1e-6), 0.8, rms=1e-7, rng=np.random.default_rng(5))
+    rc.write(surface, tmp_path / "rough.npz")
+    return tmp_path / "rough.npz"
+
+
+def test_the_laws_are_those_of_the_library():
+    assert [law.value for law in LawChoice] == list(get_args(Law))
+
+
+def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
+    answer = invoke(
+        "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"
+    )
+    assert answer.exit_code == 0, answer.stderr
+    state = rc.press(rc.read(rough), 10e6, depth=-20e-9, adhesion=ADHESION)
+    record = json.loads(answer.stdout)
+    expected = json.loads(json.dumps(state.to_record()))
+    assert {name: record[name] for name in expected} == expected
+    assert record["converged"] is True
+    assert (tmp_path / "out" / "pressure.png").stat().st_size > 1000
+    with xarray.open_dataset(tmp_path / "out" / "pressure.nc") as dataset:
+        np.testing.assert_array_equal(dataset["pressure"], state.pressure)
+        assert "depth = -2e-08 m" in dataset.attrs["input_control"]
+    assert json.loads((tmp_path / "out" / "press.json").read_text())["provenance"]["input_sha256"]
+
+
+def test_a_press_tells_tension_jumps_and_stability(invoke, rough):
+    told = invoke("press", rough, "--force", "0N", *MODULUS, *STICKS).stdout
+    for words in ("largest tension", "Irwin's length", "stability", "jump", "certificate", "10 mJ/m²"):
+        assert words in told
+
+
+def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
+    answer = invoke("curve", rough, *FEW, *MODULUS, *STICKS, "--json", "--out", tmp_path / "out")
+    assert answer.exit_code == 0, answer.stderr
+    depths = [-0.2e-6, 0.05e-6, -0.1e-6]
+    curve = rc.loading_curve(rc.read(rough), 10e6, depths=depths, adhesion=ADHESION)
+    record, expected = json.loads(answer.stdout), json.loads(json.dumps(curve.to_record()))
+    assert {name: record[name] for name in expected} == expected
+    assert record["branch"] == ["approach", "approach", "retreat"]
+    back = rc.read_adhesive_loop(tmp_path / "out" / "curve.nc")
+    np.testing.assert_array_equal(back.force, curve.force)
+    assert back.jumps == curve.jumps
+    table = np.genfromtxt(
+        tmp_path / "out" / "curve.csv", delimiter=",", names=True, usecols=("force", "depth")
+    )
+    np.testing.assert_array_equal(table["force"], curve.force)
+    lines = (tmp_path / "out" / "jumps.csv").read_text().splitlines()
+    assert len([line for line in lines if not line.startswith("#")]) == 1 + len(curve.jumps)
+    assert (tmp_path / "out" / "curve.png").stat().st_size > 1000
+
+
+def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, rough):
+    words = ("curve", rough, *MODULUS, *STICKS, "--loop", "--depths", "50nm", "--points", "6")
+    record = json.loads(invoke(*words, "--json").stdout)
+    turn = record["depth"][6]  # 50 nm as it was read
+    loop = rc.adhesive_loop(rc.read(rough), 10e6, ADHESION, depth=turn, points=6)
+    assert record["force"] == loop.force.tolist()
+    assert record["pull_off_force"] == loop.pull_off_force
+    told = invoke(*words).stdout
+    for each in ("approach", "retreat", "pull-off force", "jump", "energy lost in jumps"):
+        assert each in told
+
+
+def test_forces_go_up_and_down(invoke, rough):
+    words = ("curve", rough, "--forces", "0N:1uN:3,-1uN", *MODULUS, *STICKS, "--json")
+    record = json.loads(invoke(*words).stdout)
+    assert record["control"] == "force"
+    np.testing.assert_allclose(record["force"], [0, 0.5e-6, 1e-6, -1e-6], atol=1e-12)
+    assert record["branch"] == ["approach"] * 3 + ["retreat"]
+
+
+def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
+    whole = rc.loading_path
+
+    def interrupted(*arguments, **named):
+        path = whole(*arguments, **named)
+        yield next(path)
+        yield next(path)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc, "loading_path", interrupted)
+    answer = invoke("curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
+    assert answer.exit_code == 130
+    assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick begins anew" in answer.stderr
+    assert len(rc.read_adhesive_loop(tmp_path / "out" / "curve.nc")) == 2
+    loop = ("--loop", "--depths", "50nm", "--points", "4", "--out", tmp_path / "loop")
+    answer = invoke("curve", rough, *MODULUS, *STICKS, *loop)
+    assert answer.exit_code == 130
+    assert "stopped: the loop is not closed" in answer.stderr
+
+
+def test_a_missed_tolerance_is_told_and_ends_with_its_status(invoke, rough):
+    answer = invoke("press", rough, "--depth", "50nm", *MODULUS, *STICKS, "--tolerance", "1.1e-14")
+    assert answer.exit_code == 1
+    assert "MISSED" in answer.stdout
+
+
+def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, rough):
+    words = ("press", rough, "--depth", "10nm", *MODULUS, "--work", "10mJ/m^2")
+    answer = invoke(*words, "--range", "20nm")
+    assert answer.exit_code == 2
+    assert "give --allow-unresolved" in answer.stderr
+    longer = answer.stderr.split("a range of at least ")[1].split(" m")[0]
+    assert invoke(*words, "--range", longer).exit_code == 0
+    marked = invoke(*words, "--range", "20nm", "--allow-unresolved")
+    assert marked.exit_code == 0
+    assert "the lattice traps every state" in marked.stderr
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("--range", "2nm"), "--range is about adhesion: give the work of adhesion"),
+        (("--law", "exponential"), "--law is about adhesion"),
+        (("--allow-unresolved",), "--allow-unresolved is about adhesion"),
+        (("--work", "50mJ/m^2"), "--work and --range belong together"),
+        (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
+        (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
+        ((*STICKS, "--hardness", "2GPa"), "--hardness is about surfaces that do not stick"),
+        ((*STICKS, "--errors"), "--errors is about surfaces that do not stick"),
+        ((*STICKS, "--flow", "raised"), "--flow is about surfaces that do not stick"),
+    ],
+)
+def test_what_does_not_fit_together_is_refused(invoke, rough, given, says):
+    for command in (("press", rough, "--depth", "10nm"), ("curve", rough, "--depths", "10nm")):
+        answer = invoke(*command, *MODULUS, *given)
+        assert answer.exit_code == 2
+        assert says in answer.stderr
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("press", "--pressure", "1kPa", *STICKS), "give --force, pressure times area, or --depth"),
+        (("press", "--force", "-1uN", *STICKS), "give 'curve --forces 0N,-1uN'"),
+        (("press", "--force", "1uN", *STICKS, "--after", "2uN"), "--after is about surfaces"),
+        (("press", "--force", "1uN", *STICKS, "--theory", "persson"), "--theory is about surfaces"),
+        (("press", "--depth", "-5nm"), "the depth counts from first touch"),
+        (("curve", "--pressures", "1kPa", *STICKS), "give --forces, pressures times area, or --depths"),
+        (("curve", *STICKS), "give the loads of surfaces that stick (--depths or --forces)"),
+        (("curve", "--loop", "--forces", "1uN", *STICKS), "goes by depth"),
+        (("curve", "--loop", "--depths", "1nm,2nm", *STICKS), "give one, such as --depths 20nm"),
+        (("curve", "--loop", "--depths", "1nm", "--points", "1", *STICKS), "from 2 to 10000 depths, not 1"),
+        (("curve", "--depths", "1nm", "--points", "9", *STICKS), "--points is about a --loop"),
+        (("curve", "--forces", "1uN", "--points", "9"), "--points is about a --loop of surfaces that stick"),
+        (("curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is no range"),
+        (("curve", "--depths", ",", *STICKS), "no load given"),
+        (("curve", "--depths", "1nm:2nm:1", *STICKS), "from 2 to 100000 loads, not 1"),
+        (("curve", "--depths", "1nm", "--theory", "persson", *STICKS), "--theory is about surfaces"),
+        (("curve", "--depths", "1nm", "--conductivity", "copper", *STICKS), "--conductivity is about"),
+        (("curve", "--depths", "1nm", "--unit-pressure", "MPa", *STICKS), "--unit-pressure is about"),
+        (("curve", "--depths", "1nm", "--table", "csv", *STICKS), "--table is about"),
+        (("curve", "--depths", "-1nm,2nm"), "every load must be positive"),
+    ],
+)
+def test_each_refusal_names_what_to_do(invoke, rough, given, says):
+    command, *options = given
+    answer = invoke(command, rough, *options, *MODULUS)
+    assert answer.exit_code == 2
+    assert says in answer.stderr
