@@ -27,7 +27,6 @@ export function numbersView() {
     forget(all) {
       clear(by("pressures"));
       if (!all) return;
-      warned = [];
       for (const id of ["facts", "notes"]) by(id).replaceChildren();
       command("");
       python("");
