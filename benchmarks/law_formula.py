@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from law_ensembles import FOLDER, read
-from law_tables import MIDDLE, e1_laws, markdown, percent, told
+import xarray
+from law_ensembles import FOLDER, read, resampled, value
+from law_tables import MIDDLE, curves, e1_laws, load_at, markdown, percent, resolved, told
 from scipy.optimize import curve_fit
 
 from roughcontact.validation import Array
@@ -73,9 +74,10 @@ def formula(folder: Path = FOLDER) -> dict[str, str]:
     words = (
         f"k/(E\\* L) = kappa (F/({MIDDLE:g} E\\* h L))^alpha, alpha = 1/3 + a/(1 + (H/b)²), kappa = c + d/(1 + "
         f"(e/H)²), with a = {a}, b = {b}, c = {c}, d = {d}, e = {e}; zeta = kappa {MIDDLE:g}^-alpha. For H from "
-        f"{hurst[0]:g} to {hurst[-1]:g}, forces from where 20 cells of 512² carry to 0.07 E\\* h L. What was computed "
-        f"lies at most {abs(alpha.off).max():.1f} (alpha) and {abs(k.off).max():.1f} (kappa) of its standard errors "
-        "beside it."
+        f"{hurst[0]:g} to {hurst[-1]:g}, forces from where 20 cells of 512² carry to 0.07 E\\* h L. Both lie at most "
+        f"{abs(alpha.off).max():.1f} (alpha) and {abs(k.off).max():.1f} (kappa) standard errors beside what "
+        f"was computed, and mean curves {within(ensemble, alpha.values, np.exp(k.values))} beside the formula at any "
+        "force of the window."
     )
     body = [
         [
@@ -90,7 +92,32 @@ def formula(folder: Path = FOLDER) -> dict[str, str]:
         )
     ]
     head = ["H", "alpha", "1/(H + 1)", "kappa", f"kappa over the thesis' law at {MIDDLE:g}"]
-    return {"formula": words, "formula-values": markdown((head, body))}
+    return {
+        "formula": words,
+        "formula-scatter": scattered(ensemble),
+        "formula-values": markdown((head, body)),
+    }
+
+
+def within(ensemble: xarray.Dataset, alpha: Array, kappa: Array) -> str:
+    """Return between which limits mean curves lie beside the formula, in their windows."""
+    force, stiffness, _ = curves(ensemble)
+    mean = resampled(stiffness)
+    law = (force / MIDDLE) ** xarray.DataArray(alpha, dims="hurst") * xarray.DataArray(kappa, dims="hurst")
+    off = (value(mean) / law - 1).where(resolved(ensemble, mean))
+    return f"{100 * float(off.min()):+.1f} to {100 * float(off.max()):+.1f} %"
+
+
+def scattered(ensemble: xarray.Dataset) -> str:
+    """Return how far single surfaces scatter about the mean, at the force that is nearest to `MIDDLE`."""
+    force, stiffness, _ = curves(ensemble)
+    load = load_at(force, MIDDLE)
+    one = stiffness.isel(load=load)
+    share = 100 * one.std("sample", ddof=1) / one.mean("sample")
+    return (
+        f"Single surfaces scatter by {float(share.min()):.0f} to {float(share.max()):.0f} % about the mean at "
+        f"{float(force[load]):.2g} E\\* h L, most at H = {float(share.idxmax('hurst')):g}."
+    )
 
 
 def _log_level(hurst: Array, c: float, d: float, e: float) -> Array:

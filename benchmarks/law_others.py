@@ -65,7 +65,8 @@ def e3(folder: Path = FOLDER) -> dict[str, str]:
     points = [int(n) for n in ensemble["points"]]
     ends = f"{points[-1]}² less {points[0]}²", f"k at 0.07, {points[-1]}² over {points[0]}²"
     change = at_hurst(each(last - alpha.isel(points=0), samples, 3, "+"), ensemble["hurst"])
-    said = f"At low H, in one window of forces, the exponent on {points[-1]}² less that on {points[0]}² is {change}."
+    said = f"At low H, in one window of forces, the exponent on {points[-1]}² less that on {points[0]}² is {change} "
+    said += f"({samples} surfaces)."
     return {"e3": markdown((["H", *(f"{n}²" for n in points), *ends], body)), "e3 said": said}
 
 
@@ -117,6 +118,7 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
         f"{at_hurst(each_percent(level.isel(place) / first - 1, samples), ensemble['hurst'])}."
         for words, place in models.items()
     )
+    said += f" ({samples} surfaces.)"
     return {"e4": markdown((head, body)), "e4 said": said}
 
 
@@ -131,21 +133,21 @@ def e5(folder: Path = FOLDER) -> dict[str, str]:
         if ensemble is not None:
             head, body = flat(ensemble)
             tables[name] = markdown((head, body))
-            tables["e5 said"] = flat_words(int(ensemble["points"]), body)
+            tables["e5 said"] = flat_words(int(ensemble["points"]), ensemble.sizes["sample"], body)
     patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
     if patches is not None:
         tables["e5-patches"] = markdown(patched(patches, whole))
     return tables
 
 
-def flat_words(points: int, body: list[list[str]]) -> str:
+def flat_words(points: int, samples: int, body: list[list[str]]) -> str:
     """Return in a sentence what a table of `flat` says."""
     grows = ", ".join(f"{line[1]} for l = {line[0]}" for line in body)
     *_, last = body
     return (
         f"Rolled off at l on {points}², K of a periodic surface grows as the pressure to the power of {grows}. From "
         f"p l/(E\\* h) = {PRESSURES[0]:g} to {PRESSURES[-1]:g} the K of a free square of L = 32 l is off that of the "
-        f"periodic one by {last[4]} to {last[8]}, while its k/K falls from {last[5]} to {last[9]}."
+        f"periodic one by {last[4]} to {last[8]}, while its k/K falls from {last[5]} to {last[9]} ({samples} surfaces)."
     )
 
 
@@ -242,8 +244,9 @@ def e6(folder: Path = FOLDER) -> dict[str, str]:
     off = value(mean).to_numpy()[carried] / closed[carried] - 1
     most = float((error(mean, samples) / value(mean))[carried].max())
     said = (
-        f"Rough spheres are {100 * off.min():+.1f} to {100 * off.max():+.1f} % (± {100 * most:.1f} % or less) off "
-        f"eq. 5.9 where more than {CELLS} cells carry."
+        f"{samples} rough spheres are "
+        f"{100 * off.min():+.1f} to {100 * off.max():+.1f} % (± {100 * most:.1f} % or less) "
+        f"off eq. 5.9 where more than {CELLS} cells carry."
     )
     return {"e6": markdown((head, body)), "e6 said": said}
 
@@ -294,7 +297,7 @@ def e7(folder: Path = FOLDER) -> dict[str, str]:
     names = [f"size {float(size):g} over size 1" for size in sizes[1:]]
     said = (
         f"At one Theta and one force a square of {float(sizes[-1]):g} times the side has k/E\\* off by "
-        f"{at_hurst(words, ensemble['hurst'])}."
+        f"{at_hurst(words, ensemble['hurst'])} ({samples} surfaces)."
     )
     return {
         "e7": markdown((["H", "F/(E\\* h L) of size 1", *names, "cells of stiffness"], body)),

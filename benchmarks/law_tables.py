@@ -287,7 +287,8 @@ def convergence(same: dict[int, xarray.Dataset]) -> Table:
             ]
             fit = [percent(limits[0, 0] - 1, spread[0]), told(limits[0, 1], spread[1], 1)]
             # Where grids differ by no more than their errors the fit means nothing.
-            body.append([f"{h:g}", f"{at:g}", *ratio, *(fit if spread[1] < limits[0, 1] / 3 else ["-", "-"])])
+            meant = spread[1] < limits[0, 1] / 3 and POWERS[0] < limits[0, 1] < POWERS[-1]
+            body.append([f"{h:g}", f"{at:g}", *ratio, *(fit if meant else ["-", "-"])])
     others = [f"{p}²" for p in same if p != finest]
     return ["H", "F/(E\\* h L)", *others, "limit", "w"], body
 

@@ -42,12 +42,16 @@ sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",
     "gallery_dirs": "gallery",
     "filename_pattern": "/",  # all of them run
+    "image_scrapers": ("two_themes.scrape",),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,
     "show_signature": False,
     "write_computation_times": False,
 }
+
+# For readers in a repository: here the page that is made of the scripts stands in its place.
+exclude_patterns = ["gallery.md"]
 
 html_theme = "pydata_sphinx_theme"
 html_title = project
@@ -87,8 +91,9 @@ def copy_project(folder):
 def list_to_tree(app, name, text):
     """Make a tree of the pages that a part lists, for the menus: readers of the Markdown see the list alone."""
     text[0] = re.sub(r"\]\(\.\./([A-Z_]+\.md)\)", r"](project/\1)", text[0])
+    text[0] = text[0].replace("](gallery.md)", "](gallery/index.rst)")
     if name in PARTS:
-        pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.md\)", text[0], re.MULTILINE)
+        pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.(?:md|rst)\)", text[0], re.MULTILINE)
         text[0] += "\n".join(["\n\n```{toctree}\n:hidden:", *pages, "```\n"])
 
 

@@ -66,7 +66,7 @@ def _parts(rooms: Collection[str]) -> list[str]:
         "formats": ("File formats", "what is read and written, by the ending of the file."),
     }
     for room in sorted(rooms, key=list(TITLES).index):
-        about[room] = (TITLES[room], _summary(resolve_name(f"{HOME}.{room}")))
+        about[room] = (TITLES[room], _sentence(room))
     return [
         *(f"* [{title}](reference/{page}): {text}" for page, (title, text) in about.items()),
         "",
@@ -76,7 +76,7 @@ def _parts(rooms: Collection[str]) -> list[str]:
 
 def _room(room: str, groups: dict[str, list[PublicName]]) -> list[str]:
     """Return the page of a room: what it holds, with the first line of each docstring."""
-    lines = [*_title(TITLES[room]), *_about(f"{HOME}.{room}")]
+    lines = [*_title(TITLES[room]), _sentence(room), ""]
     for module, names in groups.items():
         if len(groups) > 1 and module != HOME:
             lines += [*_title(module, "-"), *_about(module)]
@@ -118,6 +118,12 @@ def _list(names: list[PublicName]) -> list[str]:
 
 def _title(text: str, line: str = "=") -> list[str]:
     return [text, line * len(text), ""]
+
+
+def _sentence(room: str) -> str:
+    """Return what a room says of itself, without its name if that is the title."""
+    text = _summary(resolve_name(f"{HOME}.{room}")).removeprefix(f"{TITLES[room]}: ")
+    return text[0].upper() + text[1:]
 
 
 def _about(module: str) -> list[str]:

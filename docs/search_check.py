@@ -67,7 +67,9 @@ def browser() -> Iterator:
     with sync_playwright() as playwright:
         system = next(filter(None, map(which, BROWSERS)), None)
         try:
-            chromium = playwright.chromium.launch(executable_path=system, args=["--no-sandbox"])
+            # Root, as in containers, has no sandbox; their shared memory is small.
+            arguments = ["--no-sandbox", "--disable-dev-shm-usage"]
+            chromium = playwright.chromium.launch(executable_path=system, args=arguments)
         except Error as error:
             raise LookupError(str(error).splitlines()[0]) from None
         yield chromium

@@ -10,6 +10,10 @@ import numpy as np
 import pytest
 import xarray
 
+from roughcontact.files.write import write_netcdf
+from roughcontact.study.export import export
+from roughcontact.study.run import run
+from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 
 ROOT = Path(__file__).parent.parent
@@ -117,3 +121,28 @@ def test_samples_drawn_again_scatter_as_the_mean_of_them(script):
     assert float(found[0, 0]) == pytest.approx(values.mean(), rel=1e-12)
     expected = values.std(ddof=1) / 50**0.5
     assert float(error(found, 50)[0]) == pytest.approx(expected, rel=4 / 800**0.5)
+
+
+def test_whole_samples_are_kept_and_grids_of_one_surface_are_found(script, tmp_path):
+    from law_ensembles import grid, kept, read
+
+    fixed = {"points": 16, "size": 1.0, "modulus": 1.0, "rms": 0.01, "hurst": 0.8, "loads": 3}
+    rows = [{}, {"short_cutoff": 0.25}]
+    study = Study(name="few", case="curve", samples=3, parameters=fixed, rows=rows)
+    assert run(study, tmp_path / "few").done == 6
+    with Store.open(tmp_path / "few") as store:
+        exported = export(store, seconds=True)
+    exported["case_status"][1, 1] = "missing"
+    found = kept(exported)
+    assert found["sample"].values.tolist() == [0, 2]
+    assert found.attrs["failed"] == 0
+    write_netcdf(found, tmp_path / "few.nc", {})
+    ensemble = read("few", tmp_path)
+    every, cut = grid(ensemble, 16), grid(ensemble, 16, 0.25)
+    assert grid(ensemble, 32) is None
+    for place, one in enumerate((every, cut)):
+        stiffness = exported["dimensionless_stiffness"].isel(row=place, sample=[0, 2])
+        np.testing.assert_allclose(
+            one["dimensionless_stiffness"], stiffness, rtol=2.0**-23
+        )  # single precision
+        assert float(one["cell_stiffness"]) == float(np.ravel(exported["cell_stiffness"])[0])

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # its event loop must be gone before others are begun
 def chromium():
     """A Chromium that is driven: the one of the system, or Playwright's own."""
     api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

@@ -192,6 +192,16 @@ def test_what_grows_too_large_is_refused_and_removed(server, tmp_path, monkeypat
     assert list((tmp_path / session).iterdir()) == []
 
 
+def test_a_tab_drops_so_much_and_no_more(server, tmp_path, monkeypatch):
+    monkeypatch.setattr(uploads, "LARGEST", 1000)
+    monkeypatch.setattr(uploads, "_TOGETHER", 2000)
+    session = begun(server)
+    found = asked(server, *(put(session, body=[b"x" * 600]) for _ in range(3)))
+    assert [each.status for each in found] == [200, 200, 413]
+    assert "load the page again" in found[-1].json["message"]
+    assert len(left_in(tmp_path)) == 2
+
+
 def test_what_no_longer_comes_is_given_up_and_removed(server, tmp_path, monkeypatch):
     monkeypatch.setattr(uploads, "_PATIENCE", 0.01)
     session = begun(server)

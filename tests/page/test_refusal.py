@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.page.field_error import at_field
 from roughcontact.page.refusal import refusal
 
 
@@ -21,12 +22,22 @@ def test_an_error_of_the_library_is_refused_as_a_sentence():
 
 
 @pytest.mark.parametrize(
-    "call", [lambda: np.zeros(3).reshape(2), lambda: float("three"), lambda: {}["key"]], ids=str
+    "call",
+    [lambda: np.zeros(3).reshape(2), lambda: float("three"), lambda: {}["key"]],
+    ids=["shape", "number", "key"],
 )
 def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
     found = caught(call)
     assert found["how"] == "mistake"
     assert "not in your input" in found["message"]
+
+
+def test_a_foreign_error_at_a_field_stays_a_mistake_of_ours():
+    def failed():
+        with at_field("load"):
+            float("three")
+
+    assert caught(failed)["how"] == "mistake"
 
 
 def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):

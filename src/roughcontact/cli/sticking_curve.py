@@ -128,7 +128,7 @@ def _follow(
     [loads] = (values for name, values in given.items() if name in ("depths", "forces"))
     states = rc.loading_path(surface, modulus, **given)
     if loop is not None:
-        states = until_off(states, loop)
+        states, loads = until_off(states, loop), loads[1:]
     stopped: list[bool] = []
 
     def watched() -> Iterator[AdhesiveState]:

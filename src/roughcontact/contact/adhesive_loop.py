@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -78,11 +79,13 @@ def adhesive_loop(
     path = loading_path(
         surface, modulus, depths=depths, operator=operator, tolerance=tolerance, adhesion=adhesion
     )
-    return collect_states(until_off(path, points), depths)
+    return collect_states(until_off(path, points), depths[1:])
 
 
 def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     """Return the depths of an approach and of a retreat by the same steps, further than any retreat goes [m].
+
+    The first, where nothing attracts, is no point of the loop: from there on every jump is met.
 
     Raises
     ------
@@ -92,14 +95,13 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     count, near = whole(int(points), "points"), -NEAR * adhesion.range
     require(depth > near, f"the depth must be above {near:.3g} m, ten ranges of the attraction apart", depth)
     step = (depth - near) / count
-    far = -REACH * adhesion.range  # the path begins where nothing attracts, to meet every jump
-    there = [far, *(near + step * k for k in range(count)), depth]
+    there = [-REACH * adhesion.range, *(near + step * k for k in range(count)), depth]
     return np.array(there + [depth - step * k for k in range(1, count * MOST)])
 
 
 def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveState]:
-    """Yield the states of a loop until its body is off on the retreat."""
-    for k, state in enumerate(path):
+    """Yield the states of a loop along `loop_depths` but the first, until its body is off on the retreat."""
+    for k, state in enumerate(islice(path, 1, None)):
         yield state
         reach = state.blank.adhesion.range
         off = not state.contact.any() and float(state.gap.min()) > NEAR * reach

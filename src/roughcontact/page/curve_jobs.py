@@ -146,6 +146,8 @@ def _whole(computed: Curve) -> dict[str, Any]:
     try:
         law = computed.fit()
     except ValueError as error:
+        if not is_ours(error):
+            raise
         why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
         return {
             "facts": curve_facts(computed, None),

@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Iterator
 
 from roughcontact.files.file_errors import ReadError
+from roughcontact.files.own_errors import is_ours
 
 __all__ = ["FieldError", "at_field"]
 
@@ -27,4 +28,6 @@ def at_field(field: str) -> Iterator[None]:
     except (FieldError, ReadError):
         raise
     except ValueError as error:
+        if not is_ours(error):
+            raise
         raise FieldError(field, error) from error

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
@@ -269,7 +269,15 @@ def _choices() -> dict[str, Any]:
 
     given = {"hardness", "radius"}  # what no surface shows
     laws = {name: law.about for name, law in LAWS.items() if not given & {*law.needs} - {"hardness"}}
-    materials: Mapping[str, str] = {name: each.grade for name, each in MATERIALS.items()}
+    materials = {
+        name: {
+            "grade": each.grade,
+            "young": each.solid.young_modulus,
+            "poisson": each.solid.poisson_ratio,
+            "hardness": each.hardness,
+        }
+        for name, each in MATERIALS.items()
+    }
     return {"materials": materials, "theories": laws}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.order import Order, Send, send_map
 from roughcontact.page.recipe import FileSource
@@ -139,5 +140,7 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     try:
         exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
     except ValueError as error:
+        if not is_ours(error):
+            raise
         exponent, words = "none", str(error)
     return [*facts, ("Hurst exponent", words, exponent)]

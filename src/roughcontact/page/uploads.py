@@ -14,12 +14,15 @@ from roughcontact.page.workbench import UploadedFile
 __all__ = ["LARGEST", "TooLargeError", "TooSlowError", "safe_name", "shown_name", "store"]
 
 LARGEST = 512 * 2**20  # bytes: a map of 8000 x 8000 cells in double precision
+_TOGETHER = (
+    4 * LARGEST
+)  # bytes of all that a tab has dropped: where temporary files lie in memory, it is limited
 _LONGEST = 120  # bytes of a name
 _PATIENCE = 60.0  # seconds in which something of the file must come
 
 
 class TooLargeError(ValueError):
-    """A file beyond `LARGEST`."""
+    """A file beyond `LARGEST`, or one too many."""
 
 
 class TooSlowError(ValueError):
@@ -34,7 +37,7 @@ async def store(
     Raises
     ------
     TooLargeError
-        If it is, or says that it will be, larger than `LARGEST`; nothing is left of it.
+        If it is, or says that it will be, larger than `LARGEST`, or the folder holds too much; nothing is left of it.
     TooSlowError
         If nothing comes for a minute; nothing is left of it.
     OSError
@@ -42,6 +45,10 @@ async def store(
     """
     if stated is not None and stated > LARGEST:
         raise TooLargeError(_words())
+    if sum(each.stat().st_size for each in folder.glob("*/*")) > _TOGETHER - LARGEST:
+        raise TooLargeError(
+            "This tab holds many large files already: load the page again, and drop this one."
+        )
     key = secrets.token_hex(8)
     place = folder / key
     place.mkdir()

@@ -65,7 +65,6 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
             "stability",
             f"{state.stability:.3g} +- {state.stability_bound:.1g} (1 without attraction, 0 at a jump)",
         ),
-        *jump_facts(state.jumps, kind),
         ("certificate", f"{state.residual:.1e} (tolerance {blank.tolerance:.0e}: {met})"),
     ]
 

@@ -6,6 +6,7 @@ from roughcontact.study.case import (
     Area as Area,
     Case as Case,
     Energy as Energy,
+    EnergyPerArea as EnergyPerArea,
     Force as Force,
     Length as Length,
     Parameters as Parameters,

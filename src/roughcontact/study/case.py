@@ -13,13 +13,24 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import numpy as np
 from pydantic import BeforeValidator, Field
 
-from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse
+from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, Kind, parse
 from roughcontact.study.checked import Checked
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Area", "Case", "Energy", "Force", "Length", "Parameters", "Positive", "Pressure", "Stiffness"]
+__all__ = [
+    "Area",
+    "Case",
+    "Energy",
+    "EnergyPerArea",
+    "Force",
+    "Length",
+    "Parameters",
+    "Positive",
+    "Pressure",
+    "Stiffness",
+]
 
 
 class Parameters(Checked):
@@ -101,3 +112,4 @@ Force = Annotated[float, _quantity(FORCE)]
 Area = Annotated[float, _quantity(Kind("an area", "m**2", "1mm**2"))]
 Stiffness = Annotated[float, _quantity(Kind("a stiffness", "N/m", "1MN/m"))]
 Energy = Annotated[float, _quantity(Kind("an energy", "J", "1mJ"))]
+EnergyPerArea = Annotated[float, _quantity(ENERGY_PER_AREA)]

@@ -4,7 +4,8 @@ import { digits, scaleFor } from "./words.js";
 
 /* global uPlot */
 
-const FONT = "12px system-ui, sans-serif";
+// Of a logarithmic axis the decades alone have lines: all of them would be a band of ink.
+const decades = (_, splits) => splits.map((at) => (Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-6 ? at : null));
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const shown = new Set();
 
@@ -57,15 +58,17 @@ function draw(root) {
   root.factor = scaleX.factor;
   root.replaceChildren();
   if (!xs.length || !width) return;
+  const em = 0.8 * parseFloat(getComputedStyle(document.documentElement).fontSize);
+  const font = `${em}px system-ui, sans-serif`;
   const ratio = { ink: css("--ink-soft"), grid: css("--line-soft") };
   const axis = (of, scale) => ({
     label: of.label + (scale.unit ? ` [${scale.unit}]` : ""),
-    labelFont: FONT,
-    font: FONT,
+    labelFont: font,
+    font,
     stroke: ratio.ink,
-    labelSize: 20,
+    labelSize: 1.7 * em,
     labelGap: 2,
-    grid: { stroke: ratio.grid, width: 1 },
+    grid: { stroke: ratio.grid, width: 1, ...(of.log ? { filter: decades } : {}) },
     ticks: { stroke: ratio.grid, width: 1, size: 4 },
     values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : digits(tick, 3))),
   });
@@ -82,8 +85,8 @@ function draw(root) {
       y: { ...(y.log ? { distr: 3 } : {}), ...(zero ? { range: (_, low, high) => [Math.min(0, low), high * 1.05 || 1] } : {}) },
     },
     axes: [
-      { ...axis(x, scaleX), size: 30 },
-      { ...axis(y, scaleY), size: (_, ticks) => 14 + 7 * Math.max(2, ...(ticks || []).map((each) => each.length)) },
+      { ...axis(x, scaleX), size: 2.5 * em },
+      { ...axis(y, scaleY), size: (_, ticks) => 14 + 0.58 * em * Math.max(2, ...(ticks || []).map((each) => each.length)) },
     ],
     series: [{}, ...series.map(drawn)],
     hooks: { setCursor: [(plot) => pointed(root, plot, readout, units)] },
@@ -133,7 +136,8 @@ function drawn(each) {
   const stroke = colourOf(each);
   const line = each.kind === "line" || each.kind === "area";
   const points = { show: !line, size: each.kind === "mark" ? 15 : 7, width: each.kind === "mark" ? 2.5 : 1.5, stroke };
-  points.fill = each.kind === "points" ? stroke : each.kind === "mark" ? `${stroke}22` : css("--card");
+  if (each.gaps) Object.assign(points, { show: true, size: 4, filter: lone });
+  points.fill = each.kind === "points" || line ? stroke : each.kind === "mark" ? `${stroke}22` : css("--card");
   return {
     label: each.label,
     stroke,
@@ -144,6 +148,13 @@ function drawn(each) {
     points,
     paths: line ? undefined : () => null,
   };
+}
+
+// Values without a neighbour, which no line shows.
+function lone(plot, series) {
+  const values = plot.data[series];
+  const there = (k) => values[k] !== null && values[k] !== undefined;
+  return values.map((_, k) => k).filter((k) => there(k) && !there(k - 1) && !there(k + 1));
 }
 
 // All series on one axis, as uPlot wants them; what a logarithm cannot show is left out.

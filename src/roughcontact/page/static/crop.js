@@ -1,6 +1,7 @@
 // The part of the map that is kept: by numbers of rows and columns, or dragged over the map.
 
 import { trouble } from "./trouble.js";
+import { put } from "./typing.js";
 import { written } from "./words.js";
 
 const ENDS = ["crop_top", "crop_bottom", "crop_left", "crop_right"];
@@ -39,7 +40,7 @@ export function cropFields(recipe) {
     if (!raw) return;
     const crop = now();
     ENDS.forEach((id, k) => {
-      by(id).value = crop[k];
+      put(by(id), crop[k]);
       by(id).max = raw.shape[k < 2 ? 0 : 1];
     });
     trouble("crop", {});

@@ -1,6 +1,7 @@
 // The cut: one row or column through the undeformed surface and the deformed gap, linked with the map.
 
 import { chart, mark } from "./charts.js";
+import { put } from "./typing.js";
 import { written } from "./words.js";
 
 const ROUNDING = 1e-13; // metres
@@ -51,7 +52,7 @@ export function cutView(map, ask) {
       // What is closed is closed but for rounding.
       const [gap, under] = [header.gap, header.under].map((line) => line.map((value) => (value !== null && Math.abs(value) < ROUNDING ? 0 : value)));
       by("cut_place").max = header.count;
-      by("cut_place").value = header.place + 1;
+      put(by("cut_place"), header.place + 1);
       by("cut_at").textContent = `${header.axis === "row" ? "y" : "x"} = ${written(header.across, "m", 3)}`;
       const line = (y, label, colour, more) => ({ x: header.x, y, label, kind: "line", gaps: true, colour, ...more });
       chart(by("cut"), {

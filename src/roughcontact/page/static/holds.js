@@ -1,6 +1,7 @@
 // What the surface holds: what is doubtful about it, its size, the distribution of its heights, its spectrum, its roughness.
 
-import { chart } from "./charts.js";
+import { chart, clear } from "./charts.js";
+import { facts as listed, list } from "./numbers.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
@@ -19,6 +20,7 @@ function element(kind, text, more = {}) {
 
 export function holdings(recipe, crop) {
   let doubts = [];
+  let rough = false; // whether the heights have a distribution, which those of a flat have not
 
   function mended([step]) {
     const value = recipe.now.preparation[step];
@@ -64,10 +66,20 @@ export function holdings(recipe, crop) {
       by("warned").replaceChildren();
       by("channels").replaceChildren();
     },
-    // The panel waits for what follows from another preparation.
+    // What is shown belongs to another preparation, until its study is done.
     wait() {
+      rough = false;
       by("holds").setAttribute("aria-busy", "true");
+      by("held").classList.add("stale");
     },
+    done() {
+      by("holds").setAttribute("aria-busy", "false");
+      by("held").classList.remove("stale");
+      if (rough) return;
+      for (const id of ["distribution", "spectrum"]) clear(by(id));
+      by("roughness").replaceChildren();
+    },
+    refused: () => by("holds").setAttribute("aria-busy", "false"),
     channels(found) {
       table(by("channels"), ["Channel", "Points", "Unit", "Size"], found.map(({ name, shape, unit, size, is_height }) => [
         is_height ? name : `${name} (no heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
@@ -79,15 +91,16 @@ export function holdings(recipe, crop) {
       by("held").hidden = false;
       by("holds_none").hidden = true;
       const shown = facts.filter(([name]) => name !== "history");
-      by("held_facts").replaceChildren(...shown.flatMap(([name, value]) => [element("dt", name), element("dd", value)]));
-      by("warned").replaceChildren(...warned.map((line) => element("li", line)));
-      by("history").replaceChildren(...facts.filter(([name]) => name === "history").map(([, line]) => element("li", line)));
+      listed(by("held_facts"), shown);
+      list(by("warned"), warned);
+      list(by("history"), facts.filter(([name]) => name === "history").map(([, line]) => line));
     },
     study(header) {
       if (header.type === "doubts") {
         doubts = header.doubts;
         showDoubts();
       } else if (header.type === "heights") {
+        rough = true;
         chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, height: 170, label: "Distribution of the heights", series: [
           { x: header.x, y: header.y, label: "measured", kind: "area", colour: "--accent" },
           { x: header.x, y: header.normal, label: "normal", kind: "line", colour: "--ink-soft", dash: [5, 4] },
@@ -98,7 +111,6 @@ export function holdings(recipe, crop) {
         ] });
       } else if (header.type === "roughness") {
         table(by("roughness"), ["Parameter", "Meaning", "Value"], header.facts);
-        by("holds").setAttribute("aria-busy", "false");
       }
     },
   };

@@ -1,5 +1,6 @@
 // The load: what is prescribed, a slider on a logarithmic scale, and its text.
 
+import { put } from "./typing.js";
 import { loadText, loadValue } from "./words.js";
 
 export const UNITS = { pressure: "Pa", force: "N", depth: "m" };
@@ -16,7 +17,7 @@ export function loadBar(recipe) {
     for (const name of ["slider", "load"]) by(name).disabled = !spans || !load;
     if (!load) return;
     by("control").value = load.control;
-    by("load").value = load.text;
+    put(by("load"), load.text);
     by("slider").setAttribute("aria-valuetext", load.text);
     const value = loadValue(load.text, UNITS[load.control]);
     if (!spans || !(value > 0) || dragged) return;

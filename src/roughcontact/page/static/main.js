@@ -56,13 +56,14 @@ function changed(now, before) {
     map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
     load.forget();
     cut.forget();
-    numbers.forget();
+    numbers.forget(differs("source"));
   }
   if (differs("source")) {
     crop.of(null);
     fields.forget();
     holds.forget();
     place.of(titleOf(now.source, names));
+    by("keep").disabled = true;
   }
   if (differs("bodies")) wanted.bodies = true;
   if (["source", "preparation", "bodies"].some(differs)) curve.forget();
@@ -92,10 +93,11 @@ function ended(end, job) {
   return end.how === "done";
 }
 
+// Of what runs, only what is no longer asked for is stopped; under a moving slider maps follow as fast as they come.
 async function pump() {
   by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
   if (front) {
-    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press);
+    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press && !load.dragged);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }
@@ -105,7 +107,7 @@ async function pump() {
   else if (job) perform(job);
 }
 
-const next = () => ["look", "press", "cut", "bodies", "study"].find((job) => wanted[job]);
+const next = () => ["bodies", "look", "press", "cut", "study"].find((job) => wanted[job]);
 
 async function perform(job) {
   const more = job === "cut" ? cut.wanted : { pixels: map.pixels() };
@@ -128,10 +130,16 @@ async function perform(job) {
   clearTimeout(front.timer);
   front = null;
   ended(end, job);
-  if (job === "look" && end.how !== "done") wanted.press = wanted.study = false;
+  if (job === "look" && end.how !== "done" && !wanted.look) {
+    wanted.press = wanted.study = false;
+    holds.refused();
+  }
   if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
   if (job === "press" && end.how === "done") wanted.cut = true;
-  if (job === "study" && end.how === "stopped") wanted.study = true;
+  if (job === "study" && !wanted.study) {
+    if (end.how === "stopped") wanted.study = true;
+    else holds.done();
+  }
   pump();
 }
 

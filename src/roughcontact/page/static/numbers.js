@@ -7,12 +7,10 @@ const by = (id) => document.getElementById(id);
 
 export function numbersView() {
   const [command, python] = [statement(by("command")), statement(by("python"))];
-  let warned = [];
   return {
     tell(header) {
-      warned = header.warned || warned;
       facts(by("facts"), header.facts);
-      list(by("notes"), [...(header.notes || []), ...warned]);
+      list(by("notes"), header.notes || []);
       command(header.command);
       python(header.python);
     },
@@ -25,7 +23,14 @@ export function numbersView() {
         series: [{ x, y, label: "density", kind: "area", colour: "--accent" }],
       });
     },
-    forget: () => clear(by("pressures")),
+    // What was told of another preparation; of another surface not even the facts stay.
+    forget(all) {
+      clear(by("pressures"));
+      if (!all) return;
+      for (const id of ["facts", "notes"]) by(id).replaceChildren();
+      command("");
+      python("");
+    },
   };
 }
 

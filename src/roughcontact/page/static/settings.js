@@ -1,5 +1,6 @@
 // Fields whose value is a part of the recipe: what a file leaves open, and the steps of the preparation.
 
+import { put } from "./typing.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
@@ -34,7 +35,7 @@ export function settings(recipe) {
     by("open").hidden = !file;
     by("edges").hidden = by("edges_said").hidden = !source;
     const kept = { source: source || {}, preparation };
-    for (const { id, part } of FIELDS) by(id).value = kept[part][id] ?? "";
+    for (const { id, part } of FIELDS) put(by(id), kept[part][id] ?? "");
     by("fill").checked = preparation.fill;
     if (!source) return;
     by("periodic").options[0].hidden = by("periodic").options[0].disabled = !file;

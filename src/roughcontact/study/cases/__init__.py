@@ -13,6 +13,7 @@ from roughcontact.study.study_errors import StudyError, meant
 
 if TYPE_CHECKING:  # bundlers of programs read this
     from roughcontact.study.cases import (
+        adhesion_case,  # noqa: F401
         asperities_case,  # noqa: F401
         cells_case,  # noqa: F401
         curve_case,  # noqa: F401
@@ -26,7 +27,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
 __all__ = ["CASES", "find_case"]
 
 # A case is opened when it is first asked for.
-_NAMES = ("asperities", "cells", "curve", "lines", "loop", "patch", "slip", "yielding")
+_NAMES = ("adhesion", "asperities", "cells", "curve", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "a case of your own is named as module:attribute"
 

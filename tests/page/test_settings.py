@@ -1,0 +1,245 @@
+"""The left side of the page in a real browser: what a file leaves open, its preparation, the bodies, steps back."""
+
+import time
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from served import PATIENCE, ended, started
+
+WAITING = """() => ["view", "holds"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
+  || document.querySelector("main").inert || document.getElementById("slider").disabled"""
+# Names that a screen reader would say, and ids that stand twice.
+NAMELESS = """() => {
+  const name = (each) => each.getAttribute("aria-label") || each.innerText
+    || [...(each.labels || [])].map((label) => label.innerText).join("");
+  const all = document.querySelectorAll("input, select, button, summary, section, [tabindex]");
+  return [...all].filter((each) => !name(each).trim()).map((each) => each.outerHTML);
+}"""
+TWICE = """() => {
+  const ids = [...document.querySelectorAll("[id]")].map((each) => each.id);
+  return ids.filter((id, k) => ids.indexOf(id) !== k);
+}"""
+# Texts and placeholders whose contrast with their ground is below 4.5, as WCAG computes it.
+FAINT = """() => {
+  const numbers = (text) => text.match(/[\\d.]+/g).map(Number);
+  const light = (colour) => {
+    const [r, g, b] = colour.map((c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const ground = (each) => {
+    for (; each; each = each.parentElement) {
+      const [r, g, b, a = 1] = numbers(getComputedStyle(each).backgroundColor);
+      if (a > 0.99) return [r, g, b];
+    }
+    return [255, 255, 255];
+  };
+  const contrast = (each, pseudo) => {
+    const ink = numbers(getComputedStyle(each, pseudo).color).slice(0, 3);
+    const [low, high] = [light(ink), light(ground(each))].sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+  };
+  const written = (each) => each.offsetParent && !each.closest(".unseen, svg")
+    && (each.matches("input, select") || [...each.childNodes].some((node) => node.nodeType === 3 && node.data.trim()));
+  return [...document.querySelectorAll("body *")].filter(written).filter((each) =>
+    contrast(each) < 4.5 || (each.placeholder && contrast(each, "::placeholder") < 4.5)).map((each) => each.outerHTML);
+}"""
+
+
+class Person:
+    """Somebody at the page."""
+
+    def __init__(self, page):
+        self.page = page
+
+    def wait(self):
+        before = time.monotonic() + PATIENCE
+        while self.page.evaluate(WAITING):
+            assert time.monotonic() < before, self.page.locator("#said").inner_text()
+            self.page.wait_for_timeout(20)
+
+    def write(self, name, text):
+        self.page.fill(f"#{name}", text)
+        self.page.keyboard.press("Tab")
+
+    def choose(self, name, value):
+        self.page.select_option(f"#{name}", value)
+
+    def open(self, file):
+        content = {
+            "name": file.name,
+            "mimeType": "application/octet-stream",
+            "buffer": file.read_bytes(),
+        }
+        self.page.set_input_files("#file", content)
+
+    def text(self, name):
+        return self.page.locator(f"#{name}").text_content()
+
+    def trouble(self, name, words):
+        """Wait until this is said beside a field."""
+        line = self.page.locator(f"#{name}_trouble", has_text=words)
+        line.wait_for(timeout=1000 * PATIENCE)
+        assert self.page.get_attribute(f"#{name}", "aria-errormessage") == f"{name}_trouble"
+
+    @property
+    def command(self):
+        """The command that is stated when all is computed."""
+        self.wait()
+        return self.text("command")
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    served = started(tmp_path_factory.mktemp("settings"))
+    yield served
+    ended(served)
+
+
+@pytest.fixture(scope="module")
+def context(chromium, server):
+    found = chromium.new_context(viewport={"width": 1400, "height": 1000})
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def person(context, server):
+    page, told = context.new_page(), []
+    page.on("pageerror", lambda error: told.append(str(error)))
+    page.on("console", lambda line: told.append(line.text) if line.type == "error" else None)
+    page.goto(server.address)
+    yield Person(page)
+    page.close()
+    assert told == []
+
+
+@pytest.fixture(scope="module")
+def heights():
+    found = rc.self_affine(rc.Grid((64, 64), 1e-6), 0.8, 1e-7, np.random.default_rng(2)).heights.copy()
+    found[10, 20] = 9e-6
+    return found
+
+
+@pytest.fixture
+def bare(heights, tmp_path):
+    """A file that states neither unit nor size."""
+    np.save(tmp_path / "bare.npy", 1e9 * heights)
+    return tmp_path / "bare.npy"
+
+
+@pytest.fixture
+def part(heights, tmp_path):
+    rc.write(rc.Surface(heights, rc.Grid((64, 64), 1e-6)), tmp_path / "part.npz")
+    return tmp_path / "part.npz"
+
+
+def test_what_a_file_leaves_open_is_asked_for(person, bare):
+    person.open(bare)
+    person.trouble("unit", "unit of the heights")
+    person.trouble("width", "needed")
+    person.write("unit", "nm")
+    person.write("width", "64")
+    person.trouble("width", "has no unit")
+    person.write("width", "64 um")
+    assert "--unit nm --size '64 um'" in person.command
+    assert person.page.locator(".trouble").count() == 0
+
+
+def test_a_doubt_is_mended_by_its_button_and_undone(person, part):
+    person.open(part)
+    before = person.command
+    person.page.get_by_role("button", name="Fill them smoothly").click()
+    assert "--despike filled" in person.command
+    assert "mended by the preparation" in person.text("doubts")
+    person.page.keyboard.press("Control+z")
+    assert person.command == before
+    person.page.keyboard.press("Control+y")
+    assert "--despike filled" in person.command
+
+
+def test_a_crop_is_dragged_typed_and_taken_back(person, part):
+    person.open(part)
+    person.wait()
+    person.page.locator("#crop").click()
+    box = person.page.locator("#map").bounding_box()
+    for move, (x, y) in (("down", (0.25, 0.25)), ("up", (0.75, 0.625))):
+        person.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+        getattr(person.page.mouse, move)()
+    assert "--crop 16:41,16:49" in person.command  # the cells under both ends belong to it
+    person.write("crop_bottom", "40")
+    assert "--crop 16:40,16:49" in person.command
+    person.write("crop_top", "40")
+    person.trouble("crop_top", "No row is left")
+    person.page.locator("#uncrop").click()
+    assert "--crop" not in person.command
+
+
+def test_bodies_are_given_in_every_way(person, part):
+    person.open(part)
+    assert "--materials steel,aluminium" in person.command
+    person.choose("hard", "aluminium")
+    assert "--hardness aluminium" in person.command
+    person.choose("second", "gold")
+    assert "--materials steel,gold --hardness gold" in person.command
+    person.choose("given", "constants")
+    assert "--young '205 GPa' --poisson 0.29 --young2 '78 GPa' --poisson2 0.44" in person.command
+    person.write("poisson", "0.7")
+    person.trouble("poisson", "Poisson's ratio must lie")
+    person.write("poisson", "0.3")
+    person.choose("given", "modulus")
+    person.write("modulus", "100")
+    person.trouble("modulus", "has no unit")
+    person.write("modulus", "100 GPa")
+    assert "--modulus '100 GPa'" in person.command
+
+
+def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_path):
+    person.open(part)
+    person.wait()
+    assert "Sq" in person.text("roughness")
+    rc.write(rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6)), tmp_path / "flat.npz")
+    person.open(tmp_path / "flat.npz")
+    said = person.page.locator("#said", has_text="flat")
+    said.wait_for(timeout=1000 * PATIENCE)
+    person.page.locator("#holds[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
+    assert person.text("roughness") == ""
+    assert "16 x 16" in person.text("held_facts")
+
+
+def test_what_is_being_typed_outlives_an_answer(person, part):
+    person.open(part)
+    person.wait()
+    person.page.locator("#short_cutoff").click()
+    person.page.keyboard.type("8")
+    person.page.evaluate("document.getElementById('despike').value = 'filled'")
+    person.page.evaluate(
+        "document.getElementById('despike').onchange({ target: document.getElementById('despike') })"
+    )
+    person.wait()
+    person.page.keyboard.type(" um")
+    person.page.keyboard.press("Tab")
+    assert "--despike filled --level plane --short-cutoff '8 um'" in person.command
+
+
+def test_every_field_has_a_name_and_every_text_is_readable(person, part):
+    person.open(part)
+    person.wait()
+    person.write("short_cutoff", "8")
+    person.trouble("short_cutoff", "has no unit")
+    person.page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
+    assert person.page.evaluate(NAMELESS) == []
+    assert person.page.evaluate(TWICE) == []
+    for theme in ("light", "dark"):
+        while person.page.evaluate("document.documentElement.dataset.theme") != theme:
+            person.page.locator("#theme").click()
+        for width in (400, 1400, 3840):
+            person.page.set_viewport_size({"width": width, "height": 1000})
+            before = time.monotonic() + PATIENCE
+            while (
+                person.page.evaluate("document.documentElement.scrollWidth") != width
+            ):  # something sticks out
+                assert time.monotonic() < before, (theme, width)
+                person.page.wait_for_timeout(20)
+            assert person.page.evaluate(FAINT) == [], (theme, width)

@@ -1,0 +1,100 @@
+"""Pictures of surfaces that stick: what is drawn is what was computed."""
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+import roughcontact as rc
+from roughcontact.plot.adhesive_facts import adhesive_loop_facts, jump_facts
+from roughcontact.plot.engineering_units import written
+from sticking import rough, sticky
+
+RINGS = rc.RadialGrid.uniform(30, radius=6e-7)
+BALL = rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS)
+STRONG = rc.Adhesion(work=10e-3, range=2.5e-9, allow_unresolved=True)
+
+
+@pytest.fixture(scope="module")
+def loop():
+    return rc.adhesive_loop(BALL, 1e8, STRONG, depth=10e-9, points=8)
+
+
+def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
+    axes = loop.plot(Figure().subplots())
+    names = {line.get_label(): line for line in axes.lines}
+    for name, way in (("approach", True), ("retreat", False)):
+        drawn = names[name].get_xydata()
+        np.testing.assert_allclose(drawn[:, 0], loop.depth[loop.approach == way] * 1e9)
+        np.testing.assert_allclose(drawn[:, 1], loop.force[loop.approach == way] * 1e9)
+    dashed = [line.get_xydata() for line in axes.lines if line.get_linestyle() == "--"]
+    assert len(dashed) == len(loop.jumps) > 1
+    for ends, jump in zip(dashed, loop.jumps, strict=True):
+        np.testing.assert_allclose(ends[:, 1], np.array([jump.force_before, jump.force_after]) * 1e9)
+    largest = max(loop.jumps, key=lambda jump: jump.lost)
+    assert written(largest.lost, "J") in [text.get_text() for text in axes.texts]
+    # Between jumps lines are whole: no piece leads from before one to after it.
+    pieces = [line.get_xydata()[:, 1] / 1e9 for line in axes.lines if line.get_linestyle() == "-"][1:]
+    for jump in (each for each in loop.jumps if abs(each.force_after - each.force_before) > 1e-8):
+        assert not any(jump.force_before in piece and jump.force_after in piece for piece in pieces)
+    assert "pull-off" in axes.get_title()
+
+
+def test_what_a_force_pulls_off_has_no_point(loop):
+    path = rc.loading_curve(BALL, 1e8, forces=[0.0, 4e-7, -1e-6], adhesion=STRONG)
+    axes = path.plot(Figure().subplots())
+    assert "then pulled off" in axes.get_title()
+    assert "pulled off" in [text.get_text() for text in axes.texts]
+    assert all(np.isfinite(line.get_xydata()).all() for line in axes.lines)
+    rc.plot.jump_figure(path).canvas.draw()
+
+
+@pytest.fixture(scope="module")
+def state():
+    return rc.press(rough(16, periodic=True, slope=0.2, seed=1), 1.0, depth=0.5, adhesion=sticky(2.0))
+
+
+def test_a_map_has_zero_in_the_middle_and_outlines_the_contact(state):
+    axes = state.plot(Figure().subplots())
+    image = axes.images[0]
+    assert image.norm(0.0) == 0.5
+    assert image.norm(image.norm.vmin) == 0.0
+    scale = np.asarray(image.get_array())[0, 0] / state.pressure[0, 0]
+    np.testing.assert_allclose(image.get_array(), state.pressure * scale)
+    [outline] = [each for each in axes.collections if isinstance(each, LineCollection)]
+    ringed = np.pad(state.contact, 1)
+    edges = sum(int((np.diff(ringed, axis=axis) != 0).sum()) for axis in (0, 1))
+    assert len(outline.get_segments()) == edges > 0
+
+
+def test_missing_cells_are_left_out():
+    surface = rough(16, periodic=False, slope=0.2, seed=1)
+    heights = surface.heights.copy()
+    heights[2:5, 3:9] = np.nan
+    state = rc.press(rc.Surface(heights, surface.grid), 1.0, depth=0.3, adhesion=sticky(2.0))
+    image = rc.plot.tension_map(state, Figure().subplots()).images[0]
+    np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()), np.isnan(heights))
+
+
+def test_whole_figures_are_drawn(loop, state):
+    on_rings = rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG)
+    for figure in (rc.plot.jump_figure(loop), rc.plot.state_figure(state), rc.plot.state_figure(on_rings)):
+        figure.canvas.draw()
+    assert "stability" in rc.plot.state_figure(state).axes[0].get_title()
+    assert "(unresolved)" in rc.plot.state_figure(on_rings).axes[0].get_title()
+
+
+def test_a_state_without_contact_is_drawn():
+    apart = rc.press(rough(16, periodic=True, slope=0.2, seed=1), 1.0, depth=-2.0, adhesion=sticky(2.0))
+    assert not apart.contact.any()
+    rc.plot.state_figure(apart).canvas.draw()
+
+
+def test_facts_name_the_jumps_that_lost_most(loop):
+    many = loop.jumps * 5
+    lines = jump_facts(many, loop.geometry)
+    assert lines[0][0] == f"{len(many)} jumps"
+    assert lines[-1][1] == f"{len(many) - 12} that lost less"
+    assert jump_facts((), loop.geometry) == [("jumps", "none")]
+    facts = dict(adhesive_loop_facts(loop))
+    assert facts["pull-off force"] == written(loop.pull_off_force, "N", digits=4)
