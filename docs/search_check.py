@@ -37,6 +37,7 @@ def served(folder: Path) -> Iterator[str]:
     """Serve a folder to this machine, and give its address."""
     handler = partial(QuietHandler, directory=str(folder))
     with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        server.handle_error = lambda *_: None  # a browser that leaves a page before it has all of it
         Thread(target=server.serve_forever, daemon=True).start()
         try:
             yield f"http://127.0.0.1:{server.server_port}/"
