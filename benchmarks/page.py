@@ -1,6 +1,7 @@
 """How long the page lets its user wait: the table of docs/page.md, measured in a real browser.
 
-python benchmarks/page.py --repeats 9    needs the extras `page` and `browser`, a Chromium, and a machine that is quiet
+python benchmarks/page.py --repeats 9        needs the extras `page` and `browser`, a Chromium, and a quiet machine
+python benchmarks/page.py --picture FILE     draws docs/images/page.png instead
 
 The clock is that of the browser. It starts with what the user does (a file is dropped, the slider is moved) and stops
 with the picture that the answer gives; for what is cancelled, with the request and the end of the answer.
@@ -85,8 +86,12 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--repeats", type=int, default=9)
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--picture", type=Path)
+    options = parser.parse_args()
+    repeats = options.repeats
     with served() as address, opened(address) as page:
+        if options.picture:
+            return portray(page, options.picture)
         rows = [
             (
                 "first map after the drop of a file, 1024 x 1024",
@@ -103,6 +108,25 @@ def main() -> None:
     print("| what | goal [s] | median [s] | longest [s] |\n|---|---|---|---|")
     for what, goal, times in rows:
         print(f"| {what} | {goal} | {median(times):.2f} | {max(times):.2f} |")
+
+
+def portray(page: Page, file: Path) -> None:
+    """Draw the page with a contact and its curve."""
+    page.locator("#example").select_option("Rugged patch")
+    settled(page)
+    page.locator("[data-map=contact]").click()
+    page.locator("#start").click()
+    page.wait_for_function("() => document.getElementById('stop').disabled")
+    page.locator("#map").hover(position={"x": 300, "y": 250})
+    settled(page)
+    page.mouse.move(0, 0)
+    end = page.locator("#curve").bounding_box()
+    assert end is not None
+    page.screenshot(
+        path=file,
+        full_page=True,
+        clip={"x": 0, "y": 0, "width": 1400, "height": end["y"] + end["height"] + 20},
+    )
 
 
 @contextmanager

@@ -276,7 +276,8 @@ def test_the_archive_holds_all_and_the_commands_that_make_it(tab, part, tmp_path
     tab.settled()
     tab.page.locator("#start").click()
     tab.wait(f"() => ({POINTS})() >= 3")
-    tab.page.evaluate("() => document.getElementById('stop').click()")  # nothing, if the curve has ended meanwhile
+    # Nothing is clicked if the curve has ended meanwhile.
+    tab.page.evaluate("() => document.getElementById('stop').click()")
     tab.wait("() => document.getElementById('stop').disabled")
     _, content = exported(tab, "zip")
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
