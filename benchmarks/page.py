@@ -23,6 +23,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
+from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 import roughcontact as rc
@@ -112,14 +113,17 @@ def main() -> None:
 
 def portray(page: Page, file: Path) -> None:
     """Draw the page with a contact and its curve."""
-    page.locator("#example").select_option("Rugged patch")
+    page.locator("#example").select_option(index=3)
     settled(page)
     page.locator("[data-map=contact]").click()
     page.locator("#start").click()
+    page.wait_for_function("() => !document.getElementById('stop').disabled")
     page.wait_for_function("() => document.getElementById('stop').disabled")
     page.locator("#map").hover(position={"x": 300, "y": 250})
     settled(page)
     page.mouse.move(0, 0)
+    page.get_by_text("Points", exact=True).click()  # whose table would be cut off
+    page.evaluate("() => scrollTo(0, 0)")
     end = page.locator("#curve").bounding_box()
     assert end is not None
     page.screenshot(
