@@ -23,7 +23,6 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 import roughcontact as rc
