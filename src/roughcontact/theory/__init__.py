@@ -46,6 +46,7 @@ if TYPE_CHECKING or _LATE is None:
         pullen_williamson as pullen_williamson,
         punch as punch,
         rough_sphere as rough_sphere,
+        rough_square as rough_square,
         stepped as stepped,
         thermal as thermal,
         two_cosines as two_cosines,
