@@ -1,11 +1,15 @@
 """Laws of adhesion against the theories of a sphere, as the grid gets finer.
 
-    python benchmarks/adhesive_laws.py [--rings 120 240 480] [--numbers 0.01 0.1 0.5 1 2] [--only sharp]
+    python benchmarks/adhesive_laws.py [--rings 120 240 480] [--numbers 0.01 0.1 0.5 1 2] [--cells 64 128]
+        [--only dugdale | plane | sharp]
 
 Dugdale's law on rings against Maugis' equations: relative error of the pull-off force under a given force, of contact
 radius and depth without load, and the largest error of the force on the curve of stable states at given depths over
 the pull-off force; jumps but the pull-off, and what they lose of the work of adhesion times the square of the radius.
 The contact radius is where the gap, which grows as the distance from the edge to 3/2, extrapolates to zero.
+
+The same on planes: the contact radius without load, from the area, and the largest error of the force from there to
+the depth of the pull-off, over the pull-off force.
 
 The sharp law against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over positions of the
 sphere within a cell), a flat disc against Kendall, and square punches along the rows and turned.
@@ -86,6 +90,29 @@ def row(number: float, rings: int) -> None:
     )
 
 
+def plane(number: float, cells: int) -> None:
+    theory = DugdaleSphere.of_number(number)
+    grid = rc.Grid((cells, cells), 2.3 * float(theory.zone_radius(unloaded(theory))) / cells)
+    x = (np.arange(cells) - 0.5 * cells + 0.5) * grid.spacing[0]
+    surface = rc.Surface(-(x[:, None] ** 2 + x**2) / (2 * theory.radius), grid)
+    adhesion = rc.Adhesion(1.0, 1 / theory.strength, law="dugdale")
+    began = time.perf_counter()
+    radius = unloaded(theory)
+    radii = np.linspace(radius, 0.02, 4000)
+    pull_off = int(np.argmin(theory.force(radii)))
+    chosen = np.linspace(0, pull_off, 6).astype(int)
+    depths = theory.depth(radii[chosen]) + float(surface.heights.max())
+    states = list(rc.loading_path(surface, 1.0, depths=depths, adhesion=adhesion))
+    forces = np.array([state.force for state in states])
+    errors = np.abs(forces - theory.force(radii[chosen])) / theory.pull_off_force
+    found = math.sqrt(states[0].contact_area / math.pi)
+    print(
+        f"{number:6} {cells:6}  {found / radius - 1:+.1e}  {errors.max():.1e}  "
+        f"{max(state.residual for state in states):.0e}  {time.perf_counter() - began:6.1f} s",
+        flush=True,
+    )
+
+
 def pulled(surface: rc.Surface | rc.RadialProfile, depth: float) -> tuple[float, float, int]:
     """Return the largest tension of a stuck surface drawn back under given depths, the first, and its events."""
     sharp = rc.Adhesion(1.0, law="sharp")
@@ -143,11 +170,16 @@ def main() -> int:
     )
     parser.add_argument("--rings", type=int, nargs="+", default=[120, 240, 480])
     parser.add_argument("--numbers", type=float, nargs="+", default=[0.01, 0.1, 0.5, 1.0, 2.0])
-    parser.add_argument("--only", choices=["dugdale", "sharp"])
+    parser.add_argument("--cells", type=int, nargs="+", default=[64, 128], help="of planes")
+    parser.add_argument("--only", choices=["dugdale", "plane", "sharp"])
     options = parser.parse_args()
-    if options.only != "dugdale":
+    if options.only in (None, "sharp"):
         sharp()
-    if options.only == "sharp":
+    if options.only in (None, "plane"):
+        print("lambda  cells  radius    force    residual")
+        for cells in options.cells:
+            plane(1.0, cells)
+    if options.only not in (None, "dugdale"):
         return 0
     print("lambda  rings   zone  pull-off  radius    depth     curve    jumps lost   residual")
     for number in options.numbers:
