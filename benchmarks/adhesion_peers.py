@@ -1,12 +1,13 @@
 """Contact that sticks, here and in Adhesion and Tamaas, from heights to a state, on a periodic rough surface.
 
-    python benchmarks/adhesion_peers.py [--size 256] [--irwin 2] [--seed 0]
+    python benchmarks/adhesion_peers.py [--size 256] [--irwin 2] [--seed 0] [--limit 600]
 
 Each program runs in a process of its own and starts from nothing. Adhesion is given an offset, and minimises over the
 gap by SciPy's L-BFGS-B; the mean gap of its answer is given to Tamaas (Polonsky, Keer and Rey's algorithm on the gap)
 and, as a depth, to `roughcontact.press`. Seconds are those of the solver, imports left out. What each one ends with is
 measured alike: the largest violation of the conditions of equilibrium by an exact product, relative to the largest
-traction, cells in contact, and how far its gaps are from ours, relative to the range.
+traction, cells in contact, and how far its gaps are from ours, relative to the range. A program that takes longer than
+the limit is ended.
 
 Tamaas is under the AGPL: never a dependency, only measured. See README.md for how the programs are installed.
 """
@@ -129,6 +130,7 @@ def main() -> int:
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--irwin", type=float, default=2.0, help="Irwin's length in cells")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--limit", type=float, default=600.0, help="seconds after which a program is ended")
     parser.add_argument("--program", choices=PROGRAMS, help=argparse.SUPPRESS)
     parser.add_argument("--mean", type=float, default=0.0, help=argparse.SUPPRESS)
     parser.add_argument("--out", type=Path, help=argparse.SUPPRESS)
@@ -161,7 +163,11 @@ def _compare(options: argparse.Namespace, given: tuple[Field, float, float, floa
             "--out",
             str(folder),
         ]
-        subprocess.run(call, check=True)
+        try:
+            subprocess.run(call, check=True, timeout=options.limit)
+        except subprocess.TimeoutExpired:
+            print(f"  {program:13} not within {options.limit:g} s")
+            continue
         gaps[program] = np.load(folder / f"{program}.npy")
         lines[program] = tuple(json.loads((folder / f"{program}.json").read_text()))
         if program == "adhesion":

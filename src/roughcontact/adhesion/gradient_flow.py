@@ -1,8 +1,13 @@
-"""Where a body jumps to: the gradient flow of the energy in the gap.
+"""Where a body jumps to: down the gradient of the energy to an equilibrium.
 
-Steps of the implicit Euler method, each the minimum of the energy with springs to where it starts. Springs as stiff as
-the attraction can bend make every step convex. They soften as long as no step meets an indefinite Hessian, and the flow
-ends in an equilibrium when the energy is convex between the last step and it.
+Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998)): damped Newton steps, which are
+those of a linearly implicit Euler method. The damping of a cell is a multiple of the curvature of its own attraction,
+or for all cells that of the largest; from a multiple of one on, the damped Hessian is positive definite. It softens
+as long as no step meets an indefinite Hessian or goes too far, and the flow ends in an equilibrium when the energy is
+convex between the last step and it.
+
+Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
+equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
 """
 
 from __future__ import annotations
@@ -13,17 +18,31 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
-from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, Equilibrium, minimise
+from roughcontact.adhesion.truncated_newton import (
+    FORCING,
+    TOLERANCE,
+    Counter,
+    Equilibrium,
+    conjugate_gradients,
+    line_search,
+    minimise,
+)
 from roughcontact.validation import Array
 
 __all__ = ["Landing", "flow", "released"]
 
 STEPS = 400
-LOOSE = 5e-1  # residual of a step on the way, relative to that at its start
+FIRST = 2.0  # damping, relative to the curvature of the attraction
+FULL = 1.0  # no more is needed where the step went too far
+LEAST = 0.02  # damping where the residual is large
+SOFTEST = 1e-5  # damping
+MOST = 100.0  # at which a step that lowers no energy tells of rounding
+UNDER = 0.05  # damping where the Hessian without any is indefinite
+NEAR = 1e-2  # residual from which an equilibrium is looked for
 ROUGH = 1e-5  # residual of an equilibrium that may be the end
-STIFFEST = 4.0  # relative to the largest curvature of the attraction: every step is convex
+TRIALS = 15  # Newton steps toward it
+WAIT = 3  # steps between two such trials
 REACH = 40.0  # ranges of the attraction, beyond which it is below the rounding of its largest value
-SOFTEST = 1e-4  # springs, relative to the largest curvature of the attraction
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,15 +63,7 @@ class Landing:
 Convex = Callable[[GapEnergy, Point, Point], bool]
 
 
-def flow(
-    energy: GapEnergy,
-    start: Array,
-    convex: Convex,
-    counter: Counter,
-    *,
-    first: float = 1.0,
-    growth: float = 0.5,
-) -> Landing:
+def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, even: bool = False) -> Landing:
     """Follow the gradient flow from `start` to an equilibrium.
 
     Parameters
@@ -64,46 +75,64 @@ def flow(
         Whether the energy is convex between two points.
     counter : Counter
         Counts products.
-    first, growth : float
-        Stiffness of the first springs relative to the largest curvature of the attraction, and by what it changes from
-        step to step.
+    even : bool
+        Whether all cells are damped alike: the gradient is then that in the gap.
     """
-    largest = energy.attraction.steepest
-    spring, lost = first, 0.0
-    displacement = energy.feasible(start)
-    point = energy.at(displacement)
-    end: Equilibrium | None = None
-    age, renewed = 0, 1
+    counter.products += 1
+    point = energy.at(energy.feasible(start))
+    damping, lost, wait = FIRST, 0.0, 0
     for _ in range(STEPS):
-        step = minimise(
-            energy,
-            displacement,
-            counter,
-            tolerance=max(TOLERANCE, LOOSE * energy.residual(point) / energy.scale(point)),
-            proximal=spring * largest,
-            iterations=60,
-            convex_only=spring < STIFFEST,
+        residual, scale = energy.residual(point), energy.scale(point)
+        if (
+            residual <= TOLERANCE * scale
+        ):  # at rest, though a cell that the wall hardly holds may bend the energy
+            return Landing(Equilibrium(point, residual / scale, True, True, lost), lost)
+        near = residual <= NEAR * scale
+        if near and damping < LEAST:
+            if wait == 0:
+                end = _end(energy, point, convex, counter)
+                if end is not None:
+                    return Landing(end, lost - energy.change(point, end.point))
+                wait = WAIT
+            wait -= 1
+        free = point.free
+        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
+        weights = energy.attraction.steepest if even else curvature
+        step, negative = conjugate_gradients(
+            energy.form, free, curvature - damping * weights, -point.reaction, FORCING, counter
         )
-        if not step.converged and spring < STIFFEST:
-            spring *= 4
+        found = None if negative else line_search(energy, point, step, counter)
+        if found is None:
+            if damping > MOST:
+                break
+            damping = max(4 * damping, UNDER)
             continue
-        lost -= energy.change(point, step.point)
-        point, displacement = step.point, step.point.displacement
+        new, change = found
+        lost -= change
+        too_far = _pushed_back(point, new) > residual
+        point = new
         if released(energy, point):
-            return Landing(step, lost)
-        spring = max(SOFTEST, growth * spring)
-        age += 1
-        if end is None or age >= renewed:
-            found = minimise(energy, displacement, counter, tolerance=ROUGH, convex_only=True)
-            end, age, renewed = (found if found.converged else None), 0, min(2 * renewed, 8)
-        # An equilibrium that was found from an earlier point is as good, if nothing lies between it and this one.
-        if end is not None and convex(energy, point, end.point):
-            end = minimise(energy, end.point.displacement, counter, convex_only=True)
-            if end.converged:
-                return Landing(end, lost - energy.change(point, end.point))
-            end = None
-    end = minimise(energy, displacement, counter)
+            return Landing(Equilibrium(point, 0.0, True, True, lost), lost)
+        damping = min(FULL, 2 * damping) if too_far else max(damping / 2, SOFTEST if near else LEAST)
+    end = minimise(energy, point.displacement, counter)
     return Landing(end, lost + end.lost)
+
+
+def _end(energy: GapEnergy, point: Point, convex: Convex, counter: Counter) -> Equilibrium | None:
+    """Return the equilibrium near a point, if the energy is convex in between."""
+    rough = minimise(
+        energy, point.displacement, counter, tolerance=ROUGH, iterations=TRIALS, convex_only=True
+    )
+    if not (rough.converged and convex(energy, point, rough.point)):
+        return None
+    end = minimise(energy, rough.point.displacement, counter, convex_only=True)
+    return end if end.converged else None
+
+
+def _pushed_back(old: Point, new: Point) -> float:
+    """Return the largest traction [Pa] against the way that a cell has moved: none has gone too far where it is 0."""
+    moved = new.displacement - old.displacement
+    return float(np.max(new.reaction * np.sign(np.where(new.free, moved, 0.0))))
 
 
 def released(energy: GapEnergy, point: Point) -> bool:

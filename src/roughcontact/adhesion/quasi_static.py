@@ -16,13 +16,14 @@ from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import flow, released
 from roughcontact.adhesion.reduced_hessian import smallest_ratio
-from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, minimise
+from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, Equilibrium, minimise
 from roughcontact.validation import Array
 
 __all__ = ["Jump", "QuasiStatic", "Station"]
 
 MOVED = 1e-2  # of the range of the attraction: below, a body has not jumped
 ON_THE_WAY = 1e-6  # residual of states that nobody asked for
+ROUGH = 1e-4  # residual at which the way of a step is judged first
 SAME = 1e-5  # of the range of the attraction: gaps of two states that are one
 
 
@@ -81,11 +82,16 @@ class Station:
 
 @dataclass(slots=True)
 class _Stride:
-    """How far to go: bisection toward the nearest depth that was missed, twice as far from step to step without one."""
+    """How far to go: twice as far from step to step; toward a value that was missed, by bisection.
+
+    Where a step was missed, the end of the branch may be at any distance, near as far: every further miss squares the
+    part that is tried, and between a step that is taken and one that is missed lies their geometric mean.
+    """
 
     least: float
     length: float
-    barrier: float = np.inf  # distance of the depth that was missed
+    barrier: float = np.inf  # distance of the value that was missed
+    misses: int = 0
     row: int = 0
 
     def next(self) -> float:
@@ -98,10 +104,12 @@ class _Stride:
     def taken(self, length: float) -> None:
         self.row = 0 if length >= self.barrier else self.row + 1
         self.barrier = self.barrier - length if length < self.barrier else np.inf
-        self.length = 2 * length
+        self.length = max(2 * length, math.sqrt(length * self.barrier) if self.barrier < np.inf else 0.0)
+        self.misses = 0
 
     def missed(self, length: float) -> None:
-        self.barrier, self.row, self.length = length, 0, length / 2
+        self.misses += 1
+        self.barrier, self.row, self.length = length, 0, length * 0.5 ** (2 ** (self.misses - 1))
 
 
 @dataclass(slots=True)
@@ -132,6 +140,9 @@ class QuasiStatic:
         if released(self.control.energy_at(target), station.point):
             return Station(target, station.point, station.residual, True)
         here, stride = station, _Stride(self.bracket, abs(target - station.value))
+        change: Array | float = (
+            0.0  # of the displacement with what is prescribed, beyond what the wall takes along
+        )
         while here.value != target:
             left = target - here.value
             length = min(stride.next(), abs(left))
@@ -140,19 +151,36 @@ class QuasiStatic:
             begin = energy.carried(here.point)
             # On the way a state need be no better than the step is long: as sharp as a state asked for at the bracket.
             tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
-            end = minimise(energy, begin.displacement, self.counter, tolerance=tolerance, convex_only=True)
-            if end.converged and self._convex(energy, begin, end.point, here.point):
+            # Where a step was missed, more will be, and a rough solution shows most of them.
+            rough = (ROUGH,) if stride.barrier < math.inf and tolerance < ROUGH else ()
+            guess = begin.displacement + length * change
+            end = self._end(energy, here.point, begin, guess, (*rough, tolerance))
+            if end is not None:
+                change = (end.point.displacement - begin.displacement) / length
                 here = Station(value, end.point, end.residual, True)
                 stride.taken(length)
             elif length > self.bracket:
                 stride.missed(length)
             else:
                 here, jump = self._jump(here, value, energy, begin)
+                change = 0.0
                 jumps += [jump] if jump else []
                 if released(energy, here.point):
                     break
                 stride = _Stride(self.bracket, abs(target - here.value))
         return Station(target, here.point, here.residual, here.converged, tuple(jumps))
+
+    def _end(
+        self, energy: GapEnergy, before: Point, begin: Point, guess: Array, tolerances: tuple[float, ...]
+    ) -> Equilibrium | None:
+        """Return the state at the end of a step, if the energy is strictly convex from its begin to there."""
+        end: Equilibrium | None = None
+        for tolerance in tolerances:
+            end = minimise(energy, guess, self.counter, tolerance=tolerance, convex_only=True)
+            if not (end.converged and self._convex(energy, begin, end.point, before)):
+                return None
+            guess = end.point.displacement
+        return end
 
     def _jump(
         self, here: Station, value: float, energy: GapEnergy, begin: Point
@@ -166,7 +194,7 @@ class QuasiStatic:
         if moved < MOVED * scale and end.converged:
             return station, None  # the branch goes on, too flat for the test of convexity
         off = released(energy, end.point)
-        other = flow(energy, start, self._convex, self.counter, first=4.0, growth=0.7).equilibrium
+        other = flow(energy, start, self._convex, self.counter, even=True).equilibrium
         apart = float(np.abs(end.point.displacement - other.point.displacement).max())
         jump = Jump(
             self.control.depth(here.value, here.point),

@@ -9,15 +9,15 @@ gradient flow in the gap.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from roughcontact.adhesion.elastic_form import ElasticForm
-from roughcontact.adhesion.gap_energy import GapEnergy, Point, balance
+from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Counter", "Equilibrium", "conjugate_gradients", "minimise"]
+__all__ = ["Counter", "Equilibrium", "conjugate_gradients", "line_search", "minimise"]
 
 TOLERANCE = 1e-10  # of the residual: a hundredth of what is promised, for the product that certifies
 ITERATIONS = 400
@@ -66,7 +66,6 @@ def minimise(
     counter: Counter,
     *,
     tolerance: float = TOLERANCE,
-    proximal: float = 0.0,
     iterations: int = ITERATIONS,
     convex_only: bool = False,
 ) -> Equilibrium:
@@ -81,8 +80,6 @@ def minimise(
         Counts products.
     tolerance : float
         Relative residual.
-    proximal : float
-        Stiffness [Pa/m] by which cells are held to `start`, as in one step of the implicit gradient flow.
     iterations : int
         At most.
     convex_only : bool
@@ -90,21 +87,19 @@ def minimise(
     """
     counter.products += 1
     point = energy.at(energy.feasible(start))
-    anchor = point.displacement
     shift, lost, indefinite = 0.0, 0.0, False
     residual = math.inf
     for _ in range(iterations):
-        held = _held(energy, point, anchor, proximal)
-        residual = energy.residual(held) / energy.scale(point)
+        residual = energy.residual(point) / energy.scale(point)
         if residual <= tolerance:
             return Equilibrium(point, residual, True, indefinite, lost)
-        free = held.free
-        bent = np.where(free, energy.attraction.curvature(point.gap), 0.0)
-        curvature, most = bent - proximal, float(np.max(bent))
+        free = point.free
+        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
+        most = float(np.max(curvature))
         # No closer than what is wanted: the last system need not be solved beyond the tolerance.
         forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
         step, negative = conjugate_gradients(
-            energy.form, free, curvature - shift, -held.reaction, forcing, counter
+            energy.form, free, curvature - shift, -point.reaction, forcing, counter
         )
         if negative:
             indefinite = True
@@ -112,7 +107,7 @@ def minimise(
                 break
             shift = max(2 * shift, SHIFT * most)
             continue
-        found = _search(energy, point, step, anchor, proximal, counter)
+        found = line_search(energy, point, step, counter)
         if found is None:
             if shift > STIFFEST * most:
                 break
@@ -124,33 +119,15 @@ def minimise(
     return Equilibrium(point, residual, False, indefinite, lost)
 
 
-def _held(energy: GapEnergy, point: Point, anchor: Array, proximal: float) -> Point:
-    """Return the point with the force of the springs of a step of gradient flow."""
-    if proximal == 0:
-        return point
-    reaction = point.reaction + proximal * (point.displacement - anchor)
-    reaction[~np.isfinite(point.gap)] = point.reaction[~np.isfinite(point.gap)]
-    if energy.form.mean_free:
-        reaction += balance(reaction, point.gap > 0)  # the springs take part in what holds the mean
-    return replace(point, reaction=reaction)
-
-
-def _search(
-    energy: GapEnergy, point: Point, step: Array, anchor: Array, proximal: float, counter: Counter
-) -> tuple[Point, float] | None:
-    """Return the first point along the projected step whose energy is lower, and by how much it changed."""
+def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) -> tuple[Point, float] | None:
+    """Return the first point along the projected step whose energy is lower, and by how much it changed [J]."""
     length = 1.0
     for _ in range(HALVINGS):
         trial = energy.feasible(point.displacement + length * step)
         counter.products += 1
         new = energy.at(trial)
-        move = trial - point.displacement
         change = energy.change(point, new)
-        held = _held(energy, point, anchor, proximal)
-        if proximal:
-            springs = np.where(np.isfinite(point.gap), move * (0.5 * move + point.displacement - anchor), 0.0)
-            change += proximal * float(np.sum(springs * energy.form.weights))
-        slope = energy.form.dot(held.reaction, move)
+        slope = energy.form.dot(point.reaction, trial - point.displacement)
         if slope < 0 and change <= ARMIJO * slope:
             return new, change
         length *= 0.5
