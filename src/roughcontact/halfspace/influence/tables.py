@@ -19,6 +19,8 @@ __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
 # Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
 SMALL_TABLE = 64
+LARGE_PLANE = 2**26  # cells of a period from which on waves are taken by columns, so many of them at a time
+FEW_WAVES = 64
 MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that their offsets stay in cache
 # Cells to the side of the first table: single values cost much within, and a short series beyond.
 FIRST_TABLE = 64
@@ -129,7 +131,13 @@ class Periodic:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        return table_of_waves(self.transfer_function(), self.grid.shape, shape)
+        (ny, nx), waves = self.grid.shape, self.grid.shape[1] // 2 + 1
+        if max(shape) > SMALL_TABLE or ny * nx <= LARGE_PLANE:
+            return table_of_waves(self.transfer_function(), self.grid.shape, shape)
+        # Of planes in slabs no process has room for all waves; a few columns of the table are made of some at a time.
+        along, across = _waves(ny, shape[0]), _waves(nx, shape[1])
+        parts = (slice(start, start + FEW_WAVES) for start in range(0, waves, FEW_WAVES))
+        return np.asarray(sum(along @ self.transfer_function(part) @ across[:, part].T for part in parts))
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
