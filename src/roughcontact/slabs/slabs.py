@@ -82,7 +82,7 @@ class Slabs:
         Parameters
         ----------
         local : array
-            Those of `rows`.
+            Those that ``rows`` says, which are copied.
 
         Returns
         -------
@@ -92,7 +92,7 @@ class Slabs:
         Raises
         ------
         ValueError
-            If the rows are not as many as `rows` says, or differ in length or type.
+            If the rows are not as many as ``rows`` says, or differ in length or type.
         """
         own = np.array(local, order="C")
         given = self.communicator.allgather((own.shape, own.dtype))
