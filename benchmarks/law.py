@@ -15,17 +15,17 @@ from __future__ import annotations
 import argparse
 import re
 import time
-import tomllib
 from pathlib import Path
 
 from law_check import check
-from law_ensembles import FOLDER, ROOT, STUDIES, collect, error, read
+from law_counts import counts, runs
+from law_ensembles import FOLDER, ROOT, STUDIES, collect
 from law_findings import findings
 from law_formula import formula
 from law_others import e3, e4, e5, e6, e7
 from law_pictures import pictures
-from law_tables import e1, e1_laws, e2, markdown
-from reproduction import save
+from law_tables import e1, e2, markdown
+from reproduction import save, write
 
 from roughcontact.study.cases.curve_case import CASE
 from roughcontact.study.study import Study
@@ -33,23 +33,7 @@ from roughcontact.study.task import generator
 
 PAGE = ROOT / "docs" / "law.md"
 PARTS = (formula, e1, e2, e3, e4, e5, e6, e7)
-WANTED = {"alpha": 0.005, "zeta": 0.015}  # standard errors
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
-
-
-def runs(folder: Path = FOLDER) -> str:
-    """Return a table of the ensembles: what they are, how many samples they have, and what that took."""
-    rows = []
-    for path in sorted(STUDIES.glob("*.toml")):
-        text = path.read_text(encoding="utf-8")
-        asked = tomllib.loads(text)["samples"]
-        words = " ".join(line.lstrip("# ") for line in text.split("\nname")[0].splitlines())
-        words = re.split(r"[.:] ", words.partition(": ")[2])[0].rstrip(".")
-        found = read(path.stem, folder)
-        done = ("0", "-") if found is None else (str(found.sizes["sample"]), f"{found.attrs['hours']:.1f}")
-        name = f"[`{path.stem}`](../examples/law/{path.name})"
-        rows.append([name, words, str(asked), *done])
-    return markdown((["study", "what", "samples wanted", "done", "hours"], rows))
 
 
 def checked() -> str:
@@ -71,26 +55,6 @@ def tables(folder: Path = FOLDER) -> dict[str, str]:
         found |= each(folder)
     said = findings(folder) + [found.pop(name) for name in [*found] if name.endswith(" said")]
     return found | {"findings": "\n".join(f"{number}. {words}" for number, words in enumerate(said, 1))}
-
-
-def counts(folder: Path = FOLDER) -> str:
-    """Return a table of how single surfaces of E1 scatter, and how many of them the errors take that are wanted."""
-    ensemble = read("e1-surfaces", folder)
-    if ensemble is None:
-        return "Not computed yet."
-    laws = e1_laws(ensemble)
-    samples = laws.attrs["samples"]
-    scatter = [error(laws[f"{name}_mean"], samples) * samples**0.5 for name in WANTED]
-    rows = [
-        [
-            f"{float(h):g}",
-            *(f"{one:.2f}" for one in pair),
-            *(f"{(one / wanted) ** 2:.0f}" for one, wanted in zip(pair, WANTED.values(), strict=True)),
-        ]
-        for h, *pair in zip(laws["hurst"], *(each.to_numpy() for each in scatter), strict=True)
-    ]
-    names = [f"surfaces for {name} to {wanted:g}" for name, wanted in WANTED.items()]
-    return markdown((["H", *(f"scatter of {name}" for name in WANTED), *names], rows))
 
 
 def cost() -> None:
@@ -127,6 +91,7 @@ def main() -> None:
     PAGE.write_text(filled(text, tables() | {"check": checked()}), encoding="utf-8", newline="\n")
     for name, picture in pictures():
         print(f"{name}: {save(picture, FOLDER / f'{name}.png') / 1e3:.0f} kB")
+    write()  # some of the thesis' claims are judged by these ensembles
 
 
 if __name__ == "__main__":

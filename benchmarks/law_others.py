@@ -127,13 +127,16 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
 
 def e5(folder: Path = FOLDER) -> dict[str, str]:
     """Return stiffnesses of nominally flat surfaces, free and periodic, and of patches."""
-    tables = {}
+    tables, told = {}, {}
     for name in ("e5-flat", "e5-flat-1024"):
         ensemble = read(name, folder)
         if ensemble is not None:
+            samples = ensemble.sizes["sample"]
             head, body = flat(ensemble)
-            tables[name] = markdown((head, body))
-            tables["e5 said"] = flat_words(int(ensemble["points"]), ensemble.sizes["sample"], body)
+            tables[name] = markdown((head, body)) + f"\n\n{samples} surfaces."
+            told[samples] = flat_words(int(ensemble["points"]), samples, body)
+    if told:
+        tables["e5 said"] = told[max(told)]
     patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
     if patches is not None:
         tables["e5-patches"] = markdown(patched(patches, whole))

@@ -29,11 +29,12 @@ def pictures(folder: Path = FOLDER) -> Iterator[tuple[str, Figure]]:
     ensembles = on_grids(folder)
     for name, (words, wanted) in LIMITS.items():
         same = nested(ensembles, wanted)
-        if len(same) >= 3:
+        if len(same) == len(wanted):
             yield name, drawn(4.4, convergence, same, words)
-    every = nested(ensembles, LIMITS["e2-all"][1])
-    if len(every) >= 2:
-        yield "local-exponents", drawn(4.4, local_exponents, every)
+    for name, limit in (("local-exponents", "e2-all"), ("local-exponents-2048", "e2-all-2048")):
+        every = nested(ensembles, LIMITS[limit][1])
+        if len(every) == len(LIMITS[limit][1]):
+            yield name, drawn(4.4, local_exponents, every)
 
 
 def drawn(height: float, draw: Any, *given: Any) -> Figure:

@@ -17,10 +17,11 @@ import io
 import json
 import sys
 import tomllib
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, cast
 
+import law_verdicts
 import numpy as np
 import reproduction_page
 import xarray
@@ -60,7 +61,19 @@ def entries(folder: Path = FOLDER) -> tuple[Entry, ...]:
     """Return what `folder` says about every figure."""
     captions = tomllib.loads((folder / "captions.toml").read_text(encoding="utf-8"))
     found = read_simple(folder)
-    return tuple(_entry(name, captions[name], found.get(name), folder) for name in FIGURES)
+    larger = law_verdicts.rulings(folder / "law")
+    return tuple(
+        _by_larger(_entry(name, captions[name], found.get(name), folder), larger) for name in FIGURES
+    )
+
+
+def _by_larger(entry: Entry, larger: list[law_verdicts.Larger]) -> Entry:
+    """Return what is said about a figure, with claims that it leaves open judged by larger ensembles."""
+    judged = tuple(law_verdicts.judged(verdict, entry.name, larger) for verdict in entry.verdicts)
+    finding = entry.finding
+    if finding and judged and judged[0].word != entry.verdicts[0].word:
+        finding += f" Larger ensembles decide that {judged[0].claim}: this {judged[0].word}."
+    return replace(entry, verdicts=judged, finding=finding)
 
 
 def read_simple(folder: Path) -> dict[str, Any]:
@@ -226,6 +239,12 @@ def save(picture: Figure, path: Path) -> int:
     return path.stat().st_size
 
 
+def write() -> None:
+    """Write both pages, of what is there."""
+    PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    CHANGES.write_text(changes(), encoding="utf-8", newline="\n")
+
+
 def main() -> None:
     """Draw what is asked for, and write the page."""
     parser = argparse.ArgumentParser(
@@ -244,8 +263,7 @@ def main() -> None:
         collect(options.collect)
     for name in options.figures or FIGURES:
         draw(name)
-    PAGE.write_text(page(), encoding="utf-8", newline="\n")
-    CHANGES.write_text(changes(), encoding="utf-8", newline="\n")
+    write()
 
 
 if __name__ == "__main__":

@@ -107,6 +107,9 @@ RULES = f"""## How claims are judged
   verdict.
 * Values along H may share their random phases. The error of a difference between them is taken as the sum of both, its
   upper bound, also between grids and laws of the same surfaces: a verdict that needs a smaller one is not decided.
+* A claim that the ensemble of its figure leaves open is judged by a larger one of [law.md](law.md), where there is
+  one, with the same tolerance, and by the errors of differences as drawing surfaces again gives them; the last column
+  says so.
 * Averages over samples are arithmetic means at one force; power laws are fitted to their logarithms.
 
 How each verdict came about, and what it was by the rules before: [reproduction-verdicts.md](reproduction-verdicts.md).

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import xarray
 
+import roughcontact as rc
+
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
 
@@ -70,8 +72,42 @@ def check_partial_slip(stdout, _):
     assert float(loss) == pytest.approx(float(expected), rel=0.01)
 
 
+def check_contact_challenge(stdout, folder):
+    """The slope of the waves that fit, from rms slope 1 of the whole; the range that Irwin's length asks for."""
+    low, bend, high = (2 * np.pi / wave for wave in (1e-4, 20e-6, 1e-7))
+    flat = bend**-3.6 * (bend**4 - low**4) / 4
+    scale = 1 / (2 * np.pi * (flat + (high**0.4 - bend**0.4) / 0.4))  # of C2D = scale q^-3.6
+    step = 2 * np.pi / 2.5e-7
+    q = step * np.hypot(*np.meshgrid(np.arange(-24, 24), np.arange(-24, 24)))
+    kept = (q > 0) & (q <= high)
+    slope = np.sqrt(np.sum(scale * q[kept] ** -1.6) * step**2)
+    # Three digits are printed, of waves of which those of nearly one length stand together (Waves.of_heights).
+    assert float(re.search(r"rms slope (\S+)", stdout)[1]) == pytest.approx(slope, abs=5e-4, rel=1e-3)
+    gap = np.sqrt(1.501 * 2.5e-7 / 48 * np.pi * 0.05 / 25e6) * 1e9
+    assert float(re.search(r"range (\S+) nm", stdout)[1]) == pytest.approx(gap, abs=5.1e-3)
+    plain, *areas = (float(word) for word in re.findall(r"contact (\S+),", stdout))
+    assert len(areas) == 5
+    assert areas[2] > plain, "the attraction adds contact"
+    assert max(float(word) for word in re.findall(r"residual (\S+);", stdout)) <= 1e-8
+    challenge = [
+        sys.executable,
+        str(EXAMPLES / "contact_challenge.py"),
+        "--file",
+        "own.npz",
+        "--range",
+        "1e-7",
+    ]
+    surface = rc.self_affine(rc.Grid((16, 16), 1e-7), 0.8, rms=1e-8, rng=np.random.default_rng(1))
+    rc.write(surface, folder / "own.npz")
+    answer = subprocess.run(challenge, capture_output=True, encoding="utf-8", cwd=folder, check=False)
+    assert answer.returncode == 0, answer.stderr
+    assert answer.stdout.startswith("16 x 16 cells, 1.6 x 1.6 um")
+    assert "range 100.00 nm" in answer.stdout
+
+
 # Script -> its arguments, where FOLDER is an empty folder, and the check of its number.
 CHECKS = {
+    "contact_challenge.py": (["--side", "2.5e-7", "--cells", "48"], check_contact_challenge),
     "demo.py": (["--out", "FOLDER"], check_demo),
     "ehl_line.py": ([], check_ehl_line),
     "squeeze_film.py": ([], check_squeeze_film),

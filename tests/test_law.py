@@ -146,3 +146,27 @@ def test_whole_samples_are_kept_and_grids_of_one_surface_are_found(script, tmp_p
             one["dimensionless_stiffness"], stiffness, rtol=2.0**-23
         )  # single precision
         assert float(one["cell_stiffness"]) == float(np.ravel(exported["cell_stiffness"])[0])
+
+
+def test_the_library_has_the_law_of_the_ensembles(script):
+    """Its table is that of the file, to the last digit, and so are exponents, prefactors and their errors."""
+    from law_ensembles import error, read, value
+    from law_formula import table
+    from law_tables import e1_laws
+
+    from roughcontact.theory import rough_square
+
+    ensemble = read("e1-surfaces")
+    laws = e1_laws(ensemble)
+    samples = laws.attrs["samples"]
+    assert [tuple(map(float, row)) for row in table(laws)] == list(rough_square._TABLE)
+    hurst = laws["hurst"].to_numpy()
+    for computed, one, spread in (
+        (laws["alpha_mean"], rough_square.exponent(hurst), rough_square.exponent_error(hurst)),
+        (laws["zeta_mean"], rough_square.prefactor(hurst), rough_square.prefactor_error(hurst)),
+    ):
+        # The digits of the table: a fiftieth of the errors.
+        np.testing.assert_array_less(abs(value(computed) - one), error(computed, samples) / 50)
+        # Linear: an error of 4 % has squares of 0.2 %, and two digits of a correlation are 2 % of an error.
+        np.testing.assert_allclose(spread, error(computed, samples), rtol=0.03)
+    assert f"{rough_square.LEAST_STIFFNESS:g}" == f"{20 * float(ensemble['cell_stiffness'][0]):.2g}"

@@ -28,7 +28,9 @@ def script():
     sys.modules[spec.name] = found  # where data classes look for it
     spec.loader.exec_module(found)
     yield found
-    del sys.modules[spec.name], sys.modules["reproduction_page"]
+    for name in [*sys.modules]:
+        if name.startswith("law_") or name in (spec.name, "reproduction_page"):
+            del sys.modules[name]
     sys.path.remove(str(ROOT / "benchmarks"))
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("curve_html", "loop_html", "solution_html", "surface_html"),
+    *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
     *("plot_adhesive_loop", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
 ]
 
@@ -274,3 +274,17 @@ def loop_html(loop: Loop) -> str:
     from roughcontact.plot import notebook
 
     return notebook.of_loop(loop)
+
+
+def state_html(state: AdhesiveState) -> str:
+    """Return a state of surfaces that stick as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_state(state)
+
+
+def adhesive_loop_html(loop: AdhesiveLoop) -> str:
+    """Return a path of surfaces that stick as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_adhesive_loop(loop)

@@ -103,6 +103,36 @@ def test_forces_go_up_and_down(invoke, rough):
     assert record["branch"] == ["approach"] * 3 + ["retreat"]
 
 
+def test_mean_gaps_are_those_of_the_library(invoke, tmp_path):
+    surface = rc.self_affine(
+        rc.Grid((16, 16), 1e-6, periodic=True), 0.8, rms=1e-7, rng=np.random.default_rng(5)
+    )
+    rc.write(surface, tmp_path / "whole.npz")
+    words = ("curve", tmp_path / "whole.npz", *MODULUS, *STICKS, "--mean-gaps", "0.5um:0.2um:3,0.4um")
+    answer = invoke(*words, "--json")
+    assert answer.exit_code == 0, answer.stderr
+    record = json.loads(answer.stdout)
+    curve = rc.loading_curve(
+        rc.read(tmp_path / "whole.npz"), 10e6, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7], adhesion=ADHESION
+    )
+    # Texts and numbers are of the last digit apart, and the tolerance of the states is 1e-8.
+    np.testing.assert_allclose(record["mean_gap"], [5e-7, 3.5e-7, 2e-7, 4e-7], rtol=1e-9)
+    np.testing.assert_allclose(record["force"], curve.force, rtol=1e-8)
+    assert record["branch"] == ["approach", "approach", "approach", "retreat"]
+
+
+def test_mean_gaps_are_refused_where_the_library_refuses_them(invoke, rough):
+    gaps = ("--mean-gaps", "0.5um,0.2um")
+    answer = invoke("curve", rough, *MODULUS, *STICKS, *gaps)
+    assert (answer.exit_code, "the body is not periodic" in answer.stderr) == (2, True)
+    answer = invoke("curve", rough, *MODULUS, *gaps)
+    assert (answer.exit_code, "mean gaps are prescribed with adhesion alone" in answer.stderr) == (2, True)
+    both = invoke("curve", rough, *MODULUS, *STICKS, *gaps, "--depths", "10nm")
+    assert "--depths and --mean-gaps exclude each other" in both.stderr
+    loop = invoke("curve", rough, *MODULUS, *STICKS, *gaps, "--loop")
+    assert "--loop of surfaces that stick goes by depth" in loop.stderr
+
+
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
     whole = rc.loading_path
 
@@ -171,7 +201,7 @@ def test_what_does_not_fit_together_is_refused(invoke, rough, given, says):
         (("press", "--force", "1uN", *STICKS, "--theory", "persson"), "--theory is about surfaces"),
         (("press", "--depth", "-5nm"), "the depth counts from first touch"),
         (("curve", "--pressures", "1kPa", *STICKS), "give --forces, pressures times area, or --depths"),
-        (("curve", *STICKS), "give the loads of surfaces that stick (--depths or --forces)"),
+        (("curve", *STICKS), "give the loads of surfaces that stick (--depths or --forces or --mean-gaps)"),
         (("curve", "--loop", "--forces", "1uN", *STICKS), "goes by depth"),
         (("curve", "--loop", "--depths", "1nm,2nm", *STICKS), "give one, such as --depths 20nm"),
         (("curve", "--loop", "--depths", "1nm", "--points", "1", *STICKS), "from 2 to 10000 depths, not 1"),

@@ -270,6 +270,26 @@ def test_a_notebook_shows_lines_and_rings(kind):
         shown(body)
 
 
+@pytest.mark.parametrize("law", ["exponential", "sharp"])
+def test_a_notebook_shows_surfaces_that_stick(law):
+    rings = rc.RadialGrid.uniform(40, radius=6e-7)
+    ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    sharp = law == "sharp"
+    adhesion = rc.Adhesion(work=10e-3, law=law) if sharp else rc.Adhesion(work=10e-3, range=4e-9)
+    depths = [10e-9, 0.0, -20e-9]
+    state = next(rc.loading_path(ball, 1e8, depths=depths, adhesion=adhesion))
+    facts = dict(shown(state))
+    assert facts["depth"] == "10 nm"
+    assert ("Irwin's length" in facts) is not sharp
+    loop = rc.loading_curve(ball, 1e8, depths=depths, adhesion=adhesion)
+    rows = shown(loop)
+    assert facts["adhesion"] in [row[1] for row in rows if row[0] == "adhesion"]
+    (head,) = [row for row in rows if row[0] == "branch"]
+    branches = ["approach" if way else "retreat" for way in loop.approach]
+    assert [row[0] for row in rows[rows.index(head) + 1 :]] == branches
+    assert any(row[1].startswith("out at") for row in rows if len(row) == 2), "the pull-off"
+
+
 def test_a_curve_becomes_a_table_with_a_row_a_load(curve):
     frame = curve.to_dataframe()
     assert list(frame.index) == list(range(len(curve)))

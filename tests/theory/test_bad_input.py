@@ -37,6 +37,7 @@ from roughcontact.theory import (
     pullen_williamson,
     punch,
     rough_sphere,
+    rough_square,
     stepped,
     thermal,
     two_cosines,
@@ -131,6 +132,7 @@ OTHERS = {
     "hertz.line": {"modulus": 1e9, "radius": 1e-3, "force": 1e2},
     "hertz.elliptic": {"modulus": 1e9, "radii": (1e-3, 2e-3), "force": 1e-2},
     "power_law_indenter.contact": {"modulus": 1e9, "coefficient": 1e2, "force": 1e-2},
+    **{f"rough_square.{one}": {"force": 0.003} for one in ("stiffness", "relative_error")},  # in its window
     "conductance.law": {"resistivities": (1e-8, 2e-8)},
     "interaction.finite_body": {"law": greenwood_williamson.law(ROUGH, 1e9, 1e-6)},
     "punch.two_discs": {"spacing": 5e-3},
@@ -149,6 +151,7 @@ MODULES = {
     "interaction": interaction, "mindlin": mindlin, "nayak": nayak, "partial_moments": partial_moments, "punch": punch,
     "persson": persson, "persson_separation": persson_separation, "plasticity": plasticity, "thermal": thermal,
     "pohrt_popov": pohrt_popov, "power_law_indenter": power_law_indenter, "rough_sphere": rough_sphere,
+    "rough_square": rough_square,
     "two_cosines": two_cosines, "chang_etsion_bogy": chang_etsion_bogy, "kogut_etsion": kogut_etsion,
     "persson_plastic": persson_plastic, "pullen_williamson": pullen_williamson,
 }  # fmt: skip

@@ -21,6 +21,7 @@ from roughcontact.theory import (
     pohrt_popov,
     pullen_williamson,
     rough_sphere,
+    rough_square,
 )
 
 MODULUS, AREA, LENGTH = 1e11, 4e-6, 2e-3
@@ -50,6 +51,7 @@ DIRECT = {
     "persson-plastic": persson_plastic.law(SPECTRUM, 2e9, MODULUS, AREA),
     "pullen-williamson": pullen_williamson.law(2e9, AREA),
     "power-law": pohrt_popov.law(0.8, 1e-6, LENGTH, MODULUS),
+    "rough-square": rough_square.law(0.8, 1e-6, LENGTH, MODULUS),
     "hertz": hertz.law(0.5, MODULUS),
     "rough-sphere": rough_sphere.law(0.5, 0.8, 1e-6, LENGTH, MODULUS),
 }
@@ -64,7 +66,7 @@ def test_is_the_law_of_the_theory(name):
     law, direct = laws.named(name, **FACTS), DIRECT[name]
     assert law.name == direct.name
     assert set(law.quantities) == set(direct.quantities)
-    forces = np.array([0.01, 0.1])
+    forces = max(law.domain[0], 0.01) * np.array([1.0, 10.0])
     for quantity in law.quantities:
         values = law.predict(quantity, forces)
         assert np.isfinite(values).all()

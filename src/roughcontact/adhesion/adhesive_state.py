@@ -22,7 +22,7 @@ from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
-from roughcontact.pictures import plot_state
+from roughcontact.pictures import plot_state, state_html
 from roughcontact.solver.control import Status
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -267,6 +267,7 @@ class AdhesiveState:
         return state_record(self)
 
     plot = plot_state
+    _repr_html_ = state_html
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

@@ -27,7 +27,7 @@ from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.sticking_curve import curve_sticking
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
-from roughcontact.cli.unit_options import parse_loads, parse_path
+from roughcontact.cli.unit_options import LENGTH, parse_loads, parse_path
 from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
 
@@ -56,6 +56,7 @@ roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --har
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
 roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --loop --depths 100nm --out result
 roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --forces 0N,1mN,-1mN
+roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --periodic --mean-gaps 3um:1um:5,3um
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
@@ -79,10 +80,25 @@ class Loads:
         "negative, and from:to:count is evenly spaced; with --work and --loop one depth, where it turns.",
         "1nm:1um:100",
     )
+    mean_gaps: str | None = option(
+        "Mean gaps of surfaces that stick (--work), on whole periodic maps, likewise.", "100nm:20nm:9"
+    )
 
     def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64] | None]:
-        """Return what the loads are, and their values in SI units; None where they were left out."""
+        """Return what the loads are, and their values in SI units; None where they were left out.
+
+        Raises
+        ------
+        UsageError
+            If several are named, or their text is none.
+        ValueError
+            If they are mean gaps.
+        """
         given = asdict(self)
+        if (gaps := given.pop("mean_gaps")) is not None:
+            from roughcontact.contact.sticking import refuse_gaps
+
+            refuse_gaps(parse_path(gaps, LENGTH, "--mean-gaps"))
         if not any(text is not None for text in given.values()):
             return "forces", None
         name = options.only_one(given, "the loads")
@@ -96,15 +112,15 @@ class Loads:
         UsageError
             If they are pressures, or none are named: no search finds them.
         """
-        given = asdict(self)
-        if given["pressures"] is not None:
+        if self.pressures is not None:
             raise UsageError(
                 "--pressures does not go with --work: give --forces, pressures times area, or --depths"
             )
-        name = options.only_one(
-            {key: given[key] for key in ("depths", "forces")}, "the loads of surfaces that stick"
-        )
-        return name, parse_path(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
+        given = {"depths": self.depths, "forces": self.forces, "mean-gaps": self.mean_gaps}
+        option = options.only_one(given, "the loads of surfaces that stick")
+        name, text = option.replace("-", "_"), given[option]
+        assert text is not None
+        return name, parse_path(text, kinds_of(body)[name.removesuffix("s")], f"--{option}")
 
 
 def curve(

@@ -77,11 +77,11 @@ PROFILE: ProfileBody | None = option(
 
 
 def kinds_of(body: ProfileBody | None) -> dict[str, Kind]:
-    """Return what a force, a pressure and a depth are, by their names.
+    """Return what a force, a pressure, a depth and a mean gap are, by their names.
 
     On a line forces are per unit length across it; the springs of a foundation bear a force, and a force per length.
     """
-    kinds = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH}
+    kinds = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH, "mean_gap": LENGTH}
     if body is ProfileBody.LINE:
         return kinds | {"force": FORCE_PER_LENGTH}
     return kinds if body is None else kinds | {"pressure": replace(FORCE_PER_LENGTH, example="1N/mm")}

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 __all__ = ["curve_sticking"]
 
+_LOADS = ("depths", "forces", "mean_gaps")
 _POINTS = 40  # of the approach of a loop, as in the library
 
 
@@ -66,7 +67,7 @@ def curve_sticking(
             control = f"loop to a depth of {loads[0]:g} m in {count} steps"
             loads = loop_depths(adhesion, float(loads[0]), count)
         else:
-            control = f"{name} {', '.join(f'{load:g}' for load in loads)} {unit}"
+            control = f"{name.replace('_', ' ')} {', '.join(f'{load:g}' for load in loads)} {unit}"
         limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance, "adhesion": adhesion}
         path, whole = _follow(surface, modulus, {name: loads, **limits}, count if loop else None)
         record = {
@@ -105,12 +106,15 @@ def _points_of_loop(name: str, loads: npt.NDArray[np.float64], *, loop: bool, po
     """Return the steps of the approach of a loop; refuse what no loop goes by, and points of what is none."""
     if not loop:
         if points is not None:
-            raise UsageError("--points is about a --loop: without it name all --depths or --forces")
+            raise UsageError(
+                "--points is about a --loop: without it name all --depths, --forces or --mean-gaps"
+            )
         return 0
     if name != "depths" or len(loads) != 1:
         raise UsageError(
             "--loop of surfaces that stick goes by depth, to the one that is named and back until the bodies are "
-            "apart: give one, such as --depths 20nm; or leave out --loop, and name all --depths or --forces"
+            "apart: give one, such as --depths 20nm; or leave out --loop, and name all --depths, --forces or "
+            "--mean-gaps"
         )
     if points is not None and not 2 <= points <= 10_000:
         raise UsageError(f"--points: an approach has from 2 to 10000 depths, not {points}")
@@ -125,7 +129,7 @@ def _follow(
     from roughcontact.contact.adhesive_branches import collect_states
     from roughcontact.contact.adhesive_loop import until_off
 
-    [loads] = (values for name, values in given.items() if name in ("depths", "forces"))
+    [(name, loads)] = ((name, values) for name, values in given.items() if name in _LOADS)
     states = rc.loading_path(surface, modulus, **given)
     if loop is not None:
         states, loads = until_off(states, loop), loads[1:]
@@ -146,7 +150,8 @@ def _follow(
     columns = (TextColumn("Approach and retreat"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=screen()) as progress:
         task = progress.add_task("", total=None if loop is not None else len(loads))
-        path = collect_states(watched(), loads)
+        # The bodies draw near as the mean gap falls.
+        path = collect_states(watched(), -loads if name == "mean_gaps" else loads)
     return path, not stopped
 
 

@@ -39,8 +39,8 @@ class Theories:
     PANEL: ClassVar = "Theories"
     theory: str | None = option(
         "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, mikic, cmy, ceb, "
-        "kogut-etsion, persson-plastic, pullen-williamson, power-law, hertz, rough-sphere. They take spectrum and "
-        "moments from the surface, and say which.",
+        "kogut-etsion, persson-plastic, pullen-williamson, power-law, rough-square, hertz, rough-sphere. They take "
+        "spectrum and moments from the surface, and say which.",
         "persson,gw,...",
     )
     hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")

@@ -15,7 +15,7 @@ from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import plot_adhesive_loop
+from roughcontact.pictures import adhesive_loop_html, plot_adhesive_loop
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, Mask
 
@@ -184,6 +184,7 @@ class AdhesiveLoop:
         return adhesive_loop_record(self)
 
     plot = plot_adhesive_loop
+    _repr_html_ = adhesive_loop_html
 
 
 def collect_states(states: Iterable[AdhesiveState], loads: Array) -> AdhesiveLoop:

@@ -10,12 +10,27 @@ from io import BytesIO
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import is_numpy
+from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
-from roughcontact.pictures import plot_curve, plot_loop, plot_solution, plot_surface
+from roughcontact.pictures import (
+    plot_adhesive_loop,
+    plot_curve,
+    plot_loop,
+    plot_solution,
+    plot_state,
+    plot_surface,
+)
+from roughcontact.plot.adhesive_facts import (
+    ADHESIVE_COLUMNS,
+    adhesive_facts,
+    adhesive_loop_facts,
+    law_facts,
+)
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
@@ -28,7 +43,7 @@ from roughcontact.plot.facts import (
 )
 from roughcontact.surface.surface import Surface
 
-__all__ = ["of_curve", "of_loop", "of_solution", "of_surface"]
+__all__ = ["of_adhesive_loop", "of_curve", "of_loop", "of_solution", "of_state", "of_surface"]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
 _SIZE, _DPI = (4.6, 3.4), 96
@@ -61,17 +76,12 @@ def of_curve(curve: Curve) -> str:
     joint = all(curve.periodic)
     figure, axes = _figure()
     plot_curve(curve, axes, quantity="interfacial_stiffness_per_area" if joint else "stiffness")
-    header, rows = load_table(curve_dataset(curve), AREAL_COLUMNS if joint else CURVE_COLUMNS)
-    if len(rows) > _SHOWN:
-        left_out = ["..."] * len(header)
-        rows = [*rows[: _SHOWN // 2], left_out, *rows[-_SHOWN // 2 :]]
     facts = [
         ("loads", f"{len(curve)}, of which the grid resolves {int(curve.resolved.sum())}"),
         ("reduced modulus E*", quantity("modulus", curve.modulus)),
     ]
-    head = f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in header)}</tr>"
-    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
-    return _page("Curve", facts, figure) + f"<table>{head}{body}</table>"
+    table = _table(*load_table(curve_dataset(curve), AREAL_COLUMNS if joint else CURVE_COLUMNS))
+    return _page("Curve", facts, figure) + table
 
 
 def of_loop(loop: Loop) -> str:
@@ -79,6 +89,32 @@ def of_loop(loop: Loop) -> str:
     figure, axes = _figure()
     plot_loop(loop, axes)
     return _page("Loop", loop_facts(loop), figure)
+
+
+def of_state(state: AdhesiveState) -> str:
+    """Return the numbers of a state of surfaces that stick beside pressure and tension."""
+    figure, axes = _figure()
+    plot_state(state, axes)
+    return _page("State", adhesive_facts(state), figure)
+
+
+def of_adhesive_loop(loop: AdhesiveLoop) -> str:
+    """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
+    figure, axes = _figure()
+    plot_adhesive_loop(loop, axes)
+    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_loop_facts(loop)]
+    table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
+    return _page("Loop", facts, figure) + table
+
+
+def _table(header: list[str], rows: list[list[str]]) -> str:
+    """Return a table, of many rows the first and the last."""
+    if len(rows) > _SHOWN:
+        left_out = ["..."] * len(header)
+        rows = [*rows[: _SHOWN // 2], left_out, *rows[-_SHOWN // 2 :]]
+    head = f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in header)}</tr>"
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    return f"<table>{head}{body}</table>"
 
 
 def _figure() -> tuple[Figure, Axes]:

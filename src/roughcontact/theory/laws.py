@@ -23,6 +23,7 @@ from roughcontact.theory import (
     pohrt_popov,
     pullen_williamson,
     rough_sphere,
+    rough_square,
 )
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.profile_moments import ProfileMoments
@@ -207,6 +208,11 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
             "self-affine up to its own size (Pohrt and Popov)",
             ("hurst", "rms", "length", "modulus"),
             pohrt_popov.law,
+        ),
+        "rough-square": NamedLaw(
+            "free square, self-affine up to its own size (ensembles, with errors)",
+            ("hurst", "rms", "length", "modulus"),
+            rough_square.law,
         ),
         "hertz": NamedLaw("smooth sphere (Hertz)", ("radius", "modulus"), hertz.law),
         "rough-sphere": NamedLaw(

@@ -1,0 +1,44 @@
+"""
+From hard to soft: Tabor's number
+=================================
+
+The pull-off force of a ball falls from 2 pi w R (Derjaguin, Muller and Toporov: hard, small, long-ranged) to 3/2 pi w R
+(Johnson, Kendall and Roberts), between them by Maugis' equations. Beside them balls on rings, with Dugdale's
+attraction and with an exponential one of the same strength w/range.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import roughcontact as rc
+from roughcontact.theory.maugis import DugdaleSphere
+
+shown = np.geomspace(0.03, 10, 60)
+theory = [DugdaleSphere.of_number(number).pull_off_force / np.pi for number in shown]  # w = R = E* = 1
+axes = plt.subplots()[1]
+axes.semilogx(shown, theory, "k", label="Maugis")
+axes.axhline(2, color="0.6", linestyle=":", label="DMT")
+axes.axhline(1.5, color="0.6", linestyle="--", label="JKR")
+
+numbers, cells, errors = (0.1, 0.5, 2.0), 60, []
+for law, mark in ("dugdale", "o"), ("exponential", "s"):
+    pulled = []
+    for number in numbers:
+        ball = DugdaleSphere.of_number(number)
+        attraction = rc.Adhesion(work=1.0, range=1 / ball.strength, law=law)
+        # As far as the ball is some ranges above the plane of the contact, whose radius without load is below 1.7.
+        reach = np.sqrt(1.7**2 + 2 * (10 if law == "exponential" else 2) * attraction.range)
+        rings = rc.RadialGrid.uniform(cells, reach)
+        profile = rc.RadialProfile(-(rings.radii**2) / 2, rings)
+        *_, off = rc.loading_path(profile, 1.0, forces=[0.0, -2.5 * np.pi], adhesion=attraction)
+        pulled.append(-off.jumps[-1].force_before / np.pi)
+    axes.plot(numbers, pulled, mark, label=f"rings, {law}")
+    if law == "dugdale":
+        exact = [DugdaleSphere.of_number(number).pull_off_force / np.pi for number in numbers]
+        errors = np.abs(np.divide(pulled, exact) - 1)
+axes.set(xlabel="Maugis' lambda, 1.127 times Tabor's number", ylabel="pull-off force over π w R")
+axes.legend()
+
+print(f"off Maugis' equations by at most {errors.max():.1e}")
+# The edge of the attraction is known to a ring: at most 2/cells of the area on which it acts.
+assert errors.max() < 2 / cells
