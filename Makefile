@@ -5,6 +5,7 @@
 #                           of what bodies: ARGS="--materials steel,aluminium")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
+#   make mpi                install what those on several processes need, if it can be had: mpi4py and MPICH
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
 #   make docs               build the site of the documentation in build/docs
@@ -28,11 +29,11 @@ TORCH ?= torch==2.13.0+cpu
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test browser nox lint docs bench clean
+.PHONY: help demo test browser mpi nox lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,14s/^# *//p' Makefile
+	@sed -n '3,15s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -48,6 +49,11 @@ browser: $(ENV)/.ready-to-test
 	@$(BIN)/python $(INSTALL) -e ".[browser]" && { command -v chromium || command -v chromium-browser || command -v google-chrome \
 	  || timeout 300 $(BIN)/python -m playwright install chromium; } >/dev/null 2>&1 \
 	  && echo "browser: OK" || echo "browser: cannot be had here, its tests are skipped"
+
+# What the tests on several processes need beside it; they are skipped, too, where it cannot be had.
+mpi: $(ENV)/.ready-to-test
+	@{ $(BIN)/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(BIN)/python $(INSTALL) mpich; }; } >/dev/null 2>&1 \
+	  && echo "mpi: OK" || echo "mpi: cannot be had here, its tests are skipped"
 
 nox: $(ENV)/.ready-to-test
 	@$(BIN)/python -m nox $(ARGS) \

@@ -26,6 +26,7 @@ TITLES = {  # in this order
     "friction": "Friction",
     "adhesion": "Adhesion",
     "halfspace": "Operators",
+    "slabs": "Slabs: one surface on several machines",
     "solver": "Solvers",
     "statistics": "Statistics",
     "theory": "Theory",

@@ -20,6 +20,7 @@ QUESTIONS = {
     "my curve is unresolved": "unresolved",
     "which cut-off": "gallery/questions/short_cutoff",
     "gpu": "devices",
+    "mpi": "scale",
     "friction loop": "tutorials/friction",
     "periodic or free": "gallery/bodies/periodic_and_free",
     "adhesion": "adhesion",

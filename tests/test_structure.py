@@ -19,6 +19,7 @@ ORDER = [
     {"late"},
     {"kernels"},
     {"arrays"},
+    {"slabs"},
     {"transforms"},
     {"grid", "material"},
     {"materials"},

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import scipy.fft
 
-from roughcontact.arrays import Placed, is_numpy, namespace
+from roughcontact.arrays import Placed, is_numpy, namespace, require_floating
 from roughcontact.kernels import loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution, fits
+from roughcontact.slabs.exchange import filtered_in_slabs, is_in_slabs
 from roughcontact.threads import limit_threads, spread, threads
 from roughcontact.validation import Array
 
@@ -35,17 +36,18 @@ class Convolution:
 
     Parameters
     ----------
-    multiplier : array, shape (My//2 + 1, Mx//2 + 1)
-        Real transform of the kernel, rows and columns from 0 up, as `even_multiplier` returns it.
+    multiplier : array, shape (My//2 + 1, Mx//2 + 1), or function
+        Real transform of the kernel, rows and columns from 0 up, as `even_multiplier` returns it. A function takes
+        columns, a slice, and returns these: of a plane in slabs no process makes more.
     lengths : tuple of int
         ``(My, Mx)`` of the transforms, at least those of the fields.
     """
 
     __slots__ = ("_multiplier", "_placed", "_ready", "lengths")
 
-    def __init__(self, multiplier: Array, lengths: Pair) -> None:
+    def __init__(self, multiplier: Array | Callable[[slice], Array], lengths: Pair) -> None:
         self.lengths = lengths
-        self._multiplier: Array | None = multiplier
+        self._multiplier: Array | Callable[[slice], Array] | None = multiplier
         self._placed: Placed | None = None
         self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
 
@@ -53,6 +55,8 @@ class Convolution:
         """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
         ready = self._ready.get((field.shape, field.dtype)) if is_numpy(field) else None
         if ready is None:
+            if is_in_slabs(field):
+                return self._in_slabs(field)
             if is_numpy(field) and field.dtype.kind in "biu":
                 return self.apply(field.astype(np.float64))
             if not _in_machine_code(field, self.lengths):
@@ -73,9 +77,22 @@ class Convolution:
             self._multiplier = None  # planes are large: none is kept twice
         return ready
 
+    def _in_slabs(self, field: Any) -> Array:
+        require_floating(field)
+        multiplier = self._multiplier
+        kernel: Any = None if callable(multiplier) else self._kernel()
+
+        def multiply(spectrum: Any, columns: slice) -> None:
+            part = multiplier(columns) if callable(multiplier) else kernel[:, columns]
+            _multiply_even(spectrum, part.astype(field.dtype, copy=False))
+
+        return filtered_in_slabs(field, multiply, self.lengths)  # type: ignore[return-value]
+
     def _kernel(self) -> Array:
         """Return the multiplier, from what was made of it in double precision if that is all there is."""
         multiplier = self._multiplier  # another thread may drop it meanwhile
+        if callable(multiplier):
+            self._multiplier = multiplier = multiplier(slice(None))
         if multiplier is not None:
             return multiplier
         found: Array = next(

@@ -10,6 +10,7 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
+from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Terms
 from roughcontact.solver.projection import elastic_control
@@ -27,17 +28,18 @@ def nested_start(
     On the coarsest cells that is no pressure.
     """
     coarser, xp = coarse_operator(operator, separation.shape), namespace(separation)
-    if coarser is None:
+    if coarser is None or not divides(separation, coarser[1]):
         return xp.zeros_like(separation), 0.0
     part, factors = coarser
     control = elastic_control(operator, separation, control, xp)
     blocks = block_separation(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, blocks, xp)
-    start = nested_start(part, blocks, control, solver)
+    small = gathered_if_small(blocks)
+    start = nested_start(part, small, control, solver)
     terms = Terms(control, tuning.COARSE_TOLERANCE)
-    state, subdomain = SubdomainSolver(part).solve(solver, blocks, terms, start)
-    coarse = prolong(state.pressure, subdomain, blocks.shape)
+    state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
+    coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 

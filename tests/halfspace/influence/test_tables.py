@@ -181,3 +181,14 @@ def test_a_single_row():
     assert not found[1:8].any()
     columns = np.arange(-119, 120)
     np.testing.assert_array_equal(tables.at(0 * columns, columns), wanted[np.abs(columns)])
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (3, 2)], ids=str)
+def test_a_few_values_of_a_large_plane_take_some_waves_at_a_time(shape, monkeypatch):
+    """The sum of 65 x 76 waves in another order: each rounding is one of a number no larger than the sum of sizes."""
+    body = Periodic(rc.Grid((128, 150), (1.0, 2.0), True), 1.0)
+    at_once = body.table(shape)
+    monkeypatch.setattr("roughcontact.halfspace.influence.tables.LARGE_PLANE", 0)
+    sizes = body.table((1, 1))[0, 0]  # all waves are positive, and so is each cosine at zero
+    digits = (65 + 76) * np.finfo(float).eps
+    np.testing.assert_allclose(body.table(shape), at_once, rtol=0, atol=digits * sizes)

@@ -19,9 +19,12 @@ __all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
 
 # Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
 SMALL_TABLE = 64
+LARGE_PLANE = 2**26  # cells of a period from which on waves are taken by columns, so many of them at a time
+FEW_WAVES = 64
 MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that their offsets stay in cache
 # Cells to the side of the first table: single values cost much within, and a short series beyond.
 FIRST_TABLE = 64
+ALL = slice(None)
 
 Offsets = npt.NDArray[np.intp]
 
@@ -119,22 +122,34 @@ class Periodic:
     grid: Grid
     modulus: float
 
-    def transfer_function(self) -> Array:
-        """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up."""
-        return wave_compliance(wavenumbers(self.grid.shape, self.grid.spacing)) / self.modulus
+    def transfer_function(self, columns: slice = ALL) -> Array:
+        """Return the displacement per pressure wave [m/Pa], shape ``(ny//2 + 1, nx//2 + 1)``, rows from 0 up.
+
+        Of some columns, if no others are wanted.
+        """
+        return wave_compliance(wavenumbers(self.grid.shape, self.grid.spacing, columns)) / self.modulus
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
-        return table_of_waves(self.transfer_function(), self.grid.shape, shape)
+        (ny, nx), waves = self.grid.shape, self.grid.shape[1] // 2 + 1
+        if max(shape) > SMALL_TABLE or ny * nx <= LARGE_PLANE:
+            return table_of_waves(self.transfer_function(), self.grid.shape, shape)
+        # Of planes in slabs no process has room for all waves; a few columns of the table are made of some at a time.
+        along, across = _waves(ny, shape[0]), _waves(nx, shape[1])
+        parts = (slice(start, start + FEW_WAVES) for start in range(0, waves, FEW_WAVES))
+        return np.asarray(sum(along @ self.transfer_function(part) @ across[:, part].T for part in parts))
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values [m/Pa]."""
         a, b = np.abs(rows), np.abs(columns)
         return np.asarray(self.table((int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1))[a, b])
 
-    def inverse(self, shape: tuple[int, int]) -> Array:
-        """Return E* q/2 [Pa/m]."""
-        return self.modulus / 2 * definite(wavenumbers(shape, self.grid.spacing))
+    def inverse(self, shape: tuple[int, int], columns: slice = ALL) -> Array:
+        """Return E* q/2 [Pa/m], of some columns, if no others are wanted."""
+        q = wavenumbers(shape, self.grid.spacing, columns)
+        if columns.indices(shape[1])[0] == 0:  # the mean, and next to it the longest waves
+            q[0, 0] = definite(wavenumbers(shape, self.grid.spacing, slice(0, 2)))[0, 0]
+        return self.modulus / 2 * q
 
     def coarsened(self, grid: Grid) -> Periodic | None:
         """Return the same body on the cells of `grid`; None in a window, whose cells need not divide the period."""
@@ -313,10 +328,13 @@ def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
     return all(n <= have for n, have in zip(small, large, strict=True))
 
 
-def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
-    """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat."""
+def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], columns: slice = ALL) -> Array:
+    """Return |q| [rad/m] of the waves over a box, shape ``(ny//2 + 1, nx//2 + 1)``; beyond, they repeat.
+
+    Of some columns, if no others are wanted.
+    """
     qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
-    return np.asarray(np.sqrt(qy[:, None] ** 2 + qx**2))  # hypot takes several times as long
+    return np.asarray(np.sqrt(qy[:, None] ** 2 + qx[columns] ** 2))  # hypot takes several times as long
 
 
 def definite(wavenumber: Array) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import scipy.fft
 from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
+from roughcontact.halfspace.influence.tables import Periodic
 from roughcontact.transforms import Convolution, fast_even_length, filtered, padded_length
 from roughcontact.validation import Array
 
@@ -23,6 +25,9 @@ Parity = tuple[bool, bool]
 
 def fourier_sum(influence: Influences, grid: Grid) -> Convolution | TensorConvolution:
     """Return the convolution with an influence: exact on a free grid of any shape (thesis, eq. A.59 as corrected)."""
+    kernel = influence.influence
+    if isinstance(kernel, Periodic) and all(grid.periodic):
+        return Convolution(kernel.transfer_function, _pair(grid.shape))
     if all(grid.periodic):
         return _convolution(influence.transfer_function(), _pair(grid.shape))
     table = influence.table(grid.shape)
@@ -43,6 +48,9 @@ def inverse_sum(influence: Influences, grid: Grid) -> Convolution | TensorConvol
     lengths = [
         n if around else fast_even_length(n) for n, around in zip(grid.shape, grid.periodic, strict=True)
     ]
+    kernel = influence.influence
+    if isinstance(kernel, Periodic):
+        return Convolution(partial(kernel.inverse, _pair(lengths)), _pair(lengths))
     return _convolution(influence.inverse(_pair(lengths)), _pair(lengths))
 
 

@@ -1,0 +1,1 @@
+"""Planes dealt out by rows to the processes of a communicator."""

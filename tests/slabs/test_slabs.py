@@ -1,0 +1,212 @@
+"""One surface in slabs: the same answers as in one process, on any number of them."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.slabs import levels_of_slabs
+from roughcontact.slabs.rows import IMBALANCE, edges_of
+from slabs.together import together
+
+SIZES = [1, 2, 3, 4]
+
+
+def rough(shape, seed=1):
+    grid = rc.Grid(shape, 1e-6, periodic=True)
+    long = max(grid.lengths) / 4
+    return rc.self_affine(grid, hurst=0.8, rms=1e-7, rolloff=long, rng=np.random.default_rng(seed))
+
+
+def in_slabs(surface, communicator):
+    slabs = rc.Slabs(communicator)
+    return rc.Surface(slabs.array(surface.heights[slabs.rows(surface.grid.shape[0])]), surface.grid)
+
+
+@pytest.mark.parametrize("processes", [*SIZES, 7, 64])
+@pytest.mark.parametrize("count", [1, 5, 64, 250, 2048, 3000])
+def test_rows_are_dealt_out_evenly(count, processes):
+    edges = np.array(edges_of(count, processes))
+    assert (edges[0], edges[-1], len(edges)) == (0, count, processes + 1)
+    held = np.diff(edges)
+    # A block more than the others, of one row at least.
+    assert held.min() >= 0
+    assert held.max() <= max(IMBALANCE * count / processes, -(-count // processes))
+
+
+@pytest.mark.parametrize("processes", SIZES)
+def test_coarse_levels_keep_the_dealing(processes):
+    edges, half = np.array(edges_of(2048, processes)), np.array(edges_of(1024, processes))
+    np.testing.assert_array_equal(edges, 2 * half)
+
+
+REDUCTIONS = ("sum", "mean", "max", "min", "any", "all", "count_nonzero", "argmin")
+CELL_BY_CELL = ("abs", "isfinite", "isinf", "isnan", "sqrt", "zeros_like")
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(8, 6), (3, 5), (2, 3)], ids=str)
+def test_functions_are_those_of_numpy(size, shape):
+    """Of 3 or 2 rows on 4 processes some have none. Whole numbers, so that sums are exact in any order."""
+    x = np.random.default_rng(2).integers(-9, 9, shape).astype(float)
+    y = x[::-1].copy()
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        a, b = (slabs.array(values[slabs.rows(shape[0])]) for values in (x, y))
+        xp = a.__array_namespace__()
+        for name in REDUCTIONS:
+            assert getattr(xp, name)(a) == getattr(np, name)(x), name
+        for name in CELL_BY_CELL:
+            np.testing.assert_array_equal(getattr(xp, name)(b * b).gathered(), getattr(np, name)(y * y))
+        pairs = {
+            "where": (xp.where(a > b, a, 0.0), np.where(x > y, x, 0.0)),
+            "clip": (xp.clip(a, -1.0, 2.0), np.clip(x, -1.0, 2.0)),
+            "minimum": (xp.minimum(a, b), np.minimum(x, y)),
+            "maximum": (xp.maximum(a, 1.0), np.maximum(x, 1.0)),
+            "reflected": (1.0 - a, 1.0 - x),
+            "scalar of NumPy": (np.float64(2.0) * a, 2.0 * x),
+            "inverted": (~(a > b), ~(x > y)),
+            "mask": (a[a > b], x[x > y]),
+            "rows": (a[1 : shape[0] : 2, :2], x[1 : shape[0] : 2, :2]),
+            "repeated": (xp.repeat(a, 2, axis=0), np.repeat(x, 2, axis=0)),
+            "beside": (xp.concat([a, b], axis=1), np.concatenate([x, y], axis=1)),
+            "down": (xp.roll(a, 1, axis=0), np.roll(x, 1, axis=0)),
+            "up": (xp.roll(a, -1, axis=0), np.roll(x, -1, axis=0)),
+            "across": (xp.roll(a, 1, axis=1), np.roll(x, 1, axis=1)),
+            "flat": (xp.reshape(xp.arange(a.size), a.shape), np.arange(x.size).reshape(shape)),
+            "full": (xp.full(shape, 3.0), np.full(shape, 3.0)),
+        }
+        for name, (found, wanted) in pairs.items():
+            assert found.shape == wanted.shape, name
+            np.testing.assert_array_equal(found.gathered(), wanted, err_msg=name)
+        a -= b
+        a[...] = a / 2
+        np.testing.assert_array_equal(a.gathered(), (x - y) / 2)
+
+    together(size, work)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(12, 20), (15, 9), (3, 8)], ids=str)
+@pytest.mark.parametrize(("dtype", "digits"), [("float64", 1e-14), ("float32", 1e-5)])
+def test_product(size, shape, dtype, digits):
+    """Precision: that of the type, times what a transform of some hundred values adds up."""
+    body = rc.half_space(rc.Grid(shape, (0.3, 0.5), True), 2.0)
+    p = np.random.default_rng(0).standard_normal(shape).astype(dtype)
+    exact = body.apply(p.astype(float))
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        found = rc.half_space(body.grid, 2.0).apply(slabs.array(p[slabs.rows(shape[0])]))
+        assert found.dtype == dtype
+        return found.gathered()
+
+    for found in together(size, work):
+        np.testing.assert_allclose(found, exact, rtol=0, atol=digits * np.abs(exact).max())
+
+
+@pytest.mark.parametrize(
+    ("size", "shape", "small", "load"),
+    [
+        (1, (128, 128), 2**16, {"pressure": 1e6}),
+        (2, (128, 128), 2**16, {"depth": 2.5e-7}),
+        (3, (128, 128), 2**10, {"pressure": 1e6}),
+        (4, (256, 128), 2**10, {"depth": 2.5e-7}),
+        (2, (75, 90), 2**16, {"pressure": 1e6}),
+    ],
+    ids=str,
+)
+def test_press(size, shape, small, load, monkeypatch):
+    """Coarse levels gathered, dealt out, or none, since rows do not go in pairs.
+
+    A residual of 1e-12 of the largest displacement is one of the pressure that the largest wavenumber magnifies, some
+    ten times as much.
+    """
+    monkeypatch.setattr(levels_of_slabs, "SMALL", small)
+    surface = rough(shape)
+    here = rc.press(surface, 1e9, **load, tolerance=1e-12)
+    names = ("force", "depth", "contact_fraction", "mean_gap", "elastic_energy", "stiffness", "spot_count")
+
+    def work(communicator):
+        there = rc.press(in_slabs(surface, communicator), 1e9, **load, tolerance=1e-12)
+        numbers = [getattr(there, name) for name in names]
+        return there.pressure.gathered(), numbers, there.residual
+
+    answers = together(size, work)
+    pressure, numbers, residual = answers[0]
+    np.testing.assert_allclose(pressure, here.pressure, rtol=0, atol=1e-10 * here.pressure.max())
+    assert residual <= 1e-12
+    # The stiffness is as good as the square of its tolerance, 1e-7; the gap is a difference of depths.
+    for name, found in zip(names, numbers, strict=True):
+        assert found == pytest.approx(getattr(here, name), rel=1e-9), name
+    for other, same, _ in answers[1:]:  # all processes have the same
+        np.testing.assert_array_equal(other, pressure)
+        assert same == numbers
+
+
+@pytest.mark.parametrize("hardness", [None, 3e7])
+def test_curve(hardness):
+    """With missing points under a hardness."""
+    surface = rough((64, 48))
+    if hardness is not None:
+        heights = surface.heights.copy()
+        heights[30:34, 4:9] = np.nan  # on two processes
+        surface = rc.Surface(heights, surface.grid)
+    asked = {"pressures": [2e5, 5e5, 1e6], "tolerance": 1e-10, "hardness": hardness}
+    here = rc.loading_curve(surface, 1e9, **asked)
+
+    def work(communicator):
+        return rc.loading_curve(in_slabs(surface, communicator), 1e9, **asked)
+
+    for there in together(2, work):
+        np.testing.assert_allclose(there.depth, here.depth, rtol=1e-8)
+        np.testing.assert_allclose(there.stiffness, here.stiffness, rtol=1e-6)
+        np.testing.assert_array_equal(there.spots, here.spots)
+
+
+def test_back_on_the_host_it_is_a_solution_like_any():
+    surface = rough((64, 64))
+
+    def work(communicator):
+        there = rc.press(in_slabs(surface, communicator), 1e9, pressure=1e6)
+        back = there.on_host()
+        assert isinstance(back.pressure, np.ndarray)
+        np.testing.assert_array_equal(back.problem.surface.heights, surface.heights)
+        return back.spots.count == there.spot_count
+
+    assert all(together(2, work))
+
+
+def test_what_is_refused():
+    surface = rough((64, 64))
+    with pytest.raises(ValueError, match=r"mpi4py.MPI.COMM_WORLD, not 4, which lacks rank"):
+        rc.Slabs(4)
+
+    def too_few(communicator):
+        rc.Slabs(communicator).array(surface.heights[: 10 - communicator.rank])
+
+    def of_two_types(communicator):
+        rc.Slabs(communicator).array(np.zeros((2, 2), [np.float32, np.float64][communicator.rank]))
+
+    def not_periodic(communicator):
+        free = rc.Surface(surface.heights, rc.Grid((64, 64), 1e-6))
+        rc.press(in_slabs(free, communicator), 1e9, force=1e-3)
+
+    for work, message in [
+        (too_few, r"gave \[10, 9\] rows.*Slabs.rows"),
+        (of_two_types, "differ in length or type"),
+        (not_periodic, "must be periodic along both axes"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            together(2, work)
+
+
+def test_an_array_in_slabs_does_not_become_a_whole_one_by_itself():
+    rows = rc.Slabs().array(np.ones((4, 3)))
+    with pytest.raises(TypeError, match=r"\.gathered\(\)"):
+        np.asarray(rows)
+    with pytest.raises(ValueError, match=r"Slabs\.array"):
+        rows + np.ones((4, 3))
+    with pytest.raises(TypeError, match="slices"):
+        rows[0]
+    assert repr(rows) == "SlabArray(4 x 3 float64, rows 0 to 4 here)"
