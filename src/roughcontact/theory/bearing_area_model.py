@@ -10,7 +10,7 @@ The largest tension over u is the pull-off. For a range far below h it is there 
 
     h^2 < 8 gamma exp(1/(2 gamma^2))/(3 sqrt(2 pi)) w/(E* q0)
 
-which for gamma = 1/2 is 0.63 w/E* times the longest wave.
+which for gamma = 1/2 is 0.63 w/E* times the longest wave. The paper itself could not be read here.
 
 **Constants.** 3/(8 gamma) and gamma = 1/2 are for a Hurst exponent near 0.8 without roll-off. The energy of
 partial contact with ``gamma=0.5`` in `persson_separation.reference_pressure` gives 1.07 E* q0 h there in place of
