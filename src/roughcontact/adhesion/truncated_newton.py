@@ -141,46 +141,47 @@ def conjugate_gradients(
 
     Where the mean of a displacement is prescribed, that of the answer is zero.
     """
-    number = max(1.0, float(np.count_nonzero(free)))
+    mask = free.astype(np.float64)
+    number = max(1.0, float(mask.sum()))
     constrained = form.mean_free
 
     def precondition(r: Array) -> Array:
         counter.products += 1
-        z = np.where(free, form.compliance(r), 0.0)
-        if not constrained:
-            return z
-        z -= along * (z.sum() / total)
-        return balanced(z)
-
-    def balanced(field: Array) -> Array:
-        # Rounding must not feed the mean, along which the Hessian is not positive.
-        return field - np.where(free, field.sum() / number, 0.0)
+        z = form.compliance(r) * mask
+        if constrained:
+            z -= along * (z.sum() / total)
+            z -= mask * (
+                z.sum() / number
+            )  # rounding must not feed the mean, along which no Hessian is positive
+        return z
 
     along, total = load, 1.0
     if constrained:
         counter.products += 1
-        along = np.where(free, form.compliance(free.astype(np.float64)), 0.0)
+        along = form.compliance(mask) * mask
         total = float(along.sum())
     residual = np.where(free, load, 0.0)
     if constrained:
-        residual = balanced(residual)
+        residual -= mask * (residual.sum() / number)
     step = np.zeros_like(residual)
     z = precondition(residual)
     direction, rho = z, form.dot(residual, z)
     if rho <= 0:
         return step, False
     goal = rho * forcing**2
+    bent = curvature * mask
     for _ in range(INNER):
         counter.products += 1
-        image = np.where(free, form.stiffness(direction) - curvature * direction, 0.0)
+        image = form.stiffness(direction) * mask
+        image -= bent * direction
         bend = form.dot(direction, image)
         if bend <= 0:
             return step, True
         alpha = rho / bend
-        step = step + alpha * direction
-        residual = residual - alpha * image
+        step += alpha * direction
+        residual -= alpha * image
         if constrained:
-            residual = balanced(residual)
+            residual -= mask * (residual.sum() / number)
         z = precondition(residual)
         new = form.dot(residual, z)
         if new <= goal:
