@@ -5,7 +5,7 @@
 #                           of what bodies: ARGS="--materials steel,aluminium")
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
-#   make mpi                install what those on several processes need, if it can be had: mpi4py and MPICH
+#   make mpi                the tests on several processes, if mpi4py and an MPI can be had
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make lint               style and types
 #   make docs               build the site of the documentation in build/docs
@@ -22,6 +22,7 @@ ENV := .venv
 BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
 DOCS_ENV := build/docs-env
+MPI_ENV := build/mpi-env
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
@@ -50,10 +51,12 @@ browser: $(ENV)/.ready-to-test
 	  || timeout 300 $(BIN)/python -m playwright install chromium; } >/dev/null 2>&1 \
 	  && echo "browser: OK" || echo "browser: cannot be had here, its tests are skipped"
 
-# What the tests on several processes need beside it; they are skipped, too, where it cannot be had.
-mpi: $(ENV)/.ready-to-test
-	@{ $(BIN)/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(BIN)/python $(INSTALL) mpich; }; } >/dev/null 2>&1 \
-	  && echo "mpi: OK" || echo "mpi: cannot be had here, its tests are skipped"
+# In an environment of their own: with mpi4py installed, whatever looks for it listens to the network and reads through it.
+mpi: $(MPI_ENV)/.ready
+	@if $(MPI_ENV)/bin/python -c "import mpi4py.MPI" 2>/dev/null; \
+	  then $(ONE_THREAD) $(MPI_ENV)/bin/python -m pytest -q tests/slabs $(ARGS) \
+	    && echo "mpi: OK" || { echo "mpi: FAILED"; exit 1; }; \
+	  else echo "mpi: cannot be had here, the tests on several processes are skipped"; fi
 
 nox: $(ENV)/.ready-to-test
 	@$(BIN)/python -m nox $(ARGS) \
@@ -93,6 +96,13 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 	@echo "Installing what the tests need ..."
 	@$(BIN)/python $(INSTALL) -e ".[formats,page,test,lint]"
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
+	@touch $@
+
+$(MPI_ENV)/.ready: pyproject.toml
+	@$(call create,$(MPI_ENV))
+	@echo "Installing what the tests on several processes need ..."
+	@$(MPI_ENV)/bin/python $(INSTALL) -e ".[test]"
+	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
 $(DOCS_ENV)/.ready: pyproject.toml
