@@ -10,7 +10,7 @@ from roughcontact.adhesion.attraction import Attraction
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.validation import Array, Mask
 
-__all__ = ["GapEnergy", "Point", "balance"]
+__all__ = ["GapEnergy", "Point"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +69,7 @@ class GapEnergy:
         mean = 0.0
         if self.form.mean_free:
             # The multiplier: the reaction of the free cells is to vanish. Which cells are free depends on it.
-            mean = balance(reaction, gap > 0)
+            mean = _balance(reaction, gap > 0)
             elastic = elastic + mean
             reaction += mean
         return Point(displacement, elastic, gap, reaction, mean)
@@ -123,7 +123,7 @@ class GapEnergy:
         return max(self.attraction.strength, float(np.abs(point.pressure).max()))
 
 
-def balance(reaction: Array, apart: Mask) -> float:
+def _balance(reaction: Array, apart: Mask) -> float:
     """Return the constant whose sum with the reaction vanishes in the mean over the cells that it leaves free."""
     touching = reaction[~apart]
     count = int(np.count_nonzero(apart))

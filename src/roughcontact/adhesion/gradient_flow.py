@@ -83,10 +83,9 @@ def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, e
     damping, lost, wait = FIRST, 0.0, 0
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
-        if (
-            residual <= TOLERANCE * scale
-        ):  # at rest, though a cell that the wall hardly holds may bend the energy
-            return Landing(Equilibrium(point, residual / scale, True, True, lost), lost)
+        # At rest, though a cell that the wall hardly holds may make the Hessian indefinite.
+        if residual <= TOLERANCE * scale:
+            return Landing(Equilibrium(point, residual / scale, True, lost), lost)
         near = residual <= NEAR * scale
         if near and damping < LEAST:
             if wait == 0:
@@ -112,7 +111,7 @@ def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, e
         too_far = _pushed_back(point, new) > residual
         point = new
         if released(energy, point):
-            return Landing(Equilibrium(point, 0.0, True, True, lost), lost)
+            return Landing(Equilibrium(point, 0.0, True, lost), lost)
         damping = min(FULL, 2 * damping) if too_far else max(damping / 2, SOFTEST if near else LEAST)
     end = minimise(energy, point.displacement, counter)
     return Landing(end, lost + end.lost)

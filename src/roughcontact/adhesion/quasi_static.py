@@ -140,9 +140,8 @@ class QuasiStatic:
         if released(self.control.energy_at(target), station.point):
             return Station(target, station.point, station.residual, True)
         here, stride = station, _Stride(self.bracket, abs(target - station.value))
-        change: Array | float = (
-            0.0  # of the displacement with what is prescribed, beyond what the wall takes along
-        )
+        # Of the displacement with what is prescribed, in the last step, beyond what the wall takes along.
+        change: Array | float = 0.0
         while here.value != target:
             left = target - here.value
             length = min(stride.next(), abs(left))

@@ -47,8 +47,6 @@ class Equilibrium:
     residual : float
         Relative to the scale of tractions.
     converged : bool
-    indefinite : bool
-        Whether the Hessian was not positive definite somewhere on the way.
     lost : float
         By how much the energy fell [J].
     """
@@ -56,7 +54,6 @@ class Equilibrium:
     point: Point
     residual: float
     converged: bool
-    indefinite: bool
     lost: float
 
 
@@ -87,12 +84,12 @@ def minimise(
     """
     counter.products += 1
     point = energy.at(energy.feasible(start))
-    shift, lost, indefinite = 0.0, 0.0, False
+    shift, lost = 0.0, 0.0
     residual = math.inf
     for _ in range(iterations):
         residual = energy.residual(point) / energy.scale(point)
         if residual <= tolerance:
-            return Equilibrium(point, residual, True, indefinite, lost)
+            return Equilibrium(point, residual, True, lost)
         free = point.free
         curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
         most = float(np.max(curvature))
@@ -102,7 +99,6 @@ def minimise(
             energy.form, free, curvature - shift, -point.reaction, forcing, counter
         )
         if negative:
-            indefinite = True
             if convex_only:
                 break
             shift = max(2 * shift, SHIFT * most)
@@ -116,7 +112,7 @@ def minimise(
         point, gained = found
         lost -= gained
         shift = 0.0 if shift < 1e-3 * most else 0.25 * shift
-    return Equilibrium(point, residual, False, indefinite, lost)
+    return Equilibrium(point, residual, False, lost)
 
 
 def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) -> tuple[Point, float] | None:

@@ -8,9 +8,8 @@ from roughcontact.slabs.slab_array import SlabArray
 
 __all__ = ["dealt_as", "divides", "gathered_if_small"]
 
-SMALL = (
-    2**18
-)  # cells: to solve on so many takes some tens of megabytes, and less time than the exchanges of a few steps
+# Cells: to solve on so many takes some tens of megabytes.
+SMALL = 2**18
 
 
 def divides(field: Any, factors: tuple[int, ...]) -> bool:
