@@ -78,6 +78,21 @@ def test_the_pull_off_is_that_of_maugis_equations(number):
     assert fine <= 1e-3
 
 
+def test_a_sphere_that_is_pulled_off_leaves_in_one_jump():
+    """The last cells attract evenly: no curvature of the law tells the flow how far to go."""
+    theory, profile, adhesion = ball(5, 60)
+    unresolved = rc.Adhesion(1.0, adhesion.range, "dugdale", allow_unresolved=True)
+    loads = [0.0, -1.3 * theory.pull_off_force]
+    _, off = rc.loading_path(profile, 1.0, forces=loads, adhesion=unresolved)
+    lost = np.array([jump.lost for jump in off.jumps])
+    assert off.status is rc.Status.NO_CONTACT
+    assert np.isinf(lost[-1])
+    assert np.isfinite(lost[:-1]).all()
+    assert (lost[:-1] > 0).all()
+    # It leaves from contact, not from a state that it fell into before.
+    assert abs(off.jumps[-1].depth - off.jumps[-2].depth_after) < adhesion.range
+
+
 def test_a_sphere_goes_back_on_the_way_it_came():
     """The edge of the zone passes over the cells without a jump."""
     theory, profile, adhesion = ball(0.5, 120)

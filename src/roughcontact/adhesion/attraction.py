@@ -12,6 +12,8 @@ from roughcontact.validation import Array, positive, positive_scalar, require, s
 
 __all__ = ["Adhesion", "Attraction", "Law"]
 
+REACH = 40.0  # ranges, beyond which an exponential attraction is below the rounding of its largest value
+
 Law = Literal["exponential", "dugdale", "sharp"]
 
 

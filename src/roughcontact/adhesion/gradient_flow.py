@@ -4,7 +4,8 @@ Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1
 those of a linearly implicit Euler method. The damping of a cell is a multiple of the curvature of its own attraction,
 or for all cells that of the largest; from a multiple of one on, the damped Hessian is positive definite. It softens
 as long as no step meets an indefinite Hessian or goes too far, and the flow ends in an equilibrium when the energy is
-convex between the last step and it.
+convex between the last step and it. Where no damping of this kind makes the Hessian definite, since a body under a
+tension is held by cells of constant attraction alone, all cells are damped alike.
 
 Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
 equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
@@ -12,11 +13,13 @@ equilibria stay above them: the attraction grows ever faster as the gap closes, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.adhesion.attraction import REACH
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.truncated_newton import (
     FORCING,
@@ -42,7 +45,7 @@ NEAR = 1e-2  # residual from which an equilibrium is looked for
 ROUGH = 1e-5  # residual of an equilibrium that may be the end
 TRIALS = 15  # Newton steps toward it
 WAIT = 3  # steps between two such trials
-REACH = 40.0  # ranges of the attraction, beyond which it is below the rounding of its largest value
+NOTHING = math.exp(-REACH)  # of the largest attraction: less does not count beside it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,9 +105,12 @@ def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, e
         )
         found = None if negative else line_search(energy, point, step, counter)
         if found is None:
-            if damping > MOST:
+            if damping <= MOST:
+                damping = max(4 * damping, UNDER)
+            elif not even:
+                even, damping = True, UNDER
+            else:
                 break
-            damping = max(4 * damping, UNDER)
             continue
         new, change = found
         lost -= change
@@ -137,4 +143,7 @@ def _pushed_back(old: Point, new: Point) -> float:
 def released(energy: GapEnergy, point: Point) -> bool:
     """Whether a prescribed tension has pulled the body out of reach of the attraction: nothing stops it."""
     pulled = float(np.sum(energy.load * np.ones(energy.form.shape))) < 0
-    return pulled and float(point.gap.min()) > REACH * energy.attraction.range
+    if not (pulled and point.gap.min() > 0):
+        return False
+    law = energy.attraction
+    return float(np.max(law.traction(point.gap))) <= NOTHING * law.strength

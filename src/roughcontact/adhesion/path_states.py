@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
-from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
 from roughcontact.adhesion.exponential_law import ExponentialLaw
-from roughcontact.adhesion.gradient_flow import REACH, released
+from roughcontact.adhesion.gradient_flow import released
 from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
 from roughcontact.adhesion.sharp_path import sharp_states

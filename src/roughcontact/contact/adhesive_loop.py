@@ -8,8 +8,7 @@ from itertools import islice
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
-from roughcontact.adhesion.attraction import Adhesion
-from roughcontact.adhesion.gradient_flow import REACH
+from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.contact.adhesive_branches import AdhesiveLoop, collect_states
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.problem import Body
