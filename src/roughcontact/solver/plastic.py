@@ -54,6 +54,8 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         low, below = high, above
         high *= 2
         above = excess(high)
+    if above < 0:  # the solver has too few steps to press at all
+        return pressure, steps
     for trial in range(tuning.DEPTH_TRIALS):
         # The chord where it is safe, the middle where the curve is a staircase.
         chord = low - below * (high - low) / (above - below)
