@@ -224,13 +224,6 @@ def test_random_problems(seed):
     assert np.nanmax(wrong) <= 2e-8 * np.abs(u).max()
 
 
-def test_too_few_steps_to_press_at_all():
-    """One product moves nothing, at whatever depth: none is found that carries the force, and that is what is told."""
-    surface = rc.self_affine(rc.Grid((32, 32), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
-    with pytest.raises(rc.ConvergenceError):
-        rc.press(surface, 1e9, force=5e-6, hardness=1e6, solver=rc.ActiveSet(max_steps=1))
-
-
 def test_a_flat_body_by_the_depth_that_carries_the_force(monkeypatch):
     """At depth 0 a flat surface bears everywhere and carries nothing: the search must begin below it."""
     grid = rc.Grid((8, 8), 1.0)

@@ -15,6 +15,7 @@ from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
 from roughcontact.contact.sticking import refuse_gaps, sticking_states
+from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -138,6 +139,8 @@ def press(
         return state
     refuse_gaps(mean_gap)
     control = control_of(grid, force=force, depth=depth, pressure=pressure)
+    if operator is None:
+        require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
         solver=solver,

@@ -145,8 +145,9 @@ def prescribe(
     if is_numpy(region) and np.ndim(displacement) == 0:  # planes are large: one number is not written out
         target: Array = np.broadcast_to(np.float64(displacement), region.shape)
     else:
-        zeros = xp.zeros(region.shape, dtype=xp.float64, device=region.device)
-        target = xp.where(region, zeros + displacement, 0.0)
+        target = xp.where(
+            region, xp.zeros(region.shape, dtype=xp.float64, device=region.device) + displacement, 0.0
+        )
     size = largest(target)
     if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
