@@ -21,6 +21,7 @@ CASES = {
     "periodic, full contact": (True, "press", 100.0),
     "periodic, half in contact": (True, "press", 3.0),
     "periodic, half, curve": (True, "curve", 3.0),
+    "periodic, waves of 8 cells": (True, "press", 2.0),
 }
 
 
@@ -34,7 +35,8 @@ def measure(case: str, n: int) -> None:
     periodic, verb, load = CASES[case]
     small = rc.self_affine(rc.Grid((16, 16), 1 / 16, periodic), 0.8, 0.01, np.random.default_rng(0))
     rc.loading_curve(small, 1.0, forces=[1e-5, 1e-4])  # whatever is loaded late is loaded now
-    surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0))
+    waves = {"long_cutoff": 0.25, "short_cutoff": 8 / n} if "waves" in case else {}
+    surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0), **waves)
     Path("/proc/self/clear_refs").write_text("5")  # what the making of the surface took does not count
     before = peak()
     if verb == "press":
