@@ -1,4 +1,7 @@
-"""Peak memory of a solve beyond its surface, in bytes a cell (on Linux): python benchmarks/memory.py [n]."""
+"""Peak memory of a solve beyond its surface, in bytes a cell (on Linux), beside what `memory_needed` says of it.
+
+python benchmarks/memory.py [n [case]]
+"""
 
 import re
 import subprocess
@@ -8,7 +11,6 @@ from pathlib import Path
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.contact.problem import LEAST_BYTES
 
 CASES = {
     "free, light contact": (False, "press", 1e-9),
@@ -18,6 +20,8 @@ CASES = {
     "free, fractal, curve": (False, "curve", 0.07),
     "periodic, full contact": (True, "press", 100.0),
     "periodic, half in contact": (True, "press", 3.0),
+    "periodic, half, curve": (True, "curve", 3.0),
+    "periodic, waves of 8 cells": (True, "press", 2.0),
 }
 
 
@@ -31,17 +35,17 @@ def measure(case: str, n: int) -> None:
     periodic, verb, load = CASES[case]
     small = rc.self_affine(rc.Grid((16, 16), 1 / 16, periodic), 0.8, 0.01, np.random.default_rng(0))
     rc.loading_curve(small, 1.0, forces=[1e-5, 1e-4])  # whatever is loaded late is loaded now
-    surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0))
+    waves = {"long_cutoff": 0.25, "short_cutoff": 8 / n} if "waves" in case else {}
+    surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0), **waves)
     Path("/proc/self/clear_refs").write_text("5")  # what the making of the surface took does not count
     before = peak()
     if verb == "press":
         rc.press(surface, 1.0, force=load * 0.01)
     else:
         rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-4, load, 20) * 0.01)
-    used = peak() - before
-    print(
-        f"{case:28s} {used / n**2:7.0f} bytes a cell (at least {LEAST_BYTES}), {peak() / 2**20:6.0f} MB in all"
-    )
+    used, whole = peak() - before, peak()
+    told = rc.memory_needed(surface, 1.0, force=load * 0.01, curve=verb == "curve")
+    print(f"{case:28s} {used / n**2:7.0f} bytes a cell ({told / n**2:.0f}), {whole / 2**20:6.0f} MB in all")
 
 
 if __name__ == "__main__":

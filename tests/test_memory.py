@@ -56,6 +56,23 @@ def test_a_press_within_the_bound_is_tried(spike, machine):
     assert rc.press(spike, 1e9, force=1e-9).contact.sum() == 1
 
 
+@pytest.mark.parametrize("verb", [rc.press, rc.loading_curve])
+def test_a_load_that_cannot_fit_is_refused_at_once(verb, machine, monkeypatch):
+    """A light one on the same cells is tried: it takes less than half."""
+    grid = rc.Grid((512, 512), 1 / 512)
+    rough = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(0))
+    curve = verb is rc.loading_curve
+    machine(free=0.7 * rc.memory_needed(grid, curve=curve))
+
+    def load(force):
+        return verb(rough, 1.0, forces=[force]) if curve else verb(rough, 1.0, force=force)
+
+    told = "a curve on" if curve else "this load on"
+    with pytest.raises(ValueError, match=f"{told} 512 x 512 cells needs 0.0.* GB of memory at least"):
+        load(0.1)
+    assert load(1e-6) is not None
+
+
 def test_small_grids_are_not_asked_about(machine):
     machine(free=0)
     surface = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), 1e-3)

@@ -45,6 +45,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.load_range import load_range as load_range
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
     from roughcontact.contact.loop import Loop as Loop, loading_loop as loading_loop
+    from roughcontact.contact.memory_needed import memory_needed as memory_needed
     from roughcontact.contact.press import press as press
     from roughcontact.contact.problem import ContactProblem as ContactProblem
     from roughcontact.contact.size_law import NixGao as NixGao

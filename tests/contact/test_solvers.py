@@ -123,8 +123,8 @@ def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     import roughcontact.solver.active_set as module
     from roughcontact.solver.bound_constrained_cg import InnerSolution
 
-    def stuck(inner, iterate, terms, free, **settings):
-        return InnerSolution(iterate.pressure, 1)
+    def stuck(system, conditions, **settings):
+        return InnerSolution(system.start, 1)
 
     monkeypatch.setattr(module, "inner_solve", stuck)
     rough = surface((32, 32))

@@ -11,9 +11,8 @@ from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
-from roughcontact.solver.control import Control, Force, Solver, Tangent
+from roughcontact.solver.control import Control, Force, Solver, Start, Tangent
 from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict, restrict_hardness
-from roughcontact.validation import Array
 
 __all__ = ["follow"]
 
@@ -40,7 +39,7 @@ def follow(
         Of the operator; it keeps restricted operators.
     """
     subdomains = subdomains or SubdomainSolver(problem.operator)
-    guess: tuple[Array, float] | None = None
+    guess: Start | None = None
     last: Tangent | None = None
     if start is not None:
         guess = _predicted(start, controls[0])
@@ -72,19 +71,21 @@ def follow(
             if advance is None:
                 guess = None
             elif not advance:
-                guess = pressure, state.depth
+                guess = Start(pressure, state.depth)
             else:  # on the window alone: the plane is large
                 moved = state.pressure + advance * frozen.tangent
-                guess = prolong(moved, subdomain, shape), state.depth + advance
+                guess = Start(prolong(moved, subdomain, shape), state.depth + advance)
+                del moved
+        del state, frozen, pressure, solution  # what nobody else has kept goes before the next load
 
 
-def _predicted(start: Solution, control: Control) -> tuple[Array, float] | None:
+def _predicted(start: Solution, control: Control) -> Start | None:
     """Return the pressure [Pa] and the depth [m] that the tangent of a solution predicts under another control."""
     advance = _advance(start, control)
     if advance is None:
         return None
     pressure = start.pressure + advance * start.frozen.tangent if advance else start.pressure
-    return pressure, start.depth + advance
+    return Start(pressure, start.depth + advance)
 
 
 def _advance(solution: Solution, following: Control) -> float | None:

@@ -363,6 +363,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         numbers = (getattr(solution, name) for name in CURVE_POINTS)
         points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
         status.append(solution.status)
+        del solution  # with its maps, before the next load is solved
     if problem is None:
         raise ValueError("a curve needs at least one load")
     *columns, spots = np.array(points).T

@@ -20,6 +20,7 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.sticking import refuse_gaps, sticking_states
+from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
@@ -154,6 +155,9 @@ def loading_path(
         grid_of(surface), rising=not keeps, forces=forces, depths=depths, pressures=pressures
     )
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
+    if operator is None:
+        largest = max(controls, key=lambda control: control.value)
+        require_memory_for_load(surface, problem.modulus, largest, curve=True)
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
     if keeps:

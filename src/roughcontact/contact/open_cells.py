@@ -56,5 +56,6 @@ def mean_opening(operator: Operator, opening: Array, region: Mask, measured: Mas
         if not SOLVED * abs(mean) < error < before / 2:
             return share * mean
         tolerance = min(max(SOLVED * abs(mean) / error, SWEEP[0]), SWEEP[1])
-        opening = opening - operator.apply(prescribe(operator, region, left, tolerance).pressure)
+        del left  # planes are large
+        opening = opening - operator.apply(prescribe(operator, region, opening, tolerance).pressure)
         before = error

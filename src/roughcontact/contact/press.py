@@ -15,12 +15,13 @@ from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
 from roughcontact.contact.sticking import refuse_gaps, sticking_states
+from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Control, Depth, Force, Solver, State, Status
+from roughcontact.solver.control import Control, Depth, Force, Solver, Start, State, Status
 from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
@@ -138,6 +139,8 @@ def press(
         return state
     refuse_gaps(mean_gap)
     control = control_of(grid, force=force, depth=depth, pressure=pressure)
+    if operator is None:
+        require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
         solver=solver,
@@ -207,7 +210,10 @@ def solve(
         Keeps restricted operators from one load to the next.
     """
     problem, state, subdomain = solve_state(
-        problem, solver or _DEFAULT, initial, subdomains or SubdomainSolver(problem.operator)
+        problem,
+        solver or _DEFAULT,
+        None if initial is None else Start(*initial),
+        subdomains or SubdomainSolver(problem.operator),
     )
     pressure = prolong(state.pressure, subdomain, problem.grid.shape)
     lock(pressure)
@@ -215,7 +221,7 @@ def solve(
 
 
 def solve_state(
-    problem: ContactProblem, solver: Solver, initial: tuple[Array, float] | None, subdomains: SubdomainSolver
+    problem: ContactProblem, solver: Solver, initial: Start | None, subdomains: SubdomainSolver
 ) -> tuple[ContactProblem, State, Subdomain]:
     """Return the problem, with the hardness of its spots, the last state on its window, and where that lies."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
@@ -225,12 +231,12 @@ def solve_state(
             problem = without_spots(problem, problem.size_law)
         return problem, *_untouched(problem, problem.control.value)
     with one_blas_thread():
-        guess = initial or nested_start(problem.operator, problem.separation, problem.control, solver)
+        start = initial or Start(*nested_start(problem.operator, problem.separation, problem.control, solver))
         if problem.size_law is not None:
-            return settle(problem, problem.size_law, solver, guess, subdomains)
+            return settle(problem, problem.size_law, solver, (start.take(), start.depth), subdomains)
         if problem.flow is not None:
-            return problem, *_from_touch(problem, solver, guess, subdomains)
-        return problem, *subdomains.solve(solver, problem.separation, problem.terms, guess)
+            return problem, *_from_touch(problem, solver, start, subdomains)
+        return problem, *subdomains.solve(solver, problem.separation, problem.terms, start)
 
 
 def lock(pressure: Array) -> None:
@@ -240,15 +246,15 @@ def lock(pressure: Array) -> None:
 
 
 def _from_touch(
-    problem: ContactProblem, solver: Solver, guess: tuple[Array, float], subdomains: SubdomainSolver
+    problem: ContactProblem, solver: Solver, start: Start, subdomains: SubdomainSolver
 ) -> tuple[State, Subdomain]:
     """Solve with depths that count from where the flattened bodies touch: more would cost digits of the pressure."""
     touch = problem.first_touch
     separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
-    control, (pressure, depth) = problem.control, guess
+    control = problem.control
     nearer = Depth(control.value - touch) if isinstance(control, Depth) else control
     terms = replace(problem.terms, control=nearer)
-    state, subdomain = subdomains.solve(solver, separation, terms, (pressure, depth - touch))
+    state, subdomain = subdomains.solve(solver, separation, terms, Start(start.take(), start.depth - touch))
     return replace(state, depth=state.depth + touch), subdomain
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from roughcontact.contact.spots import find_spots
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.solver.control import Solver, State, Status
+from roughcontact.solver.control import Solver, Start, State, Status
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.validation import Array, Mask, number
@@ -43,7 +43,7 @@ def settle(
         # From the pressure before, of which little changes, by projection: others begin with the elastic contact. Where
         # nearly all is plastic the projection may stagnate: it is given no more products than the round before took.
         for method in (PolonskyKeer(max_steps=last), solver) if last else (solver,):
-            state, subdomain = subdomains.solve(method, here.separation, here.terms, start)
+            state, subdomain = subdomains.solve(method, here.separation, here.terms, Start(*start))
             steps += state.steps
             if state.status.converged:
                 break

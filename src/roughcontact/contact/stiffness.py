@@ -70,7 +70,7 @@ def frozen_contact(
         return FrozenContact(
             Measure(operator.weights, xp).total(tangent.pressure), tangent.error, tangent.pressure
         )
-    initial = None if tangent is None else xp.where(region, tangent.pressure, 0.0)
+    initial = None if tangent is None else tangent.pressure
     answer = prescribe(operator, region, 1.0, tolerance, initial=initial)
     return FrozenContact(answer.work, answer.residual, answer.pressure)  # work per square of displacement
 

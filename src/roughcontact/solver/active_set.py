@@ -15,7 +15,7 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
-from roughcontact.solver.bound_constrained_cg import inner_solve
+from roughcontact.solver.bound_constrained_cg import inner_solve, inner_system
 from roughcontact.solver.control import State, Status, Tangent, Terms
 from roughcontact.solver.direct import press_cells
 from roughcontact.solver.inner_operator import (
@@ -102,10 +102,11 @@ class ActiveSet:
         if terms.plastic:
             return self._run_plastic(operator, separation, terms, initial)
         conditions = Optimality.of(operator, terms, namespace(separation))
-        p = feasible_start(  # A1
-            conditions.measure, separation, terms.control, initial, conditions.self_influence
-        )
-        state = self._iterate(operator, separation, conditions, p)
+        start = [  # A1
+            feasible_start(conditions.measure, separation, terms.control, initial, conditions.self_influence)
+        ]
+        del initial  # planes are large: each is held by the one who needs it
+        state = self._iterate(operator, separation, conditions, start.pop())
         if state.status.converged:
             return state
         rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, state.pressure)
@@ -186,24 +187,22 @@ class ActiveSet:
                 except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
                     dense_limit = 0
                     continue
+                del u, iterate
                 p = prolong(solved.pressure, solved.cells, free.shape)
                 tangent = Tangent(prolong(solved.tangent, solved.cells, free.shape), solved.error)
                 steps += 1
             else:  # A9
                 stuck = idle >= tuning.ROUNDS_IN_SINGLE
                 inner = FullGrid(operator) if stuck else inner_operator_on(operator, set_.support, inner)
-                p, done = inner_solve(
-                    inner,
-                    iterate,
-                    conditions,
-                    free,
-                    limit=scale * max(tuning.INNER_TOLERANCE * tolerance, inner.contraction * residual),
-                    max_steps=self.max_steps - steps,
-                )
+                limit = scale * max(tuning.INNER_TOLERANCE * tolerance, inner.contraction * residual)
+                system = inner_system(inner, iterate, conditions, free, limit=limit)
+                gap = u + separation if terms.plastic else None
+                del u, iterate, set_, free  # it has what it needs of them
+                p, done = inner_solve(system, conditions, max_steps=self.max_steps - steps)
+                del system
                 tangent, steps = None, steps + done + 1
-                if terms.plastic:
-                    p = project(measure, p, u + separation, terms)
-            del u, iterate
+                if gap is not None:
+                    p = project(measure, p, gap, terms)
             u, exact = operator.apply(p), True  # A10
 
 
@@ -222,12 +221,8 @@ def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free
     area = float(operator.weights)  # the same for all, see `_worth_screening`
     part = FullGrid(DenseOperator(Grid(len(cells), area), operator.as_matrix(cells)))
     p, separation = iterate.pressure.ravel()[cells], iterate.separation.ravel()[cells]
+    begun, all_free = Iterate(p, part.apply(p), separation), np.ones(len(cells), dtype=bool)
     found = inner_solve(
-        part,
-        Iterate(p, part.apply(p), separation),
-        conditions,
-        np.ones(len(cells), dtype=bool),
-        limit=limit,
-        max_steps=50,
+        inner_system(part, begun, conditions, all_free, limit=limit), conditions, max_steps=50
     )
     return prolong(found.pressure, cells, free.shape) > 0

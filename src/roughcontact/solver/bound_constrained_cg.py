@@ -19,7 +19,10 @@ from roughcontact.solver.optimality import Iterate, Optimality
 from roughcontact.solver.vectors import Vectors, scaled_vectors
 from roughcontact.validation import Array, Mask
 
-__all__ = ["CGResult", "InnerSolution", "StepEstimate", "bound_constrained_cg", "inner_solve"]
+__all__ = [
+    *("CGResult", "InnerSolution", "InnerSystem", "StepEstimate"),
+    *("bound_constrained_cg", "inner_solve", "inner_system"),
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,19 +70,34 @@ class InnerSolution(NamedTuple):
     steps: int
 
 
-def inner_solve(
-    inner: InnerOperator,
-    iterate: Iterate,
-    conditions: Optimality,
-    free: Mask,
-    *,
-    limit: float,
-    max_steps: int,
-) -> InnerSolution:
-    """Solve the bound-constrained problem from an iterate and a predicted free set.
+class InnerSystem(NamedTuple):
+    """The bound-constrained problem of an inner solve, on the cells of its operator and in the unit of its residual.
 
-    Cells are deactivated until none has a pressure out of bounds, and only then violated ones are freed: to do both at
-    once, as is right where each free set is solved exactly, cycles where it is not.
+    Attributes
+    ----------
+    inner : InnerOperator
+    vectors : Vectors
+    start : array
+        Pressure that is corrected [Pa].
+    unit : float
+        Of the residual [m] and of the correction [Pa].
+    goal : float
+        Largest residual on F, in the unit.
+    """
+
+    inner: InnerOperator
+    vectors: Vectors
+    start: Array
+    unit: float
+    goal: float
+
+
+def inner_system(
+    inner: InnerOperator, iterate: Iterate, conditions: Optimality, free: Mask, *, limit: float
+) -> InnerSystem:
+    """Return the bound-constrained problem from an iterate and a predicted free set (B1).
+
+    Of the iterate it needs no more than the pressure: the rest may go before it is solved.
 
     Parameters
     ----------
@@ -95,16 +113,31 @@ def inner_solve(
         the rest goes to zero.
     limit : float
         Largest residual on F [m].
+    """
+    pressure, displacement, separation = iterate
+    measure = Measure(inner.weights, conditions.measure.xp)
+    # Cells that were not measured never touch, nor does what lies beyond the edge.
+    part = Iterate(inner.gather(pressure), inner.gather(displacement), inner.gather(separation, math.inf))
+    free = inner.gather(free)
+    vectors, unit = scaled_vectors(inner, measure, conditions.terms, free, part, otherwise=limit)
+    return InnerSystem(inner, vectors, part.pressure, unit, limit / unit)
+
+
+def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) -> InnerSolution:
+    """Solve a bound-constrained problem.
+
+    Cells are deactivated until none has a pressure out of bounds, and only then violated ones are freed: to do both at
+    once, as is right where each free set is solved exactly, cycles where it is not.
+
+    Parameters
+    ----------
+    system : InnerSystem
+    conditions : Optimality
+        Of the whole problem.
     max_steps : int
         Largest number of products.
     """
-    (pressure, displacement, separation), terms = iterate, conditions.terms
-    measure = Measure(inner.weights, conditions.measure.xp)
-    start = inner.gather(pressure)
-    # Cells that were not measured never touch, nor does what lies beyond the edge.
-    part = Iterate(start, inner.gather(displacement), inner.gather(separation, math.inf))
-    vectors, unit = scaled_vectors(inner, measure, terms, inner.gather(free), part, otherwise=limit)  # B1
-    goal = limit / unit
+    (inner, vectors, start, unit, goal), terms = system, conditions.terms
     target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
     while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
         residual, done, estimate = bound_constrained_cg(
@@ -127,11 +160,11 @@ def inner_solve(
             break
     p = vectors.pressure(start, unit)
     if vectors.upper is not None:
-        p = measure.xp.where(vectors.upper, terms.hardness, p)
+        p = conditions.measure.xp.where(vectors.upper, terms.hardness, p)
     elif isinstance(terms.control, Force):
-        total = measure.total(p)
+        total = Measure(inner.weights, conditions.measure.xp).total(p)
         if not total > 0:
-            return InnerSolution(pressure, steps)
+            return InnerSolution(inner.scatter(start), steps)
         p *= terms.control.value / total
     return InnerSolution(inner.scatter(p), steps)
 

@@ -111,6 +111,7 @@ class CompiledVectors:
     def update_direction(self, beta: float) -> Field:
         """Make s = z + beta s, and return it."""
         self._region.run("xpay", 0, self._s, self._z, beta)
+        self._forget_directions()
         return self.s
 
     def project(self, beta: float, mu: float, step: float) -> Projected:
@@ -118,6 +119,7 @@ class CompiledVectors:
         w, mu = (self._inverse_of_one, mu) if self._uses_w else (self._z, 0.0)
         fields = self._base, self._correction, self._free, self._s, self._z, w
         lost, bound_correction, force, w_lost = self._region.run("project_step", 4, *fields, beta, mu, step)
+        self._forget_directions()
         self._lost, self._count = self._lost + lost, self._count - lost
         if self._lost > tuning.STALE_CONSTRAINT_DIRECTION * self._count:
             self._forget_inverse_of_one()
@@ -160,6 +162,8 @@ class CompiledVectors:
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure that there is now."""
+        self._forget_directions()
+        self._forget_inverse_of_one()
         return planes.add_scaled(
             np.ascontiguousarray(start, dtype=np.float64), self.correction, self.free, unit
         )
@@ -180,6 +184,11 @@ class CompiledVectors:
     def _inverse_of_one(self) -> Operand:
         """M0^-1 1, with 1 on F: the constraint direction, and what the Schur correction is made of."""
         return self._inverse(self._free)
+
+    def _forget_directions(self) -> None:
+        """Let go of z, and of q, which is another after the next product: planes are large."""
+        self._z = self._q = self._s
+        self.q = self.s
 
     def _forget_inverse_of_one(self) -> None:
         self.__dict__.pop("_inverse_of_one", None)

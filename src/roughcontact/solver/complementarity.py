@@ -22,7 +22,7 @@ import numpy.typing as npt
 from roughcontact.arrays import beside, largest, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
 from roughcontact.kernels import planes
-from roughcontact.solver.control import Force, Solver, State, Status, Terms
+from roughcontact.solver.control import Force, Solver, Start, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
 from roughcontact.solver.refinement import defect_correction
@@ -78,34 +78,35 @@ def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
 
 
 def resolve_contact(
-    solver: Solver, operator: Operator, separation: Array, terms: Terms, initial: Array
+    solver: Solver, operator: Operator, separation: Array, terms: Terms, start: Start
 ) -> State:
     """Run a solver, by defect correction where the sum is not exact, and set pressures that are but rounding to zero.
 
     Parameters
     ----------
     solver : Solver
-    operator, separation, terms, initial
-        The problem, and the pressure to begin with, as `Solver.run` takes them.
+    operator, separation, terms
+        The problem, as `Solver.run` takes it.
+    start : Start
+        The pressure to begin with is handed over.
     """
     exact = exact_of(operator)
     conditions = Optimality.of(exact, terms, namespace(separation))
 
-    def run(terms: Terms, initial: Array) -> State:
+    def run(terms: Terms, start: Start) -> State:
         if exact is operator:
-            return solver.run(operator, separation, terms, initial)
-        return defect_correction(
-            solver, operator, exact, separation, replace(conditions, terms=terms), initial
-        )
+            return solver.run(operator, separation, terms, start.take())
+        asked = replace(conditions, terms=terms)
+        return defect_correction(solver, operator, exact, separation, asked, start.take())
 
-    state = run(terms, initial)
+    state = run(terms, start)
     if state.status is not Status.CONVERGED:
         return replace(state, displacement=None)
     iterated = state.residual > FINEST and terms.tolerance <= LOOSE
     known = UNITS + (state.residual if iterated or state.residual <= FINEST else 0.0)
     weak = _weak(exact, separation, state, known, conditions.measure.xp)
     if weak is not None and iterated and _matter(exact, conditions.measure, state, weak):
-        finer = run(replace(terms, tolerance=FINEST), state.pressure)
+        finer = run(replace(terms, tolerance=FINEST), Start(state.pressure, state.depth))
         steps = state.steps + finer.steps
         state = finer if finer.residual <= terms.tolerance else state
         state = replace(state, steps=steps, status=Status.CONVERGED)

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.kernels.planes import Extremes
 
-__all__ = ["Control", "Depth", "Force", "Solver", "State", "Status", "Tangent", "Terms", "checked_tolerance"]
+__all__ = [
+    *("Control", "Depth", "Force", "Solver", "Start", "State", "Status", "Tangent", "Terms"),
+    "checked_tolerance",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +171,23 @@ _MESSAGES = {
         "that falls as spots grow, or change the load a little."
     ),
 }
+
+
+@dataclass(slots=True, eq=False)
+class Start:
+    """Where a solve begins: a pressure [Pa], which is handed over, and a depth [m].
+
+    Planes are large: whoever takes the pressure is the only one to hold it, and lets go of it when there is another.
+    """
+
+    pressure: Any  # an array, until it is taken
+    depth: float
+
+    def take(self) -> Array:
+        """Return the pressure; the next one to ask gets none."""
+        taken: Array
+        taken, self.pressure = self.pressure, None
+        return taken
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,7 +12,7 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Control, Depth, Solver, Terms
+from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 from roughcontact.validation import Array
@@ -36,7 +36,7 @@ def nested_start(
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, blocks, xp)
     small = gathered_if_small(blocks)
-    start = nested_start(part, small, control, solver)
+    start = Start(*nested_start(part, small, control, solver))
     terms = Terms(control, tuning.COARSE_TOLERANCE)
     state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
     coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)

@@ -142,8 +142,12 @@ def prescribe(
     _check("displacement", displacement, region)
     if initial is not None:
         _check("initial pressure", initial, region)
-    field = xp.zeros(region.shape, dtype=xp.float64, device=region.device)
-    target = xp.where(region, field + displacement, 0.0)
+    if is_numpy(region) and np.ndim(displacement) == 0:  # planes are large: one number is not written out
+        target: Array = np.broadcast_to(np.float64(displacement), region.shape)
+    else:
+        target = xp.where(
+            region, xp.zeros(region.shape, dtype=xp.float64, device=region.device) + displacement, 0.0
+        )
     size = largest(target)
     if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
@@ -157,7 +161,9 @@ def prescribe(
         inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
         start = None if start is None else restrict(start, subdomain)
     with one_blas_thread():
-        pressure, residual, steps = _solve(part, inside, wanted, start, tolerance * size, max_steps, xp)
+        begun = [start]
+        del start  # whoever needs a plane is the only one to hold it, here and below
+        pressure, residual, steps = _solve(part, inside, wanted, begun.pop(), tolerance * size, max_steps, xp)
         # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
         work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
@@ -216,15 +222,18 @@ def _solve(
     """Return pressure, residual by an exact product [m], and number of products: iterative refinement (D1 to D5)."""
     before = math.inf
     inner: InnerOperator | None = None
-    pressure, u, exact, steps = xp.zeros_like(wanted), xp.zeros_like(wanted), True, 0
+    exact, steps = True, 0
     if start is not None:
         pressure, inner, steps = start, inner_operator_on(operator, region), 1
         u, exact = first_product(operator, start, inner)
+        del start
     elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
         # The matrix may differ from that of the products.
         if largest(xp.where(region, wanted - u, 0.0)) > limit:
             u, steps = operator.apply(pressure), 1
+    else:
+        pressure, u = (xp.zeros(wanted.shape, dtype=wanted.dtype, device=wanted.device) for _ in range(2))
     while True:
         r = xp.where(region, wanted - u, 0.0)  # D2
         error = largest(r)
@@ -240,7 +249,8 @@ def _solve(
                 return pressure, r, steps
             inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
-        part = inner.scaled(inner.gather(r) / error)  # so that single precision holds all numbers
+        part = inner.scaled(inner.gather(r), error)  # so that single precision holds all numbers
+        del u, r
         vectors = vectors_on(
             inner, Measure(inner.weights, xp), inner.gather(region), part, xp.zeros_like(part)
         )
@@ -250,7 +260,9 @@ def _solve(
             limit=max(0.5 * limit / error, inner.contraction),
             max_steps=max_steps - steps - 1,
         )
-        pressure = pressure + inner.scatter(error * xp.astype(vectors.correction, xp.float64))  # D4
+        correction = vectors.correction
+        del vectors, part
+        pressure = pressure + inner.scatter(error * xp.astype(correction, xp.float64))  # D4
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 

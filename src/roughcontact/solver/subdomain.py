@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.operator import Capabilities, Operator, ca
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
 from roughcontact.solver.complementarity import resolve_contact
-from roughcontact.solver.control import Solver, State, Terms
+from roughcontact.solver.control import Solver, Start, State, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
@@ -80,15 +80,14 @@ class SubdomainSolver:
         solver: Solver,
         separation: Array,
         terms: Terms,
-        start: tuple[Array, float],
+        start: Start,
     ) -> tuple[State, Subdomain]:
-        """Solve from a pressure [Pa] on the whole grid and a depth [m]; return the state and its subdomain."""
-        pressure, depth = start
+        """Solve from a pressure on the whole grid and a depth; return the state and its subdomain."""
         if not (self._can.positive and is_numpy(separation)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
-            return resolve_contact(solver, self.operator, separation, terms, pressure), whole
-        candidates = (separation < depth) | (pressure > 0)
+            return resolve_contact(solver, self.operator, separation, terms, start), whole
+        candidates = (separation < start.depth) | (start.pressure > 0)
         if not candidates.any():
             candidates = separation == separation.min()
         if terms.plastic and terms.depth is None:
@@ -98,14 +97,13 @@ class SubdomainSolver:
             subdomain = self._subdomain(candidates)
             part = self.operator_on(subdomain)
             limits = replace(terms, hardness=restrict_hardness(terms.hardness, subdomain))
-            state = resolve_contact(
-                solver, part, restrict(separation, subdomain), limits, restrict(pressure, subdomain)
-            )
+            inside = Start(restrict(start.take(), subdomain), start.depth)
+            state = resolve_contact(solver, part, restrict(separation, subdomain), limits, inside)
             steps += state.steps
             overlap = separation < state.depth
             if np.count_nonzero(overlap) == np.count_nonzero(restrict(overlap, subdomain)):
                 return replace(state, steps=steps), subdomain
-            pressure = prolong(state.pressure, subdomain, separation.shape)
+            start = Start(prolong(state.pressure, subdomain, separation.shape), state.depth)
             candidates |= overlap
 
     def operator_on(self, subdomain: Subdomain) -> Operator:
