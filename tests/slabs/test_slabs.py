@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.spots import find_spots
+from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
 from roughcontact.slabs import levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
+from roughcontact.solver.inner_product import Measure
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]
@@ -144,6 +147,31 @@ def test_press(size, shape, small, load, monkeypatch):
         assert same == numbers
 
 
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(12, 9), (3, 8), (40, 40)], ids=str)
+@pytest.mark.parametrize("filled", [0.0, 0.3, 0.55, 1.0])
+def test_spots_are_those_of_one_process(size, shape, filled):
+    """Near 0.59, where contact percolates, spots go through all processes and round the edges."""
+    rng = np.random.default_rng(7)
+    pressure = np.where(rng.random(shape) < filled, rng.random(shape), 0.0)
+    grid = rc.Grid(shape, 1e-6, periodic=True)
+    cell = rc.half_space(grid, 1.0).weights
+    whole = find_spots(pressure > 0, pressure, grid, Measure(cell))
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        there = slabs.array(pressure[slabs.rows(shape[0])])
+        spots = find_spots_in_slabs(there > 0, there, cell)
+        return spots.count, spots.labels.gathered(), spots.areas, spots.loads
+
+    for count, labels, areas, loads in together(size, work):
+        assert count == whole.count
+        np.testing.assert_array_equal(labels, whole.labels)
+        # Sums of at most 1600 numbers of one sign: each addition rounds once.
+        np.testing.assert_allclose(areas, whole.areas, rtol=1600 * 2.3e-16)
+        np.testing.assert_allclose(loads, whole.loads, rtol=1600 * 2.3e-16)
+
+
 @pytest.mark.parametrize("hardness", [None, 3e7])
 def test_curve(hardness):
     """With missing points under a hardness."""
@@ -162,6 +190,24 @@ def test_curve(hardness):
         np.testing.assert_allclose(there.depth, here.depth, rtol=1e-8)
         np.testing.assert_allclose(there.stiffness, here.stiffness, rtol=1e-6)
         np.testing.assert_array_equal(there.spots, here.spots)
+
+
+@pytest.mark.parametrize("size", [*SIZES, 7])
+@pytest.mark.parametrize("kind", ["mean", "plane", "quadratic"])
+def test_levelling(size, kind):
+    """Heights to what sums over 30 numbers round; of 5 rows two of seven processes have none."""
+    heights = np.random.default_rng(3).standard_normal((5, 6)) + 3 * np.arange(6)
+    heights[2, 3] = np.nan
+    surface = rc.Surface(heights, rc.Grid((5, 6), 1.0))
+    here = surface.levelled(kind)
+
+    def work(communicator):
+        there = in_slabs(surface, communicator).levelled(kind)
+        return there.heights.gathered(), there.provenance
+
+    for found, provenance in together(size, work):
+        np.testing.assert_allclose(found, here.heights, rtol=0, atol=30 * 2.3e-16 * 18)
+        assert provenance == here.provenance
 
 
 def test_back_on_the_host_it_is_a_solution_like_any():

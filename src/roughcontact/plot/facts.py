@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
@@ -58,7 +59,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
         ("force", quantity("force", solution.force, kind)),
         ("nominal pressure", quantity("pressure", pressure, kind)),
-        ("largest pressure", quantity("pressure", float(solution.pressure.max()), kind)),
+        ("largest pressure", quantity("pressure", largest(solution.pressure), kind)),
         ("depth", quantity("depth", solution.depth, kind)),
         ("stiffness", quantity("stiffness", solution.stiffness, kind)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
