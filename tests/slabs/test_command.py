@@ -80,6 +80,17 @@ def test_curve(made, tmp_path):
     }
 
 
+def test_surface_make(tmp_path):
+    """Of one process and of four: heights to 1e-14 of their rms height, as in `test_slabs`."""
+    recipe = ("--hurst", "0.8", "--rms", "1um", "--size", "1mm", "--points", "64x48", "--periodic", "--json")
+    wanted = of_one_process("surface", "make", tmp_path / "one.npy", *recipe)
+    done = run(4, "surface", "make", tmp_path / "four.npy", *recipe)
+    assert done.returncode == 0, done.stderr
+    alike(json.loads(done.stdout), wanted)
+    one, four = (np.load(tmp_path / f"{name}.npy") for name in ("one", "four"))
+    np.testing.assert_allclose(four, one, rtol=0, atol=1e-14 * one.std())
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -12,6 +12,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
+from roughcontact.surface.height_range import height_range
 
 if TYPE_CHECKING:
     import xarray
@@ -173,6 +174,7 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
 def surface_record(surface: Surface) -> dict[str, Any]:
     """Return what is worth keeping of a surface, as plain values."""
     grid = surface.grid
+    lowest, highest = height_range(surface.heights)
     return {
         "shape": list(grid.shape),
         "spacing": list(grid.spacing),
@@ -181,8 +183,8 @@ def surface_record(surface: Surface) -> dict[str, Any]:
         "missing": surface.missing,
         "rms": surface.rms,
         "rms_levelled": surface.levelled("plane").rms,
-        "lowest": float(np.nanmin(surface.heights)),
-        "highest": float(np.nanmax(surface.heights)),
+        "lowest": lowest,
+        "highest": highest,
         "provenance": list(surface.provenance),
         "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
     }
