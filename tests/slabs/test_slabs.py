@@ -6,6 +6,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.contact.spots import find_spots
 from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
+from roughcontact.kernels import buffers
 from roughcontact.slabs import exchange, levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
 from roughcontact.solver.inner_product import Measure
@@ -152,6 +153,15 @@ def test_press(size, shape, small, load, monkeypatch):
     for other, same, _ in answers[1:]:  # all processes have the same
         np.testing.assert_array_equal(other, pressure)
         assert same == numbers
+
+
+def test_whole_levels_leave_no_memory_to_those_in_slabs(monkeypatch):
+    """Planes of 128 x 128 numbers are among those that are kept for the next."""
+    monkeypatch.setattr(levels_of_slabs, "SMALL", 2**14)
+    rc.press(rough((128, 128)), 1e9, pressure=1e6)
+    assert buffers._total[0] > 0
+    together(1, lambda one: rc.press(in_slabs(rough((256, 256)), one), 1e9, pressure=1e6))
+    assert buffers._total[0] == 0
 
 
 @pytest.mark.parametrize("size", SIZES)

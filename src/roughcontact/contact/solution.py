@@ -339,7 +339,7 @@ class Solution:
         """
         from roughcontact.contact.dataset import solution_record
 
-        return solution_record(self.on_host())
+        return solution_record(self if is_in_slabs(self.pressure) else self.on_host())
 
     plot = plot_solution
     _repr_html_ = solution_html
