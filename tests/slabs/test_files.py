@@ -47,6 +47,17 @@ def test_a_file_is_read_as_by_one_process(size, name, tmp_path):
         assert (grid, provenance, digest) == (whole.grid, whole.provenance, surface_hash(whole))
 
 
+def test_what_one_process_doubts_is_doubted_here(tmp_path):
+    heights = np.random.default_rng(1).standard_normal((40, 40)) * 1e-7
+    rc.write(rc.Surface(heights, rc.Grid((40, 40), 1e-6)), tmp_path / "map.npz")
+    with pytest.warns(rc.SurfaceWarning):
+        whole = rc.read(tmp_path / "map.npz")
+
+    with pytest.warns(rc.SurfaceWarning, match="random|noise"):
+        [there] = together(1, lambda one: rc.read(tmp_path / "map.npz", slabs=rc.Slabs(one)))
+    assert there.provenance == whole.provenance
+
+
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_numbers_of_any_type_and_order(order, tmp_path):
     numbers = np.arange(20, dtype=">i2").reshape(5, 4, order=order)

@@ -15,7 +15,7 @@ from roughcontact.files.dispatch import channels_of, either, height_map, profile
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.heightmap import Channel, HeightMap
 from roughcontact.files.length_units import length_factor
-from roughcontact.files.read_in_slabs import map_in_slabs
+from roughcontact.files.read_in_slabs import surface_in_slabs
 from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.surface import Surface
 
@@ -54,7 +54,7 @@ def read(
         is read as free.
     slabs : Slabs, optional
         Processes that read it together, as a surface in slabs: of ``.npy`` each reads its rows, any other file is
-        read by the first, which deals it out. Spikes and noise are not looked for.
+        read by the first, which deals it out. Spikes and noise of ``.npy`` are not looked for.
 
     Returns
     -------
@@ -189,9 +189,8 @@ def _read(
         cell_of(size, (1,) * axes)
     stated: dict[str, Any] = {"unit": unit, "size": size, "periodic": periodic}
     if slabs is not None:
-        found, digest = map_in_slabs(path, slabs, channel)
         with named(path) as file:
-            surface, doubts = assemble(found, file, digest[:16], **stated)
+            surface, doubts = surface_in_slabs(path, slabs, channel, stated)
     else:
         with content(path) as (file, data):
             found = reader(data, Path(file).suffix.casefold(), channel)
