@@ -34,15 +34,9 @@ def main(cells):
     world = Counting(MPI.COMM_WORLD)
     slabs = rc.Slabs(world)
     grid = rc.Grid((cells, cells), 1e-6, periodic=True)
-    whole = None
-    if world.rank == 0:
-        rng = np.random.default_rng(1)
-        whole = rc.self_affine(grid, hurst=0.8, rms=1e-7, rolloff=cells * 1e-6 / 4, rng=rng).heights
-    rows = world.allgather(slabs.rows(cells))
-    mine = world.scatter(None if whole is None else [whole[each] for each in rows])
-    share = grid.size / world.size
-    surface = rc.Surface(slabs.array(mine), grid)
-    del whole, mine
+    rng, share = np.random.default_rng(1), grid.size / world.size
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rolloff=cells * 1e-6 / 4, rng=rng, slabs=slabs)
+    world.sent = 0  # to make it
     tracemalloc.start()
     solution = rc.press(surface, 1e9, pressure=5e5)
     held = 8 + tracemalloc.get_traced_memory()[1] / share

@@ -1,37 +1,20 @@
 """The same on processes of MPI; skipped where there is no mpi4py, or no mpiexec."""
 
-import os
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from slabs.launched import LAUNCHER, launch
 
 pytest.importorskip("mpi4py", reason="mpi4py is not installed: the extra 'mpi'")
-LAUNCHER = shutil.which(
-    "mpiexec", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
-)
 pytestmark = pytest.mark.skipif(LAUNCHER is None, reason="there is no mpiexec")
 SCRIPT = Path(__file__).parent / "pressed.py"
-# Open MPI is asked to run more processes than there are cores, and in containers as root.
-ASKED = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-    "OMP_NUM_THREADS": "1",
-}
 
 
 def run(processes, *arguments):
-    command = [LAUNCHER, "-n", str(processes), sys.executable, "-m", "mpi4py", SCRIPT, *arguments]
-    return subprocess.run(
-        list(map(str, command)), env=os.environ | ASKED, capture_output=True, text=True, timeout=300
-    )
+    return launch(processes, "-m", "mpi4py", SCRIPT, *arguments)
 
 
 @pytest.fixture(scope="module")

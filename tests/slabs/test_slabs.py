@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.slabs import levels_of_slabs
+from roughcontact.contact.spots import find_spots
+from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
+from roughcontact.kernels import buffers
+from roughcontact.slabs import exchange, levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
+from roughcontact.solver.inner_product import Measure
+from roughcontact.surface import waves_in_slabs
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]
@@ -89,8 +94,14 @@ def test_functions_are_those_of_numpy(size, shape):
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("shape", [(12, 20), (15, 9), (3, 8)], ids=str)
 @pytest.mark.parametrize(("dtype", "digits"), [("float64", 1e-14), ("float32", 1e-5)])
-def test_product(size, shape, dtype, digits):
-    """Precision: that of the type, times what a transform of some hundred values adds up."""
+@pytest.mark.parametrize("at_once", [2**18, 1])
+def test_product(size, shape, dtype, digits, at_once, monkeypatch):
+    """Precision: that of the type, times what a transform of some hundred values adds up.
+
+    In one exchange, and in several where the slabs differ.
+    """
+    monkeypatch.setattr(exchange, "FEWEST", at_once)
+    monkeypatch.setattr(exchange, "PARTS", 1)
     body = rc.half_space(rc.Grid(shape, (0.3, 0.5), True), 2.0)
     p = np.random.default_rng(0).standard_normal(shape).astype(dtype)
     exact = body.apply(p.astype(float))
@@ -144,6 +155,40 @@ def test_press(size, shape, small, load, monkeypatch):
         assert same == numbers
 
 
+def test_whole_levels_leave_no_memory_to_those_in_slabs(monkeypatch):
+    """Planes of 128 x 128 numbers are among those that are kept for the next."""
+    monkeypatch.setattr(levels_of_slabs, "SMALL", 2**14)
+    rc.press(rough((128, 128)), 1e9, pressure=1e6)
+    assert buffers._total[0] > 0
+    together(1, lambda one: rc.press(in_slabs(rough((256, 256)), one), 1e9, pressure=1e6))
+    assert buffers._total[0] == 0
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(12, 9), (3, 8), (40, 40)], ids=str)
+@pytest.mark.parametrize("filled", [0.0, 0.3, 0.55, 1.0])
+def test_spots_are_those_of_one_process(size, shape, filled):
+    """Near 0.59, where contact percolates, spots go through all processes and round the edges."""
+    rng = np.random.default_rng(7)
+    pressure = np.where(rng.random(shape) < filled, rng.random(shape), 0.0)
+    grid = rc.Grid(shape, 1e-6, periodic=True)
+    cell = rc.half_space(grid, 1.0).weights
+    whole = find_spots(pressure > 0, pressure, grid, Measure(cell))
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        there = slabs.array(pressure[slabs.rows(shape[0])])
+        spots = find_spots_in_slabs(there > 0, there, cell)
+        return spots.count, spots.labels.gathered(), spots.areas, spots.loads
+
+    for count, labels, areas, loads in together(size, work):
+        assert count == whole.count
+        np.testing.assert_array_equal(labels, whole.labels)
+        # Sums of at most 1600 numbers of one sign: each addition rounds once.
+        np.testing.assert_allclose(areas, whole.areas, rtol=1600 * 2.3e-16)
+        np.testing.assert_allclose(loads, whole.loads, rtol=1600 * 2.3e-16)
+
+
 @pytest.mark.parametrize("hardness", [None, 3e7])
 def test_curve(hardness):
     """With missing points under a hardness."""
@@ -162,6 +207,24 @@ def test_curve(hardness):
         np.testing.assert_allclose(there.depth, here.depth, rtol=1e-8)
         np.testing.assert_allclose(there.stiffness, here.stiffness, rtol=1e-6)
         np.testing.assert_array_equal(there.spots, here.spots)
+
+
+@pytest.mark.parametrize("size", [*SIZES, 7])
+@pytest.mark.parametrize("kind", ["mean", "plane", "quadratic"])
+def test_levelling(size, kind):
+    """Heights to what sums over 30 numbers round; of 5 rows two of seven processes have none."""
+    heights = np.random.default_rng(3).standard_normal((5, 6)) + 3 * np.arange(6)
+    heights[2, 3] = np.nan
+    surface = rc.Surface(heights, rc.Grid((5, 6), 1.0))
+    here = surface.levelled(kind)
+
+    def work(communicator):
+        there = in_slabs(surface, communicator).levelled(kind)
+        return there.heights.gathered(), there.provenance
+
+    for found, provenance in together(size, work):
+        np.testing.assert_allclose(found, here.heights, rtol=0, atol=30 * 2.3e-16 * 18)
+        assert provenance == here.provenance
 
 
 def test_back_on_the_host_it_is_a_solution_like_any():
@@ -210,3 +273,83 @@ def test_an_array_in_slabs_does_not_become_a_whole_one_by_itself():
     with pytest.raises(TypeError, match="slices"):
         rows[0]
     assert repr(rows) == "SlabArray(4 x 3 float64, rows 0 to 4 here)"
+
+
+WAYS = {
+    "plain": {},
+    "limited": {"rolloff": 1.2e-5, "short_cutoff": 3e-6, "support": "disc"},
+    "of a band": {"rms_band": (2e-5, 3.2e-6), "amplitudes": "gaussian"},
+    "along a direction": {"anisotropy": (3.0, 0.4)},
+}
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(24, 20), (15, 9), (3, 40)], ids=str)
+@pytest.mark.parametrize("way", WAYS)
+def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
+    """Waves to the last bit on any number of processes, heights to what transforms of a thousand waves round.
+
+    Those of one process without slabs have another common factor: its sum rounds otherwise.
+    """
+    monkeypatch.setattr(exchange, "FEWEST", 2 * shape[0])  # two columns at once
+    monkeypatch.setattr(waves_in_slabs, "BLOCK", 30)
+    grid = rc.Grid(shape, (1e-6, 1.2e-6), periodic=True)
+    if way == "of a band" and shape == (3, 40):
+        return  # no such grid has this band
+    given = {"hurst": 0.8, "rms": 1e-7, **WAYS[way]}
+    here = rc.self_affine(grid, **given, rng=np.random.default_rng(3))
+    made = {}
+    real = exchange.plane_of_waves
+
+    def watched(waves, shape, functions):
+        def kept(columns):
+            part = waves(columns)
+            made.update({columns.start + k: part[:, k].copy() for k in range(part.shape[1])})
+            return part
+
+        return real(kept, shape, functions)
+
+    monkeypatch.setattr(waves_in_slabs, "plane_of_waves", watched)
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        there = rc.self_affine(grid, **given, rng=np.random.default_rng(3), slabs=slabs)
+        return there.heights.gathered(), there.provenance
+
+    for heights, provenance in together(size, work):
+        np.testing.assert_allclose(heights, here.heights, rtol=0, atol=1e-14 * here.rms)
+        assert provenance == here.provenance
+    waves = np.stack([made[k] for k in range(shape[1] // 2 + 1)], axis=1)
+    made.clear()
+    together(1, work)
+    np.testing.assert_array_equal(np.stack([made[k] for k in range(shape[1] // 2 + 1)], axis=1), waves)
+
+
+def test_a_spectrum_that_sets_the_height():
+    grid = rc.Grid((16, 16), 1e-6, periodic=True)
+    spectrum = rc.SelfAffineSpectrum(0.8, rolloff=8e-6).scaled(1e-7, grid)
+    here = rc.synthesise(grid, spectrum, np.random.default_rng(3))
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        return rc.synthesise(grid, spectrum, np.random.default_rng(3), slabs=slabs).heights.gathered()
+
+    for heights in together(3, work):
+        np.testing.assert_allclose(heights, here.heights, rtol=0, atol=1e-14 * here.rms)
+
+
+def test_surfaces_that_are_not_made_in_place():
+    grid = rc.Grid((16, 16), 1e-6, periodic=True)
+
+    def make(communicator, seed=0, given=None, **keywords):
+        rng = np.random.default_rng(seed)
+        rc.self_affine(given or grid, 0.8, 1e-7, rng, **keywords, slabs=rc.Slabs(communicator))
+
+    for work, message in [
+        (lambda one: make(one, one.rank), "the processes drew different phases"),
+        (lambda one: make(one, given=rc.Grid((16, 16), 1e-6)), "must be periodic along both axes"),
+        (lambda one: make(one, long_cutoff=1e-6), "no wave of this grid lies inside"),
+        (lambda one: make(one, short_cutoff=8e-6, rms_band=(4e-6, 3e-6)), "lies in rms_band"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            together(2, work)

@@ -189,12 +189,11 @@ class CurveAnswer:
             command=command_line(),
         )
 
-    def write(self, folder: Path, control: str, ending: str) -> None:
+    def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:
         """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
 
-        source = self.source(control)
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv", source)

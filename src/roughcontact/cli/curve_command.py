@@ -17,6 +17,7 @@ from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
+from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
@@ -145,6 +146,16 @@ def curve(
     """
     file, out = reading.source.file, asked.out
     with reported(file, out, as_json=asked.json):
+        refuse_in_slabs(
+            {
+                "--loop": plastic.loop,
+                "--flow": plastic.flow,
+                "--work": sticking.work,
+                "--theory": theories.theory,
+                "--errors": errors.errors,
+                "--table": tables.table,
+            }
+        )
         if sticking.asked:
             others: dict[str, Any] = {
                 "--flow": plastic.flow,
@@ -159,11 +170,16 @@ def curve(
             prescribed = given.path(reading.profile)
             curve_sticking(reading, prescribed, elasticity, sticking, asked, loop=plastic.loop, points=points)
             return
+        in_slabs = slabs_of_job() is not None
         if points is not None:
             raise UsageError(
                 "--points is about a --loop of surfaces that stick: leave it out, or give --work"
             )
         name, loads = given.values(reading.profile)
+        if in_slabs and loads is None:
+            raise UsageError(
+                "several processes do not look for loads: name them, such as --pressures 1kPa:1MPa:20"
+            )
         chosen = units.chosen()
         modulus, hardness = elasticity.reduced_modulus(), plastic.hardness(elasticity)
         plastic.check(name, errors)
@@ -184,7 +200,7 @@ def curve(
             laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
                 loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
-            elif name != "depths":
+            elif name != "depths" and not in_slabs:
                 _look_ahead(surface, modulus, name, loads, operator)
             largest = {name.removesuffix("s"): float(loads.max())}
             require_memory_for_load(surface, modulus, largest, curve=True)
@@ -209,14 +225,15 @@ def curve(
                 note("stopped: the loop is not closed, only what was computed of first loading is kept")
             joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
-            if folder is not None:
+            if out is not None:
                 unit, done = kinds_of(reading.profile)[name.removesuffix("s")].unit, loads[: len(computed)]
-                ends = f"from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
+                source = answer.source(f"{name} from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them")
+            if folder is not None:
                 with doing("Writing files"):
-                    answer.write(folder, f"{name} {ends}", ending)
+                    answer.write(folder, source, ending)
                     more = tables.write(folder, computed, surface, conductors)
                     if loop is not None:
-                        more += write_loop(loop, folder, answer.source(f"{name} {ends}"), ending)
+                        more += write_loop(loop, folder, source, ending)
         answer.tell(asked.json, loop)
         if folder is not None:
             note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))

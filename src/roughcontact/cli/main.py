@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from roughcontact.cli.error_object import emit_error
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, MISTAKE, TERMINATED
+from roughcontact.cli.job import as_one, refusal
 
 __all__ = ["run"]
 
@@ -19,7 +20,12 @@ _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
 
 
 def run() -> None:
-    """Run the program."""
+    """Run the program, by all processes that a launcher of MPI jobs has started."""
+    with as_one():
+        _run()
+
+
+def _run() -> None:
     try:
         signal.signal(signal.SIGTERM, _terminate)
         for stream in (sys.stdout, sys.stderr):
@@ -29,6 +35,11 @@ def run() -> None:
         # Late, since it takes a second, in which Ctrl-C must not end in a traceback.
         from roughcontact.cli.app import app
 
+        if (problem := refusal(sys.argv[1:])) is not None:
+            sys.stderr.write(f"Error: {problem}\n")
+            if _as_json():
+                emit_error("usage", problem, BAD_INPUT)
+            sys.exit(BAD_INPUT)
         if _as_json():
             # Errors of the options come here as exceptions; otherwise they are printed where they are found.
             sys.exit(app(prog_name="roughcontact", standalone_mode=False))

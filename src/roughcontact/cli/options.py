@@ -7,6 +7,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
 from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, option
@@ -118,9 +119,10 @@ class Source:
         """Return the map of heights as the file holds it."""
         import roughcontact as rc
 
+        slabs = slabs_of_job()
         with as_typed(self.file), doing(f"Reading {self.file.name}"):
             try:
-                return rc.read(self.file, **self._keywords(periodic))
+                return rc.read(self.file, **self._keywords(periodic), slabs=slabs)
             except rc.ReadError as error:
                 if "read_line" not in error.remedy:
                     raise
@@ -202,9 +204,15 @@ class Reading:
         """
         from roughcontact.contact.problem import require_memory_for
 
+        refuse_in_slabs({"--profile": self.profile, "--despike": self.despike})
         read = self.source.map if self.profile is None else self.source.line
         surface = read(self.periodic)
         require_memory_for(surface)
+        if slabs_of_job() is not None and not all(surface.grid.periodic):
+            raise UsageError(
+                "several processes press periodic surfaces only, and this one is free: give --periodic, or start one "
+                "process"
+            )
         if self.despike is not None:
             surface = self.despike.remove(surface)
         level = self.level

@@ -11,19 +11,38 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, plain
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from roughcontact.slabs.communicator import Communicator
+
 __all__ = ["all_or_none", "command_line", "output"]
 
 
 def output(folder: Path | None) -> AbstractContextManager[Path | None]:
-    """Return a context that checks the folder before the work, and undoes its creation if that fails."""
+    """Return a context that checks the folder before the work, and undoes its creation if that fails.
+
+    Of the processes of a job all enter it, and the first alone gets the folder.
+    """
     from roughcontact.files.aside import output_folder
 
-    return nullcontext() if folder is None else output_folder(folder)
+    if folder is None:
+        return nullcontext()
+    slabs = slabs_of_job()
+    return output_folder(folder) if slabs is None else _of_first(slabs.communicator, folder)
+
+
+@contextmanager
+def _of_first(communicator: Communicator, folder: Path) -> Iterator[Path | None]:
+    """Yield the folder on the first process of a job, which alone writes, and None on the others."""
+    from roughcontact.files.aside import output_folder
+    from roughcontact.slabs.agreement import entered_by_first
+
+    with entered_by_first(communicator, lambda: output_folder(folder)) as path:
+        yield path if communicator.rank == 0 else None
 
 
 @contextmanager

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import typer
 
+from roughcontact.arrays import largest
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import Sticking
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
@@ -23,6 +25,7 @@ from roughcontact.cli.report import doing, emit, note_files, print_facts, soluti
 from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.sticking_press import press_sticking
 from roughcontact.cli.unit_options import parse, parse_load
+from roughcontact.cli.write_from_slabs import write_from_slabs
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -97,6 +100,16 @@ def press(
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
     file, out = reading.source.file, answer.out
     with reported(file, out, as_json=answer.json):
+        slabs = slabs_of_job()
+        refuse_in_slabs(
+            {
+                "--after": plastic.after,
+                "--flow": plastic.flow,
+                "--work": sticking.work,
+                "--theory": theory,
+                "--errors": errors.errors,
+            }
+        )
         if sticking.asked:
             others: dict[str, Any] = {"--after": plastic.after, "--flow": plastic.flow, "--theory": theory}
             sticking.refuse(others | {"--hardness": elasticity.hardness, "--errors": errors.errors})
@@ -131,15 +144,19 @@ def press(
             budget = {"errors": found[0].to_record() if found else None}
             with doing("Stiffness, spots and files"):
                 record = _record(solution, file, pressed) | budget
-                if folder is not None:
-                    [(name, value)] = given.items()
-                    control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
-                    control += "" if first is None else f" after {first!r}"
-                    _write(solution, record, folder, control, theory, ending)
-                    drawn = plastic.draw(surface, solution, folder, ending)
+                [(name, value)] = given.items()
+                control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
+                control += "" if first is None else f" after {first!r}"
+                if slabs is not None and out is not None:
+                    drawn = write_from_slabs(
+                        slabs, solution, record, folder, _source(solution, control), ending
+                    )
+                elif folder is not None:
+                    _write(solution, record, folder, _source(solution, control), theory, ending)
+                    drawn = ("pressure", *plastic.draw(surface, solution, folder, ending))
         per_area = "pressure" in given or all(surface.grid.periodic)
         _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
-        pictures = (*(() if theory is None else ("distribution",)), "pressure", *drawn)
+        pictures = (*(() if theory is None else ("distribution",)), *drawn)
         note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
@@ -169,34 +186,39 @@ def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
         "surface": history,
         **pressed.record(),
         **solution_record(solution),
-        "largest_pressure": float(solution.pressure.max()),
+        "largest_pressure": largest(solution.pressure),
         "tolerance": solution.problem.tolerance,
         "converged": solution.status.converged,
     }
 
 
-def _write(
-    solution: Solution,
-    record: dict[str, Any],
-    folder: Path,
-    control: str,
-    theory: Theory | None,
-    ending: str,
-) -> None:
-    from roughcontact.contact.dataset import solution_dataset
-    from roughcontact.contact.theories import persson_pressures
+def _source(solution: Solution, control: str) -> dict[str, Any]:
+    """Return what files say of where they come from."""
     from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_json, write_netcdf
-    from roughcontact.plot.canvas import pressure_distribution_figure, save, solution_figure
 
     problem = solution.problem
-    source = provenance(
+    return provenance(
         problem.surface,
         modulus=problem.modulus,
         control=control,
         tolerance=problem.tolerance,
         command=command_line(),
     )
+
+
+def _write(
+    solution: Solution,
+    record: dict[str, Any],
+    folder: Path,
+    source: dict[str, Any],
+    theory: Theory | None,
+    ending: str,
+) -> None:
+    from roughcontact.contact.dataset import solution_dataset
+    from roughcontact.contact.theories import persson_pressures
+    from roughcontact.files.write import write_json, write_netcdf
+    from roughcontact.plot.canvas import pressure_distribution_figure, save, solution_figure
+
     with all_or_none(folder) as aside:
         write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
         save(solution_figure(solution), aside / f"pressure.{ending}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import note
 from roughcontact.cli.report import quantity
 from roughcontact.files.own_errors import is_ours
@@ -44,6 +45,8 @@ class Pressed:
         from roughcontact.contact.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)
+        if not is_numpy(surface.heights):  # whose summits are not looked for
+            softer = None
         if surface.grid.ndim == 1:  # which has no summits
             return cls(kind, "a periodic profile" if all(surface.grid.periodic) else "a profile", None, None)
         return cls(kind, kind.value, None if softer is None else _index(surface, modulus, softer[0]), softer)

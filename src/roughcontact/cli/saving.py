@@ -20,11 +20,11 @@ _LEFT_OUT = {
 }
 
 
-def require_output(out: Path, source: Path | None = None) -> None:
+def require_output(out: Path, source: Path | None = None, *, in_slabs: bool = False) -> None:
     """Refuse what cannot be written before any work, and what must not be overwritten."""
     from roughcontact.files.save import require_surface_file
 
-    require_surface_file(out)
+    require_surface_file(out, in_slabs=in_slabs)
     if source is not None and out.exists() and source.exists() and out.samefile(source):
         raise UsageError(f"{out} is the measured file itself: name another file to write")
 

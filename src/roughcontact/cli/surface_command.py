@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli import options
+from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
@@ -125,9 +126,11 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
 
         import roughcontact as rc
 
-        require_output(out)
+        slabs = slabs_of_job()
+        require_output(out, in_slabs=slabs is not None)
         grid = _grid(recipe.size, recipe.points, recipe.periodic)
-        require_memory(_BYTES_PER_POINT * grid.size, grid.shape)
+        share = 1 if slabs is None else slabs.communicator.size
+        require_memory(_BYTES_PER_POINT * grid.size // share, grid.shape)
         height, exponent = parse(recipe.rms, LENGTH, "--rms"), parse_number(recipe.hurst, "--hurst", "0.8")
         chosen = parse_seed(recipe.seed, "--seed")
         waves = {
@@ -144,6 +147,7 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
                 np.random.default_rng(chosen),
                 rms_band=band,
                 nodal=recipe.nodal,
+                slabs=slabs,
                 **waves,  # type: ignore[arg-type]
             )
         made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])

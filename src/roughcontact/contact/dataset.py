@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.arrays import largest
 from roughcontact.contact.flow_curve import flow_point
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
@@ -18,7 +21,17 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
 
-__all__ = ["curve_dataframe", "curve_dataset", "curve_record", "solution_dataset", "solution_record"]
+__all__ = [
+    *(
+        "curve_dataframe",
+        "curve_dataset",
+        "curve_record",
+        "numbers_dataset",
+        "solution_dataset",
+        "solution_maps",
+    ),
+    "solution_record",
+]
 
 _CURVE_ARRAYS = (
     *(*CURVE_POINTS, "nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
@@ -84,15 +97,27 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     is the top of the picture, so y points down. Scalars are variables without a dimension, areas and loads of the
     spots lie along ``spot`` (1, 2, ... as in ``spot_label``). On a line the units are per length.
     """
+    kind = solution.problem.geometry
+    maps = {name: variable(name, kind.axes, values, kind) for name, values in solution_maps(solution).items()}
+    return numbers_dataset(solution, maps)
+
+
+def solution_maps(solution: Solution) -> dict[str, Any]:
+    """Return the fields of one loaded state, wherever they are, by their names in a dataset."""
+    surface = solution.problem.surface
+    maps = {name: getattr(solution, name) for name in _SOLUTION_MAPS}
+    if solution.flow is not None:
+        maps["flow_depth"] = solution.flow.depth
+    if surface is not None:
+        maps["heights"] = surface.heights
+    return maps | {"spot_label": solution.spots.labels}
+
+
+def numbers_dataset(solution: Solution, maps: Mapping[str, Any] = MappingProxyType({})) -> xarray.Dataset:
+    """Return one loaded state as a dataset of such variables for its fields: without, of its numbers alone."""
     problem, spots = solution.problem, solution.spots
     grid, kind = problem.grid, problem.geometry
-    axes = kind.axes
-    data = {name: variable(name, axes, getattr(solution, name), kind) for name in _SOLUTION_MAPS}
-    if solution.flow is not None:
-        data["flow_depth"] = variable("flow_depth", axes, solution.flow.depth)
-    if problem.surface is not None:
-        data["heights"] = variable("heights", axes, problem.surface.heights)
-    data["spot_label"] = variable("spot_label", axes, spots.labels)
+    data = dict(maps)
     data["spot_area"] = variable("spot_area", ("spot",), spots.areas, kind)
     data["spot_load"] = variable("spot_load", ("spot",), spots.loads, kind)
     data |= {name: variable(name, (), getattr(solution, name), kind) for name in _SOLUTION_SCALARS}
@@ -186,7 +211,7 @@ def _scales(solution: Solution) -> dict[str, float]:
     """Return the numbers by which one loaded state is judged and that it has no attribute for."""
     problem = solution.problem
     scales = {
-        "largest_pressure": float(solution.pressure.max()),
+        "largest_pressure": largest(solution.pressure),
         "nominal_pressure": solution.force / problem.grid.area,
         "stiffness_residual": solution.frozen.residual,
         "modulus": problem.modulus,

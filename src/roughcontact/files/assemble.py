@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughcontact.arrays import is_numpy
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap
@@ -38,7 +39,9 @@ def assemble(
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and the doubts to warn of; what the user states overrides the file."""
     _require(found, unit, size)
-    require_memory(BYTES_TO_LOOK * found.heights.size)
+    looked_at = is_numpy(found.heights)  # what lies on several processes is not, for spikes and noise
+    if looked_at:
+        require_memory(BYTES_TO_LOOK * found.heights.size)
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)
@@ -64,7 +67,9 @@ def assemble(
         surface = Surface(heights, grid)
     except ValueError as error:
         raise ContentError(str(error), "check that it is the right file and channel") from error
-    doubts = (*contradictions, *found.doubts, *doubts_about(surface.heights, grid.spacing))
+    doubts = (*contradictions, *found.doubts)
+    if looked_at:
+        doubts += doubts_about(surface.heights, grid.spacing)
     channel = "" if found.channel is None else f", channel {found.channel!r}"
     provenance = (
         *found.history,

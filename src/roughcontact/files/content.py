@@ -16,7 +16,7 @@ from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.numpy_files import read_npy_header
 
-__all__ = ["content", "needed"]
+__all__ = ["content", "named", "needed", "ordinary_file"]
 
 _COPY = "copy or export the file again"
 # Where the number of points is not known from outside, the file is taken for numbers of four bytes.
@@ -34,20 +34,34 @@ def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
         If it is missing, empty, no ordinary file (a folder, a device, a pipe, what the system makes up while it is
         read), if reading it takes more memory than is free, or if what is done with the bytes ends in `ContentError`.
     """
+    with named(path) as name:
+        with ordinary_file(path) as stream:
+            data = _read(stream, Path(name).suffix.casefold())
+        yield name, data
+
+
+@contextmanager
+def named(path: str | os.PathLike[str]) -> Iterator[str]:
+    """Give the name of a file; what is found unreadable within becomes an error that names it."""
     # A name may hold bytes that are no letters; in messages and provenance they become question marks.
     name = (Path(path).name or str(path)).encode("utf-8", "replace").decode("utf-8")
     try:
-        yield name, _bytes_of(path, Path(name).suffix.casefold())
+        yield name
     except ContentError as error:
         raise ReadError(name, error.problem, error.remedy) from error.__cause__
 
 
-def _bytes_of(path: str | os.PathLike[str], kind: str) -> bytes:
+@contextmanager
+def ordinary_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Give a file opened to be read; refuse what is none, and what goes wrong as it is read."""
     try:
         # To open a device may set it going.
         _require_ordinary(os.stat(path))
         with open(path, "rb", opener=_without_waiting) as stream:
-            return _read(stream, kind)
+            _require_ordinary(
+                os.fstat(stream.fileno())
+            )  # another file may have taken the place of the one looked at
+            yield stream
     except ContentError:
         raise
     except (OSError, ValueError, MemoryError) as error:  # ValueError: a zero byte in the name
@@ -56,8 +70,7 @@ def _bytes_of(path: str | os.PathLike[str], kind: str) -> bytes:
 
 
 def _read(stream: BinaryIO, kind: str) -> bytes:
-    status = os.fstat(stream.fileno())  # another file may have taken the place of the one that was looked at
-    _require_ordinary(status)
+    status = os.fstat(stream.fileno())
     if status.st_size == 0:
         # Files that the system makes up say so too, and some of them have no end.
         raise ContentError("it is empty, or no ordinary file", _COPY)

@@ -17,7 +17,15 @@ from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
 from roughcontact.surface.surface import Surface
 
-__all__ = ["list_npz", "npy_bytes", "npz_bytes", "read_npy", "read_npy_header", "read_npz"]
+__all__ = [
+    "list_npz",
+    "npy_bytes",
+    "npz_bytes",
+    "read_npy",
+    "read_npy_header",
+    "read_npz",
+    "whole_npy_header",
+]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
 _MEANINGS = ("spacing", "size", "unit", "periodic", "history")
@@ -131,24 +139,42 @@ def list_npz(data: bytes) -> tuple[Channel, ...]:
     return tuple(found)
 
 
-def _array(data: bytes) -> npt.NDArray[Any]:
-    """Return the array in the bytes of a ``.npy`` file; anything missing, left over or pickled is refused."""
+def whole_npy_header(stream: IO[bytes], size: int) -> NpyHeader:
+    """Return the header of an array that fills a file of so many bytes: nothing is missing, left over or pickled.
+
+    Raises
+    ------
+    ContentError
+        If it does not.
+    """
     try:
-        header = read_npy_header(BytesIO(data))
-        if header.size > len(data):
-            raise ValueError(f"{len(data)} of {header.size} bytes are there")
-        values = header.array(data)
+        header = read_npy_header(stream)
+        if header.size > size:
+            raise ValueError(f"{size} of {header.size} bytes are there")
     except (ValueError, OverflowError) as error:
+        raise _not_whole(error) from error
+    if header.size < size:
         raise ContentError(
-            f"it is not a whole NumPy array ({error})",
-            "save it again with numpy.save, without objects or names of fields",
-        ) from error
-    if header.size < len(data):
-        raise ContentError(
-            f"{len(data) - header.size} bytes follow the array of {values.shape}: its header is damaged",
+            f"{size - header.size} bytes follow the array of {header.shape}: its header is damaged",
             "save it again with numpy.save",
         )
-    return values
+    return header
+
+
+def _array(data: bytes) -> npt.NDArray[Any]:
+    """Return the array in the bytes of a ``.npy`` file."""
+    header = whole_npy_header(BytesIO(data), len(data))
+    try:
+        return header.array(data)
+    except (ValueError, OverflowError) as error:
+        raise _not_whole(error) from error
+
+
+def _not_whole(error: Exception) -> ContentError:
+    return ContentError(
+        f"it is not a whole NumPy array ({error})",
+        "save it again with numpy.save, without objects or names of fields",
+    )
 
 
 def _arrays(data: bytes) -> dict[str, npt.NDArray[Any]]:

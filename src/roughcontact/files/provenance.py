@@ -6,9 +6,13 @@ import hashlib
 import platform
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from roughcontact.slabs.by_rows import rows_to_first
+from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     from roughcontact.contact.problem import Body
@@ -76,11 +80,21 @@ def _plain(value: str | float) -> str | float:
 def surface_hash(surface: Body) -> str:
     """Return the SHA-256 of the heights and the grid of a surface, as 64 hexadecimal digits.
 
-    Equal surfaces have equal hashes on every machine: heights count as little-endian doubles in the
+    Equal surfaces have equal hashes on every machine, and in slabs: heights count as little-endian doubles in the
     order of the rows, every NaN as the same NaN, -0 as 0.
     """
     grid = surface.grid
-    heights = np.where(np.isnan(surface.heights), np.nan, surface.heights + 0.0)
+    heights: Any = surface.heights
     digest = hashlib.sha256(repr((grid.shape, grid.spacing, grid.periodic)).encode())
-    digest.update(np.ascontiguousarray(heights, dtype="<f8").tobytes())
+    if isinstance(heights, SlabArray):
+        for _, rows in rows_to_first(heights):
+            digest.update(b"" if rows is None else _bytes_of_heights(rows))
+        told: list[str] = heights.functions.communicator.allgather(digest.hexdigest())
+        return told[0]
+    digest.update(_bytes_of_heights(heights))
     return digest.hexdigest()
+
+
+def _bytes_of_heights(heights: Array) -> bytes:
+    plain = np.where(np.isnan(heights), np.nan, heights + 0.0)
+    return np.ascontiguousarray(plain, dtype="<f8").tobytes()

@@ -7,13 +7,16 @@ import os
 import warnings
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from roughcontact.files.assemble import Length, Size, assemble, cell_of
-from roughcontact.files.content import content
+from roughcontact.files.content import content, named
 from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.heightmap import Channel, HeightMap
 from roughcontact.files.length_units import length_factor
+from roughcontact.files.read_in_slabs import surface_in_slabs
+from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.surface import Surface
 
 __all__ = ["channels", "read", "read_either", "read_line"]
@@ -26,6 +29,7 @@ def read(
     unit: Length | None = None,
     size: Size | None = None,
     periodic: bool | tuple[bool, bool] | None = None,
+    slabs: Slabs | None = None,
 ) -> Surface:
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
@@ -48,6 +52,9 @@ def read(
     periodic : bool or pair of bool, optional
         Whether the surface repeats itself (along y and x). Without it the file decides; one that is silent
         is read as free.
+    slabs : Slabs, optional
+        Processes that read it together, as a surface in slabs: of ``.npy`` each reads its rows, any other file is
+        read by the first, which deals it out. Spikes and noise of ``.npy`` are not looked for.
 
     Returns
     -------
@@ -76,7 +83,7 @@ def read(
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    return _read(path, height_map, 2, channel, unit, size, periodic)
+    return _read(path, height_map, 2, channel, unit, size, periodic, slabs)
 
 
 def read_line(
@@ -170,6 +177,7 @@ def _read(
     unit: Length | None,
     size: Size | None,
     periodic: bool | tuple[bool, ...] | None,
+    slabs: Slabs | None = None,
 ) -> Surface:
     if unit is not None:
         length_factor(unit)  # a wrong keyword is refused before the file is touched
@@ -179,10 +187,15 @@ def _read(
         # Where the file decides between a map and a line, one length or two may be right.
         axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)
         cell_of(size, (1,) * axes)
-    with content(path) as (file, data):
-        found = reader(data, Path(file).suffix.casefold(), channel)
-        digest = hashlib.sha256(data).hexdigest()[:16]
-        surface, doubts = assemble(found, file, digest, unit=unit, size=size, periodic=periodic)
+    stated: dict[str, Any] = {"unit": unit, "size": size, "periodic": periodic}
+    if slabs is not None:
+        with named(path) as file:
+            surface, doubts = surface_in_slabs(path, slabs, channel, stated)
+    else:
+        with content(path) as (file, data):
+            found = reader(data, Path(file).suffix.casefold(), channel)
+            digest = hashlib.sha256(data).hexdigest()[:16]
+            surface, doubts = assemble(found, file, digest, **stated)
     for doubt in doubts:
         warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=3)
     return surface

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from roughcontact.arrays import is_numpy, namespace
 from roughcontact.surface.spikes import spikes_in
 from roughcontact.validation import Array
 
@@ -25,6 +26,9 @@ _NOISY = 0.2  # share of rows without correlation
 
 def highest(heights: Array) -> float:
     """Return the largest finite height or depth [m]; 0 if there is none."""
+    if not is_numpy(heights):
+        xp = namespace(heights)
+        return float(xp.max(xp.where(xp.isfinite(heights), xp.abs(heights), 0.0)))
     low, high = (float(f(heights[np.isfinite(heights)], initial=0.0)) for f in (np.min, np.max))
     return max(-low, high)
 

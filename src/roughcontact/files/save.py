@@ -7,7 +7,7 @@ import struct
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -17,6 +17,7 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import on_host
 from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
+from roughcontact.contact.dataset import numbers_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.contact.loop import Loop
@@ -27,13 +28,18 @@ from roughcontact.files.numpy_files import npy_bytes, npz_bytes
 from roughcontact.files.provenance import provenance
 from roughcontact.files.text import text_bytes
 from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf, write_text
+from roughcontact.files.write_in_slabs import write_netcdf_in_slabs, write_npy_in_slabs
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["require_surface_file", "write"]
 
@@ -62,6 +68,8 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in SI units
     ``.table``  the table of an interface: energy and force against mean gap for LAMMPS (``units si``)
     ==========  ==================================================================================================
+
+    A surface in slabs is written as ``.npy`` or ``.nc``, a solution in slabs as ``.nc``: one file, by all processes.
 
     Parameters
     ----------
@@ -93,6 +101,11 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
         return
     if not isinstance(what, Surface | Pressed):
         raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
+    field = what.heights if isinstance(what, Surface) else getattr(what, "pressure", None)
+    if isinstance(field, SlabArray):
+        _require_kind(path, f"{type(what).__name__} in slabs", _IN_SLABS[type(what)])
+        _write_in_slabs(what, path)
+        return
     formats: Mapping[str, Callable[[Any], bytes]] = (
         _OF_A_SURFACE if isinstance(what, Surface) else _OF_A_SOLUTION
     )
@@ -102,7 +115,17 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
         aside.write_bytes(formats[kind](what))
 
 
-def require_surface_file(path: str | os.PathLike[str]) -> None:
+def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
+    if isinstance(what, Solution):
+        lines = provenance(what.problem.surface, modulus=what.problem.modulus)
+        write_netcdf_in_slabs(numbers_dataset(what).assign_attrs(lines), solution_maps(what), path)
+    elif Path(path).suffix.casefold() == ".npy":
+        write_npy_in_slabs(what.heights, path)
+    else:
+        write_netcdf_in_slabs(_dataset(what, {}), {"heights": what.heights}, path)
+
+
+def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False) -> None:
     """Refuse, before any work is done, a file that `write` could not write a surface to.
 
     Raises
@@ -110,6 +133,8 @@ def require_surface_file(path: str | os.PathLike[str]) -> None:
     WriteError
         If its extension is not known, or there is no such folder, no permission, a folder of that name.
     """
+    if in_slabs:
+        _require_kind(path, "Surface in slabs", _IN_SLABS[Surface])
     _require_kind(path, "Surface", _OF_A_SURFACE)
     require_target(path)
 
@@ -126,11 +151,14 @@ def _vti(surface: Surface) -> bytes:
 
 
 def _netcdf(surface: Surface) -> bytes:
-    grid = surface.grid
-    geometry = Geometry.of(grid)
-    data = sizes(grid) | {"heights": variable("heights", geometry.axes, surface.heights)}
-    dataset = dataset_of(data, centres(grid, geometry), "heights of a surface", geometry)
-    return netcdf_bytes(dataset.assign_attrs(provenance(surface)))
+    heights = variable("heights", Geometry.of(surface.grid).axes, surface.heights)
+    return netcdf_bytes(_dataset(surface, {"heights": heights}))
+
+
+def _dataset(surface: Surface, maps: dict[str, Any]) -> xarray.Dataset:
+    grid, geometry = surface.grid, Geometry.of(surface.grid)
+    dataset = dataset_of(sizes(grid) | maps, centres(grid, geometry), "heights of a surface", geometry)
+    return dataset.assign_attrs(provenance(surface))
 
 
 def _solution(solution: Pressed) -> bytes:
@@ -233,6 +261,7 @@ _OF_A_SURFACE: Mapping[str, Callable[[Surface], bytes]] = MappingProxyType(
         ".vti": _vti,
     }
 )
+_IN_SLABS: Mapping[type, tuple[str, ...]] = MappingProxyType({Surface: (".npy", ".nc"), Solution: (".nc",)})
 _OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )

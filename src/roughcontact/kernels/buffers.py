@@ -17,7 +17,7 @@ import numpy.typing as npt
 from roughcontact.kernels.calls import address
 from roughcontact.threads import no_fork
 
-__all__ = ["aligned", "empty", "zeros"]
+__all__ = ["aligned", "empty", "give_back", "zeros"]
 
 Array = npt.NDArray[Any]
 Kind = tuple[tuple[int, ...], str]
@@ -54,6 +54,13 @@ def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     array = empty(shape, dtype)
     array.fill(0)
     return array
+
+
+def give_back() -> None:
+    """Keep nothing any more of what has been left so far."""
+    with no_fork:
+        _kept.clear()
+        _total[0] = 0
 
 
 def aligned(numbers: int, precision: str) -> Array:

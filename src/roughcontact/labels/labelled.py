@@ -15,16 +15,29 @@ if TYPE_CHECKING:
     import xarray
 
 
-__all__ = ["centres", "dataset_of", "described", "plain_values", "sizes", "units_of", "variable"]
+__all__ = [
+    "attributes_of",
+    "centres",
+    "dataset_of",
+    "described",
+    "plain_values",
+    "sizes",
+    "units_of",
+    "variable",
+]
 
 
 def variable(
     name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
 ) -> tuple[Any, Any, dict[str, str]]:
     """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
+    return dimensions, np.asarray(values), attributes_of(name, geometry)
+
+
+def attributes_of(name: str, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
+    """Return what a variable says of itself: its name in words, and its unit if it has one."""
     unit = unit_of(name, geometry)
-    attributes = {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
-    return dimensions, np.asarray(values), attributes
+    return {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
 
 
 def described(

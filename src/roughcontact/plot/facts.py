@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
+from roughcontact.surface.height_range import height_range
 
 if TYPE_CHECKING:
     import xarray
@@ -58,7 +60,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
         ("force", quantity("force", solution.force, kind)),
         ("nominal pressure", quantity("pressure", pressure, kind)),
-        ("largest pressure", quantity("pressure", float(solution.pressure.max()), kind)),
+        ("largest pressure", quantity("pressure", largest(solution.pressure), kind)),
         ("depth", quantity("depth", solution.depth, kind)),
         ("stiffness", quantity("stiffness", solution.stiffness, kind)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
@@ -172,6 +174,7 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
 def surface_record(surface: Surface) -> dict[str, Any]:
     """Return what is worth keeping of a surface, as plain values."""
     grid = surface.grid
+    lowest, highest = height_range(surface.heights)
     return {
         "shape": list(grid.shape),
         "spacing": list(grid.spacing),
@@ -180,8 +183,8 @@ def surface_record(surface: Surface) -> dict[str, Any]:
         "missing": surface.missing,
         "rms": surface.rms,
         "rms_levelled": surface.levelled("plane").rms,
-        "lowest": float(np.nanmin(surface.heights)),
-        "highest": float(np.nanmax(surface.heights)),
+        "lowest": lowest,
+        "highest": highest,
         "provenance": list(surface.provenance),
         "units": dict.fromkeys(("spacing", "lengths", "rms", "rms_levelled", "lowest", "highest"), "m"),
     }

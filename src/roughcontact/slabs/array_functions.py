@@ -112,13 +112,21 @@ class SlabFunctions:
             return x.like(np.roll(x.local, shift, axis=axis))
         if shift not in (1, -1):
             raise ValueError(f"rows in slabs are rolled by one, not by {shift}")
+        taken = self.row_beside(x, shift)
+        return x.like(np.concatenate([taken, x.local[:-1]] if shift == 1 else [x.local[1:], taken]))
+
+    def row_beside(self, x: SlabArray, shift: int) -> Local:
+        """Return the row before the first of this process (1) or after its last (-1), round the edge.
+
+        A process without rows gets none.
+        """
         holders = [rank for rank in range(self.size) if x.edges[rank] < x.edges[rank + 1]]
         if self.rank not in holders:
-            return x
+            return x.local
         place, given = holders.index(self.rank), x.local[-1:] if shift == 1 else x.local[:1]
         to, source = (holders[(place + step) % len(holders)] for step in (shift, -shift))
-        taken = self.communicator.sendrecv(given.copy(), to, source=source)
-        return x.like(np.concatenate([taken, x.local[:-1]] if shift == 1 else [x.local[1:], taken]))
+        row: Local = self.communicator.sendrecv(given.copy(), to, source=source)
+        return row
 
     # --- of the whole ---
 

@@ -30,6 +30,8 @@ class Slabs:
     ----------
     communicator : mpi4py.MPI.Comm
         The processes.
+    functions : SlabFunctions
+        The array library of what they hold together.
 
     Raises
     ------
@@ -49,7 +51,7 @@ class Slabs:
     ('converged', (64, 64), (64, 64))
     """
 
-    __slots__ = ("_functions", "communicator")
+    __slots__ = ("communicator", "functions")
 
     def __init__(self, communicator: Communicator | None = None) -> None:
         self.communicator: Communicator = OneProcess() if communicator is None else communicator
@@ -59,7 +61,7 @@ class Slabs:
                 f"a communicator is wanted, such as mpi4py.MPI.COMM_WORLD, not {communicator!r}, which lacks "
                 f"{', '.join(lacking)}"
             )
-        self._functions = SlabFunctions(self.communicator)
+        self.functions = SlabFunctions(self.communicator)
 
     def rows(self, count: int) -> slice:
         """Return which rows this process holds, of a plane of so many.
@@ -105,4 +107,4 @@ class Slabs:
                 f"the processes gave {counts} rows; those of process {self.communicator.rank} of a plane of "
                 f"{edges[-1]} are {self.rows(edges[-1])}: give what Slabs.rows says"
             )
-        return SlabArray(own, edges, self._functions)
+        return SlabArray(own, edges, self.functions)

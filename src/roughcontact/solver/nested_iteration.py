@@ -10,6 +10,7 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
+from roughcontact.kernels import buffers
 from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
@@ -40,6 +41,8 @@ def nested_start(
     terms = Terms(control, tuning.COARSE_TOLERANCE)
     state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
     coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
+    if small is not blocks:
+        buffers.give_back()  # planes of whole levels, which finer ones in slabs have no use for
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 

@@ -9,6 +9,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.grid import Grid
+from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.random_phases import Amplitudes, Keys, draw_keys, require_amplitudes, unit_waves
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
@@ -20,6 +21,7 @@ from roughcontact.surface.wave_grid import (
     wave_integers,
     wavenumbers,
 )
+from roughcontact.surface.waves_in_slabs import SizedSpectrum, heights_in_slabs
 from roughcontact.validation import Array, number, numeric, require_generator
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
@@ -43,6 +45,7 @@ def self_affine(
     support: Support = "square",
     amplitudes: Amplitudes = "exact",
     nodal: bool = False,
+    slabs: Slabs | None = None,
 ) -> Surface:
     """Return a random self-affine surface or line (thesis, eqs 2.10 to 2.15 as corrected).
 
@@ -78,6 +81,9 @@ def self_affine(
     nodal : bool
         The thesis' grids of n + 1 nodes: the surface is made with period ``n * spacing`` and its first row
         and column are repeated at the end. For free grids only.
+    slabs : Slabs, optional
+        Processes that make the surface together, each its rows, with generators in the same state; on periodic grids.
+        Its waves are the same on any number of processes.
 
     Returns
     -------
@@ -119,7 +125,7 @@ def self_affine(
         if np.shape(number(anisotropy, "anisotropy")) != (2,):
             raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
-    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
+    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal, slabs)
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}{_size(rms, rms_band)}, inverse FFT",))
 
 
@@ -134,6 +140,7 @@ def synthesise(
     support: Support = "square",
     amplitudes: Amplitudes = "exact",
     nodal: bool = False,
+    slabs: Slabs | None = None,
 ) -> Surface:
     """Return a random surface or line with a given power spectrum (thesis, eqs 2.11 to 2.15 as corrected).
 
@@ -158,6 +165,8 @@ def synthesise(
         The spectrum exactly, or on the average over a Gaussian process.
     nodal : bool
         Whether the last row and column repeat the first, see `self_affine`.
+    slabs : Slabs, optional
+        Processes that make the surface together, see `self_affine`.
 
     Returns
     -------
@@ -182,7 +191,7 @@ def synthesise(
     """
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
-    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal)
+    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal, slabs)
     size = _size(rms, rms_band)
     return Surface(heights, grid, (f"random surface of a given spectrum{size}, inverse FFT",))
 
@@ -203,6 +212,7 @@ def _heights(
     support: Support,
     amplitudes: Amplitudes,
     nodal: bool,
+    slabs: Slabs | None,
 ) -> Array:
     """Return the heights of eqs 2.12 and 2.15; the border has looked at `rms`, the rest is looked at here."""
     require_generator(rng)
@@ -213,6 +223,9 @@ def _heights(
         raise ValueError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}")
 
     shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
+    if slabs is not None:
+        sized = SizedSpectrum(spectrum, support, rms, rms_band)
+        return heights_in_slabs(grid, sized, draw_keys(rng), amplitudes, slabs)  # type: ignore[return-value]
     amplitude = wave_amplitudes(spectrum, shape, grid.spacing, support, rms=rms, rms_band=rms_band)
     amplitude *= math.prod(shape)  # of the transform
     waves = _waves(draw_keys(rng), amplitude, shape, amplitudes, nodal)

@@ -10,7 +10,7 @@ import numpy as np
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
 from roughcontact.validation import Array, moderate
 
-__all__ = ["is_elsewhere", "own_heights"]
+__all__ = ["height_range", "is_elsewhere", "own_heights"]
 
 
 def is_elsewhere(heights: Any) -> bool:
@@ -48,6 +48,16 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
     return own  # type: ignore[no-any-return]
 
 
+def height_range(heights: Array) -> tuple[float, float]:
+    """Return the lowest and the highest height, but for missing ones; of all missing no range at all."""
+    if is_numpy(heights):  # two passes, and no memory
+        return float(np.fmin.reduce(heights, axis=None)), float(np.fmax.reduce(heights, axis=None))
+    xp = namespace(heights)
+    missing = xp.isnan(heights)
+    lowest = float(xp.min(xp.where(missing, math.inf, heights)))
+    return lowest, float(xp.max(xp.where(missing, -math.inf, heights)))
+
+
 def _check_range(heights: Array) -> None:
     """Refuse heights that are infinite or all missing, or whose range is not 0 and cannot be squared without loss.
 
@@ -57,12 +67,7 @@ def _check_range(heights: Array) -> None:
         Naming the fault and the remedy.
     """
     xp = namespace(heights)
-    if is_numpy(heights):  # two passes, and no memory
-        highest, lowest = (float(bound.reduce(heights, axis=None)) for bound in (np.fmax, np.fmin))
-    else:
-        missing = xp.isnan(heights)
-        highest = float(xp.max(xp.where(missing, -math.inf, heights)))
-        lowest = float(xp.min(xp.where(missing, math.inf, heights)))
+    lowest, highest = height_range(heights)
     if math.isnan(highest) or lowest > highest:
         raise ValueError("all heights are NaN: the surface holds no measured point")
     if math.isinf(highest) or math.isinf(lowest):

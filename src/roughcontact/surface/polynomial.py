@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import product
+from typing import Any
 
 import numpy as np
 
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.validation import Array
 
 __all__ = ["polynomial_trend"]
@@ -38,15 +40,31 @@ def polynomial_trend(heights: Array, degree: int) -> Array:
     size and unit. Its products separate into factors of y and of x, so the sums over all points are two matrix
     products. No matrix of points times terms is built: beside the answer, memory is that of a few rows.
     """
-    factors = [_legendre(n, degree) for n in heights.shape]
+    field: Any = heights
+    if isinstance(field, SlabArray):
+        mine = slice(*field.edges[field.functions.rank :][:2])
+        of_all = field.functions.communicator.allgather
+        trend: Any = _trend(field.local, field.shape, mine, degree, lambda sums: sum(of_all(sums)))
+        return field.like(trend)  # type: ignore[return-value]
+    return _trend(heights, heights.shape, slice(None), degree, lambda sums: sums)
+
+
+def _trend(
+    heights: Array, shape: tuple[int, ...], part: slice, degree: int, total: Callable[[Array], Array]
+) -> Array:
+    """Return the polynomial at the rows `part` of a plane; `total` adds up the sums over the rows of all processes."""
+    factors = [_legendre(n, degree) for n in shape]
+    factors[0] = factors[0][part]
     # A term is chosen by its degree along each axis.
     terms = [term for term in product(range(degree + 1), repeat=heights.ndim) if sum(term) <= degree]
-    pairs = np.sum(
-        [
-            _contract((~np.isnan(heights[rows])).astype(np.float64), [_pairs(factor) for factor in here])
-            for rows, here in _slabs(heights, factors)
-        ],
-        axis=0,
+    pairs = total(
+        np.sum(
+            [
+                _contract((~np.isnan(heights[rows])).astype(np.float64), [_pairs(factor) for factor in here])
+                for rows, here in _slabs(heights, factors)
+            ],
+            axis=0,
+        )
     )
     gram = np.zeros((len(terms), len(terms)))
     for i, one in enumerate(terms):
@@ -54,12 +72,14 @@ def polynomial_trend(heights: Array, degree: int) -> Array:
             gram[i, j] = pairs[tuple(a * (degree + 1) + b for a, b in zip(one, other, strict=True))]
     coefficients = np.zeros((degree + 1,) * heights.ndim)
     for _ in range(_PASSES):
-        moments = np.sum(
-            [
-                _contract(np.nan_to_num(heights[rows] - _evaluate(coefficients, here)), here)
-                for rows, here in _slabs(heights, factors)
-            ],
-            axis=0,
+        moments = total(
+            np.sum(
+                [
+                    _contract(np.nan_to_num(heights[rows] - _evaluate(coefficients, here)), here)
+                    for rows, here in _slabs(heights, factors)
+                ],
+                axis=0,
+            )
         )
         right = np.array([moments[term] for term in terms])
         for term, value in zip(terms, np.linalg.lstsq(gram, right, rcond=None)[0].tolist(), strict=True):
@@ -69,8 +89,8 @@ def polynomial_trend(heights: Array, degree: int) -> Array:
 
 def _slabs(heights: Array, factors: list[Array]) -> Iterator[tuple[slice, list[Array]]]:
     """Yield rows of `heights`, few enough that what is made of them takes no memory to speak of."""
-    step = max(1, _SLAB * len(heights) // heights.size)
-    for start in range(0, len(heights), step):
+    step = max(1, _SLAB * len(heights) // max(1, heights.size))
+    for start in range(0, max(1, len(heights)), step):  # of no rows the sums are zero
         rows = slice(start, start + step)
         yield rows, [factors[0][rows], *factors[1:]]
 
@@ -83,7 +103,7 @@ def _legendre(count: int, degree: int) -> Array:
 
 def _pairs(factor: Array) -> Array:
     """Return all products of two columns, shape (count, (degree + 1)^2)."""
-    return (factor[:, :, None] * factor[:, None, :]).reshape(len(factor), -1)
+    return (factor[:, :, None] * factor[:, None, :]).reshape(len(factor), factor.shape[1] ** 2)
 
 
 def _contract(values: Array, factors: list[Array]) -> Array:

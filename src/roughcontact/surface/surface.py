@@ -14,6 +14,7 @@ import numpy.typing as npt
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.pictures import plot_surface, surface_html
+from roughcontact.slabs.exchange import is_in_slabs
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.height_range import own_heights
 from roughcontact.surface.levelling import levelled, without_form
@@ -33,12 +34,14 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-def on_host_only(method: Callable[Concatenate[Surface, P], R]) -> Callable[Concatenate[Surface, P], R]:
+def on_host_only(
+    method: Callable[Concatenate[Surface, P], R], *, or_in_slabs: bool = False
+) -> Callable[Concatenate[Surface, P], R]:
     """Return a method that refuses heights which NumPy could not work on where they live."""
 
     @wraps(method)
     def checked(self: Surface, /, *args: P.args, **kwargs: P.kwargs) -> R:
-        if not is_numpy(self.heights):
+        if not (is_numpy(self.heights) or (or_in_slabs and is_in_slabs(self.heights))):
             raise ValueError(
                 f"{method.__name__} is for heights in NumPy's memory, not a {type(self.heights).__name__}: prepare the "
                 "surface first, then put its heights on the device"
@@ -181,7 +184,7 @@ class Surface:
     # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
     despiked = on_host_only(despiked)
     masked = on_host_only(masked)
-    levelled = on_host_only(levelled)
+    levelled = on_host_only(levelled, or_in_slabs=True)
     without_form = on_host_only(without_form)
     filtered = on_host_only(filtered)
     cropped = on_host_only(cropped)

@@ -16,11 +16,17 @@ import scipy.fft
 from roughcontact.validation import Array, pair, positive_scalar
 
 __all__ = [
+    "ALL",
+    "Part",
     "PlanarSpectrum",
     "Spectrum",
     "Support",
     "cell_centres",
+    "counted_powers",
     "multiplicity",
+    "no_wave",
+    "require_no_band",
+    "scale_of",
     "wave_amplitudes",
     "wave_integers",
     "wave_powers",
@@ -29,6 +35,10 @@ __all__ = [
 ]
 
 Support: TypeAlias = Literal["square", "disc"]
+Part: TypeAlias = tuple[slice, slice]
+"""Which rows and columns of the waves are meant, as they lie in the half."""
+
+ALL: Part = (slice(None), slice(None))
 
 
 @runtime_checkable
@@ -59,19 +69,19 @@ def cell_centres(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.complex128], ..
     return tuple(np.meshgrid(*turns, indexing="ij", sparse=True))
 
 
-def wave_vectors(shape: tuple[int, ...], spacing: tuple[float, ...]) -> tuple[Array, ...]:
+def wave_vectors(shape: tuple[int, ...], spacing: tuple[float, ...], part: Part = ALL) -> tuple[Array, ...]:
     """Return the components of the wave vectors [rad/m], an open mesh: ``(qy, qx)``, on a line ``(q,)``."""
     last = len(shape) - 1
     components = [
-        2 * np.pi * (scipy.fft.rfftfreq(n, d) if axis == last else scipy.fft.fftfreq(n, d))
-        for axis, (n, d) in enumerate(zip(shape, spacing, strict=True))
+        2 * np.pi * (scipy.fft.rfftfreq(n, d) if axis == last else scipy.fft.fftfreq(n, d))[here]
+        for axis, (n, d, here) in enumerate(zip(shape, spacing, part, strict=False))
     ]
     return tuple(np.meshgrid(*components, indexing="ij", sparse=True))
 
 
-def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
+def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], part: Part = ALL) -> Array:
     """Return the lengths |q| [rad/m] of the wave vectors."""
-    vectors = wave_vectors(shape, spacing)
+    vectors = wave_vectors(shape, spacing, part)
     return np.abs(vectors[0]) if len(vectors) == 1 else np.hypot(*vectors)
 
 
@@ -89,6 +99,7 @@ def wave_powers(
     shape: tuple[int, ...],
     spacing: tuple[float, ...],
     support: Support = "square",
+    part: Part = ALL,
 ) -> Array:
     """Return B^2 [m^2], the mean square height that `spectrum` gives each wave (thesis, eqs 2.11 and 2.14).
 
@@ -100,6 +111,8 @@ def wave_powers(
         Cells of one period and their size [m].
     support : {"square", "disc"}
         All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
+    part : tuple of slice
+        Of the waves, whose powers are those among all.
 
     Returns
     -------
@@ -109,7 +122,7 @@ def wave_powers(
     Raises
     ------
     ValueError
-        If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave.
+        If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave at all.
     """
     if support not in ("square", "disc"):
         raise ValueError(f"support must be 'square' or 'disc', not {support!r}")
@@ -118,25 +131,30 @@ def wave_powers(
             f"the spectrum has dimension {spectrum.dimension}, "  # type: ignore[union-attr]
             f"but the grid {len(shape)} axes: make it with dimension={len(shape)}"
         )
-    lengths = wavenumbers(shape, spacing)
-    density = _density(spectrum, lengths, wave_vectors(shape, spacing))
+    lengths = wavenumbers(shape, spacing, part)
+    density = _density(spectrum, lengths, wave_vectors(shape, spacing, part))
     if density.shape != lengths.shape:
         raise ValueError(f"the spectrum returned shape {density.shape} for waves of shape {lengths.shape}")
     if not (np.isfinite(density).all() and (density >= 0).all()):
         raise ValueError("the spectrum must be finite and not negative at every wave of the grid but q = 0")
     # B^2 = (2 pi)^ndim / area * C
     powers = density * math.prod(2 * math.pi / (n * d) for n, d in zip(shape, spacing, strict=True))
-    powers.flat[0] = 0
-    for axis, n in enumerate(shape):
+    *others, last = shape
+    places = [np.arange(n)[here] for n, here in zip((*others, last // 2 + 1), part, strict=False)]
+    powers[np.ix_(*(place == 0 for place in places))] = 0
+    for axis, (n, place) in enumerate(zip(shape, places, strict=True)):
         if n % 2 == 0:
-            powers[(slice(None),) * axis + (n // 2,)] = 0
+            powers[(slice(None),) * axis + (place == n // 2,)] = 0
     if support == "disc":
         powers[lengths > math.pi / max(spacing)] = 0
-    if not powers.any():
-        raise ValueError(
-            "no wave of this grid lies inside the limits of the spectrum: widen them or the grid"
-        )
+    if part == ALL and not powers.any():
+        raise no_wave()
     return powers
+
+
+def no_wave() -> ValueError:
+    """Return the error of a spectrum that leaves a grid without a wave."""
+    return ValueError("no wave of this grid lies inside the limits of the spectrum: widen them or the grid")
 
 
 def wave_amplitudes(
@@ -172,22 +190,43 @@ def wave_amplitudes(
     """
     powers = wave_powers(spectrum, shape, spacing, support)
     if rms is None:
-        if rms_band is not None:
-            raise ValueError("rms_band says which waves have the rms height rms: give rms, too")
+        require_no_band(rms_band)
         return np.sqrt(powers, out=powers)
-    counted = powers * multiplicity(shape)
-    if rms_band is not None:
-        counted *= _inside(rms_band, shape, spacing)
-    total = float(counted.sum())
-    if not total > 0:
-        raise ValueError(f"no wave of this grid and of the spectrum lies in rms_band {rms_band} m: widen it")
+    total = float(counted_powers(powers, shape, spacing, rms_band).sum())
     np.sqrt(powers, out=powers)
-    powers *= rms / math.sqrt(total)
+    powers *= scale_of(rms, total, rms_band)
     return powers
 
 
+def require_no_band(rms_band: tuple[float, float] | None) -> None:
+    """Refuse a band of waves whose rms height is not said."""
+    if rms_band is not None:
+        raise ValueError("rms_band says which waves have the rms height rms: give rms, too")
+
+
+def counted_powers(
+    powers: Array,
+    shape: tuple[int, ...],
+    spacing: tuple[float, ...],
+    rms_band: tuple[float, float] | None,
+    part: Part = ALL,
+) -> Array:
+    """Return what each wave of a part adds to the mean square height that `rms` is about [m^2]."""
+    counted = powers * multiplicity(shape)[part[1]] if len(shape) == 2 else powers * multiplicity(shape)
+    if rms_band is not None:
+        counted *= _inside(rms_band, shape, spacing, part)
+    return counted
+
+
+def scale_of(rms: float, total: float, rms_band: tuple[float, float] | None) -> float:
+    """Return the factor of all amplitudes that makes a sum of powers [m^2] the square of `rms`."""
+    if not total > 0:
+        raise ValueError(f"no wave of this grid and of the spectrum lies in rms_band {rms_band} m: widen it")
+    return rms / math.sqrt(total)
+
+
 def _inside(
-    band: tuple[float, float], shape: tuple[int, ...], spacing: tuple[float, ...]
+    band: tuple[float, float], shape: tuple[int, ...], spacing: tuple[float, ...], part: Part
 ) -> npt.NDArray[np.bool_]:
     """Return which waves are in a band of wavelengths; the grid must have all of the band, or its rms is another."""
     what = "rms_band, the longest and the shortest wavelength [m],"
@@ -201,19 +240,21 @@ def _inside(
                 f"rms_band goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
                 f"{n * d / (finest + 1):g} m: end the band above two cells of the coarsest grid"
             )
-    lengths = wavenumbers(shape, spacing)
+    lengths = wavenumbers(shape, spacing, part)
     return (lengths >= 2 * math.pi / longest * (1 - 1e-9)) & (lengths <= 2 * math.pi / shortest * (1 + 1e-9))
 
 
 def _density(spectrum: Spectrum, lengths: Array, vectors: tuple[Array, ...]) -> Array:
     """Return the spectrum at every wave, at q = 0 that of a neighbour: a power law has no value there."""
+    moving = lengths.size > 0 and lengths.flat[0] == 0
     if not isinstance(spectrum, PlanarSpectrum):
         moved = lengths.copy()
-        moved.flat[:1] = moved.flat[1:2] if moved.size > 1 else 1.0
+        if moving:
+            moved.flat[:1] = moved.flat[1:2] if moved.size > 1 else 1.0
         return np.asarray(spectrum(moved), dtype=np.float64)
     if len(vectors) != 2:
         raise ValueError("a spectrum of the wave vector needs a grid of two axes, not one")
     mesh = [np.broadcast_to(component, lengths.shape).copy() for component in vectors]
-    for component in mesh:
+    for component in mesh if moving else ():
         component.flat[:1] = component.flat[1:2] if component.size > 1 else 1.0
     return np.asarray(spectrum.at(*mesh), dtype=np.float64)

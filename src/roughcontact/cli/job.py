@@ -1,0 +1,150 @@
+"""The processes of an MPI job, which work as one program: the first speaks and writes for all.
+
+A launcher (mpiexec, srun) says in the environment how many processes it has started. Where they are several, those
+commands that can use them deal out the rows of one surface, and the others refuse.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli.exits import MISSED
+
+if TYPE_CHECKING:
+    from roughcontact.slabs.slabs import Slabs
+
+__all__ = ["as_one", "refusal", "refuse_in_slabs", "slabs_of_job"]
+
+# Where launchers state the number of processes and which one this is: Open MPI; MPICH and its kin; SLURM.
+_STATED = {
+    "OMPI_COMM_WORLD_SIZE": "OMPI_COMM_WORLD_RANK",
+    "PMI_SIZE": "PMI_RANK",
+    "SLURM_STEP_NUM_TASKS": "SLURM_PROCID",
+}
+_TOGETHER = (["press"], ["curve"], ["surface", "make"])
+_PATIENCE = 5.0  # [s] within which all processes come to an error that is one of all
+_TURN = 0.02  # [s] between two looks whether they have
+
+
+def launched() -> tuple[int, int]:
+    """Return which process this is, and how many a launcher has started together."""
+    for size, rank in _STATED.items():
+        stated = os.environ.get(rank, ""), os.environ.get(size, "")
+        if all(text.isdecimal() for text in stated):
+            return int(stated[0]), int(stated[1])
+    return 0, 1
+
+
+def refusal(arguments: Sequence[str]) -> str | None:
+    """Return why several processes do not run a command together; None if they do, or this one is alone."""
+    words = [word for word in arguments if not word.startswith("-")]
+    known = any(words[: len(command)] == command for command in _TOGETHER)
+    if launched()[1] == 1 or not words or known or "--help" in arguments:
+        return None
+    name = " ".join(words[: 2 if words[0] in ("study", "surface") else 1])
+    return (
+        f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them: run "
+        f"{name!r} without a launcher such as mpiexec"
+    )
+
+
+@cache
+def slabs_of_job() -> Slabs | None:
+    """Return the processes of the job as those that hold a surface in slabs; None if this one is alone.
+
+    Raises
+    ------
+    UsageError
+        If they cannot work together.
+    """
+    size = launched()[1]
+    if size == 1:
+        return None
+    from roughcontact.cli.messages import UsageError
+    from roughcontact.slabs.slabs import Slabs
+
+    try:
+        from mpi4py import MPI
+    except (ImportError, RuntimeError) as error:
+        raise UsageError(
+            f"{size} processes were started together, and mpi4py, by which they work as one, cannot be imported "
+            f"({error}): install roughcontact[mpi], or start one process"
+        ) from error
+    if size != MPI.COMM_WORLD.size:
+        raise UsageError(
+            f"{size} processes were started together, and mpi4py sees {MPI.COMM_WORLD.size}: the launcher belongs to "
+            f"another MPI than that of mpi4py ({MPI.Get_library_version().split(',')[0]}): use that one's mpiexec"
+        )
+    _meeting()
+    return Slabs(MPI.COMM_WORLD)
+
+
+def refuse_in_slabs(given: Mapping[str, Any]) -> None:
+    """Refuse options that a surface in slabs has no answer to, by their names.
+
+    Raises
+    ------
+    UsageError
+        If one was given, and this process is one of a job.
+    """
+    from roughcontact.cli.messages import UsageError
+
+    for name, value in given.items():
+        if launched()[1] > 1 and value is not None and value is not False:
+            raise UsageError(
+                f"{name} needs the whole surface, of which each of {launched()[1]} processes holds some rows: leave it "
+                "out, or start one process"
+            )
+
+
+@contextmanager
+def as_one() -> Iterator[None]:
+    """Let the first process speak for all; an error of one process alone ends all of them, with its words.
+
+    What is done within ends by `SystemExit`, as a program does.
+    """
+    rank, size = launched()
+    if size == 1:
+        yield
+        return
+    words, status = io.StringIO(), 0
+    with ExitStack() as stack:
+        if rank:
+            stack.enter_context(redirect_stdout(io.StringIO()))
+            stack.enter_context(redirect_stderr(words))
+        try:
+            yield
+        except SystemExit as end:
+            status = end.code if isinstance(end.code, int) else int(end.code is not None)
+    if "mpi4py.MPI" in sys.modules:
+        _end_together(
+            status, f"{words.getvalue()}This was process {rank} of {size} alone: the job is ended.\n"
+        )
+    sys.exit(status)
+
+
+def _end_together(status: int, words: str) -> None:
+    """Wait for the other processes; for an error not for long, since they may wait for this one elsewhere."""
+    arrival = _meeting().Ibarrier()
+    until = time.monotonic() + (_PATIENCE if status not in (0, MISSED) else float("inf"))
+    while not arrival.Test():
+        if time.monotonic() > until:
+            sys.stderr.write(words)
+            sys.stderr.flush()
+            _meeting().Abort(status)
+        time.sleep(_TURN)
+
+
+@cache
+def _meeting() -> Any:
+    """Return the processes as those that meet at the end: where they meet elsewhere is not taken for it."""
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD.Dup()
