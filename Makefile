@@ -21,7 +21,6 @@ ARGS ?=
 ENV := .venv
 BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
-DOCS_ENV := build/docs-env
 MPI_ENV := build/mpi-env
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
@@ -51,7 +50,8 @@ browser: $(ENV)/.ready-to-test
 	  || timeout 300 $(BIN)/python -m playwright install chromium; } >/dev/null 2>&1 \
 	  && echo "browser: OK" || echo "browser: cannot be had here, its tests are skipped"
 
-# In an environment of their own: with mpi4py installed, whatever looks for it listens to the network and reads through it.
+# In an environment of their own, which sees what is in the other: with mpi4py installed, whatever looks for it listens
+# to the network and reads through it.
 mpi: $(MPI_ENV)/.ready
 	@if $(MPI_ENV)/bin/python -c "import mpi4py.MPI" 2>/dev/null; \
 	  then $(ONE_THREAD) $(MPI_ENV)/bin/python -m pytest -q tests/slabs $(ARGS) \
@@ -66,10 +66,10 @@ lint: $(ENV)/.ready-to-test
 	@$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python -m mypy \
 	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
 
-docs: $(DOCS_ENV)/.ready
+docs: $(ENV)/.ready-to-write
 	@rm -rf build/docs
-	@$(DOCS_ENV)/bin/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
-	  && $(DOCS_ENV)/bin/python docs/search_check.py build/docs \
+	@$(BIN)/python -m sphinx -qEW --keep-going -j auto -d build/doctrees docs build/docs \
+	  && $(BIN)/python docs/search_check.py build/docs \
 	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
 
 bench: $(BENCH_ENV)/.ready
@@ -98,18 +98,18 @@ $(ENV)/.ready-to-test: $(ENV)/.ready
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
 	@touch $@
 
-$(MPI_ENV)/.ready: pyproject.toml
+$(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@$(call create,$(MPI_ENV))
 	@echo "Installing what the tests on several processes need ..."
-	@$(MPI_ENV)/bin/python $(INSTALL) -e ".[test]"
+	@$(BIN)/python -c "import site; print('import site; site.addsitedir(%r)' % site.getsitepackages()[0])" \
+	  > "$$($(MPI_ENV)/bin/python -c 'import site; print(site.getsitepackages()[0])')/tests.pth"
 	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
-$(DOCS_ENV)/.ready: pyproject.toml
-	@$(call create,$(DOCS_ENV))
+$(ENV)/.ready-to-write: $(ENV)/.ready-to-read
 	@echo "Installing what the site is built with ..."
-	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[docs,formats]"
-	@$(DOCS_ENV)/bin/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
+	@$(BIN)/python $(INSTALL) -e ".[docs]"
+	@$(BIN)/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this

@@ -247,6 +247,37 @@ def test_a_flat_body_by_the_depth_that_carries_the_force(monkeypatch):
         rc.press(flat, MODULUS, force=force, hardness=hardness, solver=rc.ActiveSet(max_steps=1))
 
 
+@pytest.mark.parametrize("steps", [1, 2, 3])
+def test_too_few_steps_to_find_a_depth(steps):
+    rough = rc.self_affine(rc.Grid((16, 16), 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    with pytest.raises(rc.ConvergenceError):
+        rc.press(rough, 1e9, force=1e-4, hardness=1e7, solver=rc.ActiveSet(max_steps=steps))
+
+
+def test_the_depth_is_sought_soon_where_the_projection_comes_no_nearer(rough, monkeypatch):
+    """No residual is zero: the first run ends by its patience, long before the last."""
+    ends = []
+    run = PolonskyKeer.run
+
+    def spied(self, operator, separation, terms, initial):
+        state = run(self, operator, separation, terms, initial)
+        if terms.depth is None:
+            ends.append(state)
+        return state
+
+    monkeypatch.setattr(PolonskyKeer, "run", spied)
+    monkeypatch.setattr(hard.tuning, "DEPTH_TRIALS", 1)
+    operator = rc.half_space(rough.grid, MODULUS)
+    separation = rough.heights.max() - rough.heights
+    terms = Terms(Force(2e-3), tolerance=0.0, hardness=0.05)
+    hard.press_plastic(operator, separation, terms, np.zeros(rough.grid.shape), 20000)
+    first, last = ends
+    assert first.status is last.status is Status.STAGNATED
+    assert first.steps < 500 < last.steps
+    with pytest.raises(ValueError, match="patience"):
+        PolonskyKeer(patience=0)
+
+
 @pytest.mark.parametrize("share", [0.5, 0.2, 0.05])
 @pytest.mark.parametrize("load", [{"force": 3e-3}, {"depth": 0.02}], ids=str)
 def test_soft_bodies_take_few_products(share, load):

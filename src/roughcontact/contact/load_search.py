@@ -24,7 +24,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
-from roughcontact.solver.projection import bearing_area
+from roughcontact.solver.projection import bearing_force
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.validation import Array
@@ -171,7 +171,7 @@ def _largest_spot(solution: Solution) -> tuple[float, float]:
 def _borne(solution: Solution) -> float:
     """Return the force under which half of the map would bear the hardness of the contact [N]."""
     problem, measure = solution.problem, solution.problem.measure
-    hardness = problem.terms.largest_hardness * bearing_area(measure, solution.contact, problem.terms)
+    hardness = bearing_force(measure, solution.contact, problem.terms)
     return AREA_SHARE * measure.total(problem.measured) * hardness / solution.contact_area
 
 

@@ -16,7 +16,7 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of, geomet
 from roughcontact.memory import require_memory
 from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.projection import bearing_area
+from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, scalar
@@ -112,7 +112,7 @@ class ContactProblem:
                 f"shape {tuple(self.hardness.shape)}"
             )
         if isinstance(self.control, Force) and self.plastic:
-            strongest = self.terms.largest_hardness * bearing_area(self.measure, self.measured, self.terms)
+            strongest = bearing_force(self.measure, self.measured, self.terms)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "

@@ -8,10 +8,9 @@ from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Depth, State, Terms
-from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.projection import bearing_area
+from roughcontact.solver.projection import bearing_level
 from roughcontact.validation import Array
 
 __all__ = ["press_plastic"]
@@ -24,7 +23,7 @@ def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Ar
     force, and the projected method may cycle. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
-    state = solver.run(operator, separation, terms, start)
+    state = replace(solver, patience=tuning.PLASTIC_PATIENCE).run(operator, separation, terms, start)
     if state.status.converged or terms.depth is not None:
         return state
     pressure, steps = _by_depth(operator, separation, terms, solver)
@@ -45,8 +44,8 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         return measure.total(pressure) / force - 1
 
     # At least what the hardness does to a single cell: a flat body bears at depth zero, which cannot be doubled.
-    bearing, own = _bearing_depth(measure, separation, terms, force), conditions.self_influence
-    low, high = 0.0, max(bearing, own * terms.largest_hardness)
+    bearing = bearing_level(measure, separation, measure.xp.isfinite(separation), terms, force)
+    low, high = 0.0, max(bearing, conditions.self_influence * terms.largest_hardness)
     below, above = -1.0, excess(high)
     for _ in range(tuning.DEPTH_TRIALS):
         if above >= 0:
@@ -54,6 +53,8 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         low, below = high, above
         high *= 2
         above = excess(high)
+    if above < 0:  # the solver has too few steps to press at all
+        return pressure, steps
     for trial in range(tuning.DEPTH_TRIALS):
         # The chord where it is safe, the middle where the curve is a staircase.
         chord = low - below * (high - low) / (above - below)
@@ -67,16 +68,3 @@ def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: Polon
         else:
             high, above = depth, found
     return pressure, steps
-
-
-def _bearing_depth(measure: Measure, separation: Array, terms: Terms, force: float) -> float:
-    """Return the depth at which the undeformed surface would bear a force at its hardness [m]."""
-    xp, area = measure.xp, force / terms.largest_hardness
-    low, high = 0.0, float(xp.max(xp.where(xp.isfinite(separation), separation, 0.0)))
-    for _ in range(60):  # by bisection: cells are many, bisections are few
-        middle = (low + high) / 2
-        if bearing_area(measure, separation <= middle, terms) < area:
-            low = middle
-        else:
-            high = middle
-    return high

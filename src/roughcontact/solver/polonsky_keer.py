@@ -28,6 +28,8 @@ class PolonskyKeer:
     ----------
     max_steps : int
         Largest number of products with the operator.
+    patience : int
+        Largest number of iterations without a smaller residual.
 
     Examples
     --------
@@ -39,10 +41,12 @@ class PolonskyKeer:
     """
 
     max_steps: int = 20000
+    patience: int = tuning.PATIENCE
 
     def __post_init__(self) -> None:
         require_numbers(self)
         whole(self.max_steps, "max_steps")
+        whole(self.patience, "patience")
 
     def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
         """Solve for the pressure.
@@ -112,7 +116,7 @@ class PolonskyKeer:
                 return State(p, d, r, steps, Status.CONVERGED, displacement=u)
             if steps >= self.max_steps:
                 return State(p, d, r, steps, Status.MAX_STEPS)
-            if idle > tuning.PATIENCE or not bool(xp.all(xp.isfinite(p))):
+            if idle > self.patience or not bool(xp.all(xp.isfinite(p))):
                 return State(p, d, r, steps, Status.STAGNATED)
             wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
             some_wrong, between = bool(xp.any(wrong)), free

@@ -14,7 +14,14 @@ from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
-__all__ = ["bearing_area", "elastic_control", "feasible_start", "force_multiplier", "project"]
+__all__ = [
+    "bearing_force",
+    "bearing_level",
+    "elastic_control",
+    "feasible_start",
+    "force_multiplier",
+    "project",
+]
 
 
 PASSES = 50  # in which a force is redistributed; what is left then is left to the next iteration
@@ -87,26 +94,31 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
     return pressure
 
 
-def bearing_area(measure: Measure, cells: Mask, terms: Terms) -> float:
-    """Return the area of cells, each counted by its hardness over the largest one [m^2]."""
+def bearing_force(measure: Measure, cells: Mask, terms: Terms) -> float:
+    """Return the force that cells bear at their hardness [N]."""
     if isinstance(terms.hardness, int | float):
-        return measure.total(cells)
-    return measure.total(measure.xp.where(cells, terms.hardness / terms.largest_hardness, 0.0))
+        return terms.hardness * measure.total(cells)
+    return measure.total(measure.xp.where(cells, terms.hardness, 0.0))
+
+
+def bearing_level(measure: Measure, level: Array, cells: Mask, terms: Terms, force: float) -> float:
+    """Return the smallest value such that the cells of no larger `level` bear a force at their hardness."""
+    xp = measure.xp
+    high, level = float(xp.max(xp.where(cells, level, -np.inf))), xp.where(cells, level, np.inf)
+    low = float(xp.min(level))
+    for _ in range(60):  # by bisection: cells are many, bisections are few
+        middle = (low + high) / 2
+        if bearing_force(measure, level <= middle, terms) < force:
+            low = middle
+        else:
+            high = middle
+    return high
 
 
 def _nearest(measure: Measure, gap: Array, pressure: Array, terms: Terms, force: float) -> Mask:
     """Return the cells without pressure of the smallest gap, as many as bear twice a `force` at the hardness."""
-    xp, area = measure.xp, force / terms.largest_hardness
-    free = (pressure == 0) & xp.isfinite(gap)
-    # The gap up to which the cells are enough, by bisection: cells are many, bisections are few.
-    low, high = float(xp.min(xp.where(free, gap, np.inf))), float(xp.max(xp.where(free, gap, -np.inf)))
-    for _ in range(60):
-        middle = (low + high) / 2
-        if bearing_area(measure, free & (gap <= middle), terms) < 2 * area:
-            low = middle
-        else:
-            high = middle
-    return free & (gap <= high)  # type: ignore[no-any-return]
+    free = (pressure == 0) & measure.xp.isfinite(gap)
+    return free & (gap <= bearing_level(measure, gap, free, terms, 2 * force))  # type: ignore[no-any-return]
 
 
 def _project_onto_simplex(measure: Measure, pressure: Array, force: float) -> Array:

@@ -58,5 +58,6 @@ SLAB = 128  # rows of cells that are worked on at once, even
 LEAP = 4.0  # times the smallest residual so far: a step that was too long
 CYCLING = 10  # iterations without a smaller residual, after which cells of the wrong sign may cycle
 PATIENCE = 500  # iterations without a smaller residual, after which the method has stagnated
+PLASTIC_PATIENCE = 40  # the same where the depth can be sought instead: what converges needs fewer
 DEPTH_TRIALS = 80  # depths: by bisection alone, more than the digits of a depth
 FORCE_CLOSE = 1e-9  # of the force: then the active sets are right, but for cells at the very edge
