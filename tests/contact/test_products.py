@@ -41,7 +41,8 @@ def test_every_product_is_counted_once(load, periodic):
     answers, task = [], products.press(products.plane(64, periodic=periodic), **load, **PROJECTED)
     found = count(Task(lambda operator: answers.append(task.run(operator)), task.operator))
     assert found.products == answers[0].steps > 20
-    assert (found.coarse, found.matrices) == (0, 0)
+    # One matrix: that of the summits, from which a solve begins; not at a given depth of a period.
+    assert (found.coarse, found.matrices) == (0, 0 if periodic and "depth" in load else 1)
 
 
 def test_a_nested_start_saves_products():
@@ -57,8 +58,13 @@ def test_a_nested_start_saves_products():
 
 
 def test_a_warm_start_saves_products():
-    body = products.plane(64)
-    curve = count(products.curve(body, forces=64 * LOADS))
-    alone = [count(products.press(body, force=force)) for force in 64 * LOADS]
+    surface, operator = products.plane(64)
+    curve = count(products.curve((surface, operator), forces=64 * LOADS))
+    problem = ContactProblem(separation_of(surface), operator, rc.Force(1.0), 1e-8)
+    loads = [problem.under(rc.Force(float(force))) for force in 64 * LOADS]
+    nothing = np.zeros(surface.grid.shape), 0.0
+    alone = [
+        count(Task(lambda operator, load=load: solve(load, initial=nothing), operator)) for load in loads
+    ]
     assert 2 * curve.products < sum(each.products for each in alone)
     assert 4 * curve.cells < sum(each.cells for each in alone)

@@ -13,7 +13,8 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
-from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
+from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
+from roughcontact.kernels import loader
 from roughcontact.solver import tuning
 from roughcontact.solver.bound_constrained_cg import inner_solve, inner_system
 from roughcontact.solver.control import State, Status, Tangent, Terms
@@ -163,7 +164,13 @@ class ActiveSet:
             set_ = conditions.predict_free_set(iterate, depth=d, allowed=allowed, projected=first)
             free, count = set_.free, set_.count
             bad = first and _worth_screening(set_, measure)
-            if bad and factorisation_pays(operator, count, dense_limit, tolerance):
+            # A first set that is but a guess is solved roughly, by steps that cost little: the next has fewer cells.
+            guessed = first and not (singular and terms.depth is not None) and _is_guess(set_, p, measure)
+            guessed = guessed and _steps_cost_little(operator)
+            if guessed:
+                dense_limit = min(dense_limit, tuning.DIRECT_ROUGHLY)
+            direct = not guessed and factorisation_pays(operator, count, dense_limit, tolerance)
+            if bad and direct:
                 free = _screened(
                     operator, iterate, conditions, free, tuning.SCREENING_RESIDUAL * residual * scale
                 )
@@ -181,7 +188,7 @@ class ActiveSet:
                 cells = xp.reshape(xp.arange(size, device=free.device), free.shape)
                 free, count = cells != xp.argmin(p), size - 1
             whole = singular and count == size  # of which the matrix is singular
-            if not whole and factorisation_pays(operator, count, dense_limit, tolerance):  # A8
+            if direct and not whole:  # A8
                 try:
                     solved = press_cells(operator, separation, terms.control, np.flatnonzero(free))
                 except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
@@ -194,7 +201,8 @@ class ActiveSet:
             else:  # A9
                 stuck = idle >= tuning.ROUNDS_IN_SINGLE
                 inner = FullGrid(operator) if stuck else inner_operator_on(operator, set_.support, inner)
-                limit = scale * max(tuning.INNER_TOLERANCE * tolerance, inner.contraction * residual)
+                target = max(tuning.SCREENING_RESIDUAL if guessed else 0.0, inner.contraction)
+                limit = scale * max(tuning.INNER_TOLERANCE * tolerance, target * residual)
                 system = inner_system(inner, iterate, conditions, free, limit=limit)
                 gap = u + separation if terms.plastic else None
                 del u, iterate, set_, free  # it has what it needs of them
@@ -210,6 +218,18 @@ def _worth_screening(predicted: PredictedSet, measure: Measure) -> bool:
     """Whether a prediction is bad and its factorisation costs much: from one load to the next it is good."""
     bad = predicted.dropped > predicted.count / 100
     return bad and predicted.count > tuning.SCREENING_CELLS and not measure.varies
+
+
+def _is_guess(predicted: PredictedSet, pressure: Array, measure: Measure) -> bool:
+    """Whether many cells are predicted from the pressure of few, as of summits, or the prediction is bad."""
+    few = measure.on_host and 2 * int(np.count_nonzero(pressure)) < predicted.count
+    return _worth_screening(predicted, measure) or (few and predicted.count > tuning.SCREENING_CELLS)
+
+
+def _steps_cost_little(operator: Operator) -> bool:
+    """Whether some tens of steps in machine code cost less than a matrix of many cells and its factorisation."""
+    few = operator.grid.size <= tuning.SCREENING_GRID and loader.is_available()
+    return few and capabilities(operator).local_inverse() is not None
 
 
 def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free: Mask, limit: float) -> Mask:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
+from scipy.linalg import blas, lapack
 
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
@@ -97,7 +97,7 @@ class _System:
         self._free: Array
         self._columns: Array
         # LAPACK wants Fortran order: the transpose, of which "lower" is what is the upper triangle here.
-        self._factor = scipy.linalg.cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
+        self._factor = _factor(matrix.T, lower=True)
         self._restart(np.arange(len(right)))
 
     @property
@@ -131,7 +131,7 @@ class _System:
         # The matrix gets its diagonal back meanwhile: taken off the product instead, the factor's would leave rounding.
         factor = self._matrix.diagonal().copy()
         np.fill_diagonal(self._matrix, self._diagonal)
-        product = scipy.linalg.blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
+        product = blas.dsymv(1.0, self._matrix.T, scaled, lower=0)
         np.fill_diagonal(self._matrix, factor)
         return np.asarray(product if self._root is None else product / self._root[:, 0])
 
@@ -139,7 +139,7 @@ class _System:
         base = np.flatnonzero(self.kept)
         matrix = self._matrix[np.ix_(base, base)]
         np.fill_diagonal(matrix, self._diagonal[base])
-        self._factor = scipy.linalg.cho_factor(matrix.T, lower=False, overwrite_a=True, check_finite=False)
+        self._factor = _factor(matrix.T, lower=False)
         self._restart(base)
 
     def _restart(self, base: Cells) -> None:
@@ -147,4 +147,19 @@ class _System:
         self._free, self._columns = self._solve(self._right[base]), np.zeros((len(base), 0))
 
     def _solve(self, right: Array) -> Array:
-        return np.asarray(scipy.linalg.cho_solve(self._factor, right, check_finite=False))
+        factor, lower = self._factor
+        return np.asarray(lapack.dpotrs(factor, right, lower=lower)[0])
+
+
+def _factor(matrix: Array, *, lower: bool) -> tuple[Array, bool]:
+    """Return Cholesky's factor, which overwrites a triangle of the matrix; SciPy's own way there costs small ones much.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the matrix is not definite to working precision.
+    """
+    factor, failed = lapack.dpotrf(matrix, lower=lower, clean=False, overwrite_a=True)
+    if failed:
+        raise np.linalg.LinAlgError("not definite to working precision")
+    return factor, lower

@@ -16,6 +16,7 @@ from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
+from roughcontact.solver.summit_start import summit_start
 from roughcontact.validation import Array
 
 __all__ = ["block_minimum", "block_separation", "coarse_operator", "coarse_operator_on", "nested_start"]
@@ -26,13 +27,16 @@ def nested_start(
 ) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on larger cells, recursively.
 
-    On the coarsest cells that is no pressure.
+    On the coarsest cells the summits alone are pressed; of other fields than planes on the host none is.
     """
     coarser, xp = coarse_operator(operator, separation.shape), namespace(separation)
-    if coarser is None or not divides(separation, coarser[1]):
+    plane = xp is np and separation.ndim == 2 and max(separation.shape) <= tuning.COARSEST
+    if (coarser is None and not plane) or (coarser and not divides(separation, coarser[1])):
         return xp.zeros_like(separation), 0.0
-    part, factors = coarser
     control = elastic_control(operator, separation, control, xp)
+    if coarser is None:
+        return summit_start(operator, separation, control)
+    part, factors = coarser
     blocks = block_separation(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
         control = _reachable(control, separation, blocks, xp)

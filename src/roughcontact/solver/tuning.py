@@ -8,6 +8,7 @@ others are safeguards: they act on rare problems alone, which `benchmarks/robust
 
 # --- active_set: outer iteration, safeguards but for INNER_TOLERANCE ---
 SCREENING_RESIDUAL = 0.2  # of the residual of a predicted set: how far it is solved to be screened
+SCREENING_GRID = 4096  # cells of a plane up to which a guess is screened by steps on it, not on its matrix
 SCREENING_CELLS = 300  # cells: a factorisation of fewer costs no more than some products
 PLASTIC_FORCE = 0.5  # of the force: beyond the hardness, from which on hardly a cell is between the bounds
 PROGRESS = 0.9  # of the smallest residual so far: a larger one is no progress

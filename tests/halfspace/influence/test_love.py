@@ -120,6 +120,12 @@ def test_tables_are_the_kernel_at_whole_cells():
     np.testing.assert_array_equal(table, love(x * 0.2, y * 0.5, 0.2, 0.5))
 
 
+def test_a_table_is_its_owners():
+    first = love_table((3, 4), (0.5, 0.2))
+    first *= 2
+    np.testing.assert_array_equal(first, 2 * love_table((3, 4), (0.5, 0.2)))
+
+
 def test_cells_add_up():
     """Four cells side by side are one cell of twice the size."""
     parts = sum(love(7 + i, 2 + j, 2.0, 2.0) for i in (-1, 1) for j in (-1, 1))

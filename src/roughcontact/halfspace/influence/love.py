@@ -61,12 +61,20 @@ def love(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
 def love_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return `love` for all offsets of whole cells from zero up, shape ``(ny, nx)`` [m]."""
     (ny, nx), (dy, dx) = shape, spacing
+    if ny * nx <= BLOCK:
+        return _small_table(ny, nx, dy, dx).copy()
     x, y = np.arange(nx) * dx, np.arange(ny)[:, None] * dy
     table = np.empty((ny, nx))
     rows = max(1, BLOCK // nx)
     for start in range(0, ny, rows):  # in blocks whose temporaries stay in cache
         table[start : start + rows] = love(x, y[start : start + rows], dx, dy)
     return table
+
+
+# Who presses many small surfaces has one table, and windows of large ones begin with the same; 128 kB each at most.
+@lru_cache(maxsize=32)
+def _small_table(ny: int, nx: int, dy: float, dx: float) -> Array:
+    return love(np.arange(nx) * dx, np.arange(ny)[:, None] * dy, dx, dy)
 
 
 def wave_compliance(wavenumber: npt.ArrayLike) -> Array:

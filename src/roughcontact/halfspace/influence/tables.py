@@ -284,7 +284,15 @@ class Tables:
         """Return the matrix [m/Pa] between cells."""
         reach = spans(rows, columns)
         matrix = np.empty((len(rows), len(rows)))
-        for part in blocks(len(rows), len(rows)):
+        parts = blocks(len(rows), len(rows))
+        if self.has(reach) and 4 * reach[0] * reach[1] <= matrix.size:
+            # At offsets to all sides the table is found by one difference of places, not by two and their sizes.
+            around = _to_all_sides(self._largest.values[: reach[0], : reach[1]])
+            places, middle = rows * around.shape[1] + columns, around.size // 2
+            for part in parts:
+                matrix[part] = around.ravel().take(places[part, None] - (places - middle))
+            return matrix
+        for part in parts:
             matrix[part] = self.at(rows[part, None] - rows, columns[part, None] - columns, reach)
         return matrix
 
@@ -322,6 +330,12 @@ def _waves(length: int, count: int) -> Array:
     return np.asarray(
         often / length * np.cos(2 * np.pi / length * (np.arange(count)[:, None] * waves % length))
     )
+
+
+def _to_all_sides(table: Array) -> Array:
+    """Return a table at offsets from zero up with those to the other sides, zero in the middle."""
+    below = np.concatenate([table[:, :0:-1], table], axis=1)
+    return np.concatenate([below[:0:-1], below])
 
 
 def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
