@@ -124,7 +124,7 @@ def test_the_method_falls_back_when_flipping_does_not_end(monkeypatch):
     from roughcontact.solver.bound_constrained_cg import InnerSolution
 
     def stuck(system, conditions, **settings):
-        return InnerSolution(system.start, 1)
+        return InnerSolution(system.inner.scatter(system.start), 1)
 
     monkeypatch.setattr(module, "inner_solve", stuck)
     rough = surface((32, 32))
