@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
@@ -86,24 +87,33 @@ def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> Non
     """Do some work on all items, on several threads if there are any, and at least so many items.
 
     What is done to one item must not depend on what is done to another; then nothing depends on the number of threads.
-    If this is interrupted, others may still be at work: `work` must hold what they look at.
+    Each takes the next that is left, so that nobody waits for one that starts late. If this is interrupted, others may
+    still be at work: `work` must hold what they look at.
     """
     count = min(threads(), len(items))
     if count < 2 or len(items) < least:
         for item in items:
             work(item)
         return
+    left, begun = iter(items), list[int]()
+    ended: SimpleQueue[BaseException | None] = SimpleQueue()
 
-    def share(first: int) -> None:
-        for item in items[first::count]:
-            work(item)
+    def take(k: int) -> None:
+        begun.append(k)
+        try:
+            for item in left:
+                work(item)
+        except BaseException as error:  # the caller raises it
+            deque(left, 0)  # the others stop, too
+            ended.put(error)
+        else:
+            ended.put(None)
 
-    others = [_pool.submit(share, first) for first in range(1, count)]
-    try:
-        share(0)
-    finally:
-        for other in others:
-            other.result()
+    join_in(take, count)
+    # Nothing is left: who comes now does nothing, and only those who took something are waited for.
+    errors = [error for _ in begun.copy() if (error := ended.get())]
+    if errors:
+        raise errors[0]
 
 
 def join_in(work: Callable[[int], None], count: int) -> None:
@@ -243,13 +253,12 @@ class _Crew:
 
 
 _crew = _Crew()
-_pool = ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
 
 
 def _in_child() -> None:
     """Go on in a forked process, which has one thread: the one that forked."""
-    global _crew, _pool
-    _crew, _pool = _Crew(), ThreadPoolExecutor(MOST, thread_name_prefix="roughcontact")
+    global _crew
+    _crew = _Crew()
     for thread in _inside - {get_ident()}:
         _go_out(thread)
     no_fork.release()

@@ -28,7 +28,7 @@ __all__ = [
 
 Field = npt.NDArray[Any]  # of single or double precision
 
-PART = 2**15  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
+PART = 2**13  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
 SUMS = 8  # that a function finds at most
 SEVERAL = 4  # parts from which on threads are worth waking
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (benchmarks/pairs.py)
