@@ -6,6 +6,7 @@ python benchmarks/memory.py [n [case]]
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -39,13 +40,18 @@ def measure(case: str, n: int) -> None:
     surface = rc.self_affine(rc.Grid((n, n), 1 / n, periodic), 0.8, 0.01, np.random.default_rng(0), **waves)
     Path("/proc/self/clear_refs").write_text("5")  # what the making of the surface took does not count
     before = peak()
+    start = time.perf_counter()
     if verb == "press":
-        rc.press(surface, 1.0, force=load * 0.01)
+        residual = rc.press(surface, 1.0, force=load * 0.01).residual
     else:
-        rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-4, load, 20) * 0.01)
+        residual = rc.loading_curve(surface, 1.0, forces=np.geomspace(1e-4, load, 20) * 0.01).residual.max()
+    seconds = time.perf_counter() - start
     used, whole = peak() - before, peak()
     told = rc.memory_needed(surface, 1.0, force=load * 0.01, curve=verb == "curve")
-    print(f"{case:28s} {used / n**2:7.0f} bytes a cell ({told / n**2:.0f}), {whole / 2**20:6.0f} MB in all")
+    print(
+        f"{case:28s} {used / n**2:7.0f} bytes a cell ({told / n**2:.0f}), {whole / 2**20:6.0f} MB in all"
+        f", residual {residual:.0e}, {seconds:.1f} s"
+    )
 
 
 if __name__ == "__main__":
