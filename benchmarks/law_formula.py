@@ -170,10 +170,10 @@ def table(laws: xarray.Dataset) -> list[tuple[str, ...]]:
         rows.append(
             (
                 f"{h:g}",
-                f"{float(value(one)):.4f}",
-                f"{float(error(one, samples)):.4f}",
-                f"{float(np.exp(value(two))):.5f}",
-                f"{float(error(two, samples)):.4f}",
+                f"{float(value(one)):.5f}",
+                f"{float(error(one, samples)):.5f}",
+                f"{float(np.exp(value(two))):.6f}",
+                f"{float(error(two, samples)):.5f}",
                 f"{correlation:.2f}",
             )
         )
