@@ -1,6 +1,7 @@
 """How many threads there are, and that answers do not hang on them."""
 
 import ctypes
+import gc
 import os
 import signal
 import subprocess
@@ -114,6 +115,42 @@ def test_what_fails_is_told(count):
         spread(work, range(9))
 
 
+def test_an_interrupt_comes_before_what_another_thread_fails_by():
+    both = threading.Barrier(2, timeout=60)
+
+    def work(item):
+        both.wait()
+        first = threading.current_thread() is threading.main_thread()
+        raise KeyboardInterrupt if first else ArithmeticError
+
+    for _ in range(20):
+        with limit_threads(2), pytest.raises(KeyboardInterrupt):
+            spread(work, range(2))
+
+
+def test_after_an_error_nothing_is_held():
+    class Held:
+        pass
+
+    def fail():
+        held = Held()
+        kept.append(weakref.ref(held))
+
+        def work(item, held=held):
+            raise ArithmeticError
+
+        with limit_threads(2), suppress(ArithmeticError):
+            spread(work, range(4))
+
+    kept = []
+    gc.disable()
+    try:
+        fail()
+        assert kept[0]() is None
+    finally:
+        gc.enable()
+
+
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_who_joins_in_is_not_waited_for(count):
     """The first takes all that is left; one that came before it finished may still be at it when it returns."""
@@ -221,7 +258,9 @@ def test_blas_that_counts_for_each_thread_is_limited_in_each(monkeypatch):
 
     counts, seen = Counts(), []
     monkeypatch.setattr(threads_module, "_own", lambda: counts)
-    monkeypatch.setattr(threads_module, "_shared", lambda: ())  # of BLAS that counts for the process there is none
+    monkeypatch.setattr(
+        threads_module, "_shared", lambda: ()
+    )  # of BLAS that counts for the process there is none
 
     def work():
         with one_blas_thread():

@@ -172,3 +172,17 @@ def test_fields_of_a_body():
         require_numbers(Body(np.ones(2), None, "x"))
     with pytest.raises(ValueError, match="reference must be a number, not nan"):
         require_numbers(Body(1.0, np.nan, "x"))
+
+
+@pytest.mark.parametrize(
+    ("function", "kind"),
+    [
+        (rc.surface_moments, "Surface"),
+        (rc.plot.height_map, "Surface"),
+        (rc.plot.pressure_map, "Solution"),
+        (rc.interface_table, "Curve"),
+    ],
+)
+def test_what_is_no_surface_solution_or_curve_is_told_how_one_is_made(function, kind):
+    with pytest.raises(ValueError, match=f"must be a {kind}, as rc\\..*, not 'part.x3p'"):
+        function("part.x3p")

@@ -111,9 +111,12 @@ def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> Non
 
     join_in(take, count)
     # Nothing is left: who comes now does nothing, and only those who took something are waited for.
-    errors = [error for _ in begun.copy() if (error := ended.get())]
+    errors = [*filter(None, (ended.get() for _ in begun.copy()))]
     if errors:
-        raise errors[0]
+        try:
+            raise min(errors, key=lambda each: isinstance(each, Exception))  # Ctrl-C first
+        finally:
+            errors.clear()  # they hold this frame
 
 
 def join_in(work: Callable[[int], None], count: int) -> None:

@@ -46,6 +46,11 @@ ARRAYS = {"ArrayLike", "npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
 WHOLE = {"int"}
 OPTIONAL = " | None"
+BODIES = {
+    "Surface": "a Surface, as rc.read and rc.self_affine return it",
+    "Solution": "a Solution, as rc.press returns it",
+    "Curve": "a Curve, as rc.loading_curve returns it",
+}
 
 
 def number(value: Any, what: str) -> Array:
@@ -207,8 +212,8 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
     ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
-    be broadcast; none takes NaN. With ``| None`` they may be None. Whatever else is annotated is passed on, as are all
-    values as given: their range is the function's own affair.
+    be broadcast; none takes NaN. With ``| None`` they may be None. ``Surface``, ``Solution`` and ``Curve`` want one.
+    Whatever else is annotated is passed on, as are all values as given: their range is the function's own affair.
 
     Raises
     ------
@@ -227,6 +232,8 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
         given = dict(zip(names, args, strict=False)) | kwargs
         shapes = {}
         for name, value in given.items():
+            if kinds.get(name) in BODIES and kinds[name] not in (one.__name__ for one in type(value).__mro__):
+                raise ValueError(f"{name} must be {BODIES[kinds[name]]}, not {shown(value)}")
             if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
                 shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
         fitting(shapes)

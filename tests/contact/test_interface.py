@@ -116,7 +116,7 @@ class TestTable:
             rc.interface_table(replace(curve, stiffness=np.zeros(len(curve))))
         with pytest.raises(ValueError, match="the gap does not fall"):
             rc.interface_table(replace(curve, mean_gap=np.ones(len(curve))))
-        with pytest.raises(ValueError, match="a Curve is wanted"):
+        with pytest.raises(ValueError, match="curve must be a Curve"):
             rc.interface_table([1.0])
         with pytest.raises(ValueError, match=r"area \[m\^2\]"):
             rc.interface_table(curve, area=0.0)

@@ -43,7 +43,7 @@ def solution():
         ({"along": (1, 2, 3)}, "a direction"),
         ({"along": (1, 0), "force": (0.1, 0.01)}, "leave out `along`"),
         ({"operator": shear_half_space(rc.Grid((4, 4), 1.0), BODY)}, "is not the contact's"),
-        ({"solution": wave()}, "a Solution is wanted, as `press` returns it, not Surface"),
+        ({"solution": wave()}, "solution must be a Solution, as rc.press returns it, not a Surface"),
     ],
 )
 def test_nonsense_is_refused(solution, more, message):

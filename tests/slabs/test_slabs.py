@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.cli import run_memory
 from roughcontact.contact.spots import find_spots
 from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
 from roughcontact.kernels import buffers
@@ -353,3 +354,16 @@ def test_surfaces_that_are_not_made_in_place():
     ]:
         with pytest.raises(ValueError, match=message):
             together(2, work)
+
+
+def test_how_much_touches_is_not_asked_of_slabs(monkeypatch):
+    """Processes on machines with different memory free would not all ask."""
+    monkeypatch.setattr(run_memory, "_WORTH_SAYING", 1)
+
+    def work(communicator):
+        surface = in_slabs(rough((64, 64)), communicator)
+        run_memory.require_memory_for_load(surface, 1.0, {"pressure": 1e-3})
+        with pytest.raises(ValueError, match="of heights of NumPy alone"):
+            rc.memory_needed(surface, 1.0, pressure=1e-3)
+
+    together(2, work)

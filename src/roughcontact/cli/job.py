@@ -140,6 +140,9 @@ def _end_together(status: int, words: str) -> None:
             sys.stderr.flush()
             _meeting().Abort(status)
         time.sleep(_TURN)
+    first = _meeting().bcast(status)
+    if status not in (0, MISSED) and first in (0, MISSED):  # the first has nothing to say about it
+        sys.stderr.write(words)
 
 
 @cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.memory import free_memory, gigabytes, require_free
 
@@ -42,6 +43,8 @@ def require_memory_for_load(
 ) -> None:
     """Do so for a load on a map, or a curve up to it; how much touches is asked only where it could be big.
 
+    Nothing is asked of a surface in slabs: its processes may have different memory free, and must do the same.
+
     Raises
     ------
     UsageError
@@ -50,7 +53,8 @@ def require_memory_for_load(
     import roughcontact as rc
 
     grid = surface.grid
-    if grid.ndim == 2 and rc.memory_needed(grid, curve=curve) > min(_WORTH_SAYING, free_memory()):
+    whole = grid.ndim == 2 and is_numpy(surface.heights)
+    if whole and rc.memory_needed(grid, curve=curve) > min(_WORTH_SAYING, free_memory()):
         require_memory(rc.memory_needed(surface, modulus, curve=curve, **load), grid.shape)
 
 

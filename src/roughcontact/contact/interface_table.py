@@ -12,7 +12,7 @@ from roughcontact.contact.conduction import conductance
 from roughcontact.contact.curve import REMEDY, Curve
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
-from roughcontact.validation import Array, positive
+from roughcontact.validation import Array, numeric, positive
 
 if TYPE_CHECKING:
     import xarray
@@ -123,6 +123,7 @@ class InterfaceTable:
         return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})
 
 
+@numeric
 def interface_table(
     curve: Curve,
     *,
@@ -166,8 +167,6 @@ def interface_table(
     >>> len(table), bool((np.diff(table.overclosure) > 0).all())
     (3, True)
     """
-    if not isinstance(curve, Curve):
-        raise ValueError(f"a Curve is wanted, such as loading_curve returns, not {type(curve).__name__}")
     if curve.geometry is not Geometry.SURFACE:
         raise ValueError(
             f"an interface has a law per area where a map of it was pressed, not a {curve.geometry.value}: "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from roughcontact.arrays import is_numpy
 from roughcontact.contact.memory_model import MemoryModel, Touch
 from roughcontact.contact.press import control_of
 from roughcontact.contact.touch import touch_of
@@ -30,7 +31,8 @@ def memory_needed(
     modulus : float, Solid or pair of Solids, optional
         Reduced modulus E* [Pa], or what it follows from: needed with a load.
     force, depth, pressure : float, optional
-        At most one: the load, see `press`; of a curve the largest. Without one, the most that any load takes.
+        At most one: the load, see `press`; of a curve the largest. Without one, what the heaviest load takes; a light
+        one may take up to 20 MB more, for a matrix between the cells in contact.
     curve : bool
         Whether a curve leads up to the load.
 
@@ -43,12 +45,12 @@ def memory_needed(
     Raises
     ------
     ValueError
-        If there is no map of two axes, or a load without a surface and a modulus.
+        If there is no map of two axes, or a load without a surface of NumPy's and a modulus.
 
     Notes
     -----
     A model of what is alive at once (``roughcontact.contact.memory_model``), for elastic loads on the half-space by
-    the default solver. How much touches is found on cells so large that there are 256 along the longer side.
+    the default solver. How much touches is found on larger cells, 64 to 256 of them along the longer side.
 
     Examples
     --------
@@ -65,6 +67,10 @@ def memory_needed(
         if modulus is None or not isinstance(surface, Surface):
             raise ValueError(
                 "what a load takes depends on how much touches: give the surface and the modulus"
+            )
+        if not is_numpy(surface.heights):
+            raise ValueError(
+                "how much touches is asked of heights of NumPy alone: leave out the load (in slabs: docs/scale.md)"
             )
         touch = touch_of(surface, as_modulus(modulus), control_of(grid, **loads))
     return MemoryModel.of(grid).peak(touch, curve=curve)

@@ -21,11 +21,12 @@ from roughcontact.surface.surface import Surface
 from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import Basis, LoadingLaw
 from roughcontact.theory.waves import Waves
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = ["facts_for", "loading_laws", "persson_pressures"]
 
 
+@numeric
 def loading_laws(
     surface: Surface,
     modulus: float | Solid | tuple[Solid, Solid],

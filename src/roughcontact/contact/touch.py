@@ -16,11 +16,12 @@ from roughcontact.solver.control import Control, Start, Terms
 from roughcontact.solver.nested_iteration import block_separation, coarse_operator, nested_start
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 from roughcontact.surface.surface import Surface
+from roughcontact.threads import one_blas_thread
 
 __all__ = ["require_memory_for_load", "touch_of"]
 
 FEWEST = 2**16  # cells: fewer fit every machine
-SIDE = 256  # cells to the longer side of the grid that tells
+SIDE = 256  # cells to the longer side of the grid that tells, at most
 # Exponent of the contact in the size of its cells, about: of nominally flat surfaces and of fractals (H = 0.8), from
 # 256 to 2048 cells along a side.
 SHRINKAGE = 1 / 4
@@ -33,9 +34,10 @@ def touch_of(surface: Surface, modulus: float, control: Control) -> Touch:
     operator, separation, solver = half_space(surface.grid, modulus), separation_of(surface), ActiveSet()
     while max(separation.shape) > SIDE and (coarser := coarse_operator(operator, separation.shape)):
         operator, separation = coarser[0], block_separation(separation, coarser[1])
-    start = Start(*nested_start(operator, separation, control, solver))
     terms = Terms(control, tuning.COARSE_TOLERANCE)
-    state, subdomain = SubdomainSolver(operator).solve(solver, separation, terms, start)
+    with one_blas_thread():
+        start = Start(*nested_start(operator, separation, control, solver))
+        state, subdomain = SubdomainSolver(operator).solve(solver, separation, terms, start)
     pressed = prolong(state.pressure, subdomain, separation.shape) > 0
     overlap = (separation < state.depth) | pressed
     box = bounding_box(overlap)

@@ -140,8 +140,6 @@ def make_problem(
     tolerance: float = 1e-8,
 ) -> SlipProblem:
     """Return the problem, or say in a ValueError what is wrong with it."""
-    if not isinstance(pressed, Solution):
-        raise ValueError(f"a Solution is wanted, as `press` returns it, not {type(pressed).__name__}")
     kind = pressed.problem.geometry
     if kind is not Geometry.SURFACE:
         raise ValueError(

@@ -26,6 +26,7 @@ from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import numeric
 
 __all__ = [
     *("areal_figure", "curve_figure", "pressure_distribution_figure", "resistance_figure"),
@@ -35,6 +36,7 @@ __all__ = [
 _FORMATS = ("png", "pdf", "svg")
 
 
+@numeric
 def solution_figure(solution: Solution) -> Figure:
     """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps.
 
@@ -79,6 +81,7 @@ def solution_figure(solution: Solution) -> Figure:
     return figure
 
 
+@numeric
 def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
     """Return the distribution of the pressure and what theories say about it.
 
@@ -106,6 +109,7 @@ def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Dens
     return figure
 
 
+@numeric
 def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()) -> Figure:
     """Return stiffness, contact area and depth against force, and what theories say about them.
 
@@ -139,6 +143,7 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
     return figure
 
 
+@numeric
 def areal_figure(
     curve: Curve,
     law: PowerLaw | None = None,
@@ -214,6 +219,7 @@ def resistance_figure(dataset: xarray.Dataset) -> Figure:
     return figure
 
 
+@numeric
 def surface_figure(surface: Surface, spikes: Spikes | None = None) -> Figure:
     """Return the heights of a surface or a profile beside their distribution.
 

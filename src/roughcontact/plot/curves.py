@@ -25,7 +25,7 @@ from roughcontact.plot.level import free_place, level
 from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.statistics.power_law import PowerLaw
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, numeric, require
 
 __all__ = [
     "PER_AREA",
@@ -49,6 +49,7 @@ _FULL = "full contact"
 _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
 
 
+@numeric
 def stiffness_curve(
     curve: Curve, ax: Axes | None = None, *, law: PowerLaw | None = None, theories: Sequence[Law] = ()
 ) -> Axes:
@@ -105,6 +106,7 @@ def stiffness_curve(
     return axes
 
 
+@numeric
 def area_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
     """Draw the real contact area against force, both logarithmic; the right axis gives the relative one.
 
@@ -137,6 +139,7 @@ def area_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] 
     return axes
 
 
+@numeric
 def depth_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
     """Draw the indentation depth, since first touch, against force, both logarithmic.
 
@@ -166,6 +169,7 @@ def depth_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law]
     return axes
 
 
+@numeric
 def areal_curve(
     curve: Curve,
     ax: Axes | None = None,

@@ -18,7 +18,7 @@ from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.usual_range import usual_range
 from roughcontact.surface.analysis.histogram import height_histogram
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = ["Density", "height_distribution", "pressure_distribution"]
 
@@ -31,6 +31,7 @@ _EDGES = 0.1  # of the cells in contact, which may lie along the edges of spots
 _ABOVE = 1.25  # height of the axes over what is drawn: there the legend covers nothing
 
 
+@numeric
 def pressure_distribution(
     solution: Solution,
     ax: Axes | None = None,
@@ -98,6 +99,7 @@ def pressure_distribution(
     return axes
 
 
+@numeric
 def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int = 60) -> Axes:
     """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
 

@@ -19,7 +19,7 @@ from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_im
 from roughcontact.plot.ticks import LABEL
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = ["colour_limit", "contact_map", "height_map", "pressure_map"]
 
@@ -27,6 +27,7 @@ _CONTACT = "#c8290b"
 _SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of a ring [points^2]
 
 
+@numeric
 def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights of a surface, with a colour bar; points that were not measured are hatched.
 
@@ -72,6 +73,7 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
     return axes
 
 
+@numeric
 def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window | None = None) -> Axes:
     """Draw the pressure in colour over the heights in grey, with a colour bar.
 
@@ -121,6 +123,7 @@ def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window |
     return axes
 
 
+@numeric
 def contact_map(
     solution: Solution, ax: Axes | None = None, *, window: Window | None = None, frame: Window | None = None
 ) -> Axes:

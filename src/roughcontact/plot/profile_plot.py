@@ -16,7 +16,7 @@ from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["contact_profile", "places_of", "pressure_profile", "profile_curve"]
 
@@ -24,6 +24,7 @@ _LINE, _SPIKE, _CONTACT = "#0072b2", "#d55e00", "#c8290b"
 _FLAT = (7.0, 2.8)  # size of a picture of a line
 
 
+@numeric
 def profile_curve(
     surface: Surface, ax: Axes | None = None, *, row: int | None = None, spikes: Spikes | None = None
 ) -> Axes:
@@ -85,6 +86,7 @@ def profile_curve(
     return axes
 
 
+@numeric
 def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     """Draw the heights of a line or of rings over the flat, before and under the load, and the cells in contact.
 
@@ -131,6 +133,7 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@numeric
 def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     """Draw the pressure along a line or over the radius of rings, each cell as it is.
 

@@ -13,12 +13,14 @@ from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.raster import colour_bar, length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
+from roughcontact.validation import numeric
 
 __all__ = ["von_mises_section"]
 
 DEPTHS = 40
 
 
+@numeric
 def von_mises_section(
     solution: Solution,
     solid: Solid | float,

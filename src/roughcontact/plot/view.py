@@ -16,6 +16,7 @@ from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import numeric
 
 __all__ = ["surface_view"]
 
@@ -23,6 +24,7 @@ _DRAWN = 200  # points along a side: more take long, and no page shows them
 _HEIGHT = 0.3  # of the box over its longer side: heights are drawn larger than they are
 
 
+@numeric
 def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = True) -> Axes3D:
     """Draw a surface from aside, its heights enlarged to be seen; points that were not measured are left open.
 

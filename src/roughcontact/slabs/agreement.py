@@ -18,7 +18,7 @@ def by_first(communicator: Communicator, work: Callable[[], T]) -> T:
 
     Raises
     ------
-    ValueError, OSError
+    Exception
         What is raised there.
     """
     answers: list[T] = _agreed(communicator, [work] if communicator.rank == 0 else [])
@@ -30,7 +30,7 @@ def by_each(communicator: Communicator, work: Callable[[], Any]) -> None:
 
     Raises
     ------
-    ValueError, OSError
+    Exception
         What is raised on the first process where something is.
     """
     _agreed(communicator, [lambda: work() and None])
@@ -50,7 +50,7 @@ def entered_by_first(
 
     Raises
     ------
-    ValueError, OSError
+    Exception
         What is raised there, on the way in or out.
     """
     with ExitStack() as stack:
@@ -64,7 +64,7 @@ def _agreed(communicator: Communicator, works: list[Callable[[], Any]]) -> list[
     fault: Exception | None = None
     try:
         found = [work() for work in works]
-    except (ValueError, OSError) as error:
+    except Exception as error:  # raised on all, or the others would wait for ever
         fault = error
     told = communicator.allgather((found, fault))
     for _, raised in told:

@@ -11,7 +11,7 @@ import scipy.sparse
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["combined", "resampled"]
 
@@ -21,6 +21,7 @@ Interpolation: TypeAlias = Literal["cubic", "linear"]
 _SAME = 1e-9
 
 
+@numeric
 def combined(
     lower: Surface,
     upper: Surface,
@@ -90,6 +91,7 @@ def combined(
     return whole
 
 
+@numeric
 def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
     """Return the heights interpolated at the cell centres of another grid with the same middle.
 

@@ -89,6 +89,7 @@ def fractal_dimension(hurst: float, dimension: int = 2) -> float:
     return dimension + 1 - hurst
 
 
+@numeric
 def box_counting_dimension(surface: Surface) -> float:
     """Return the fractal dimension of a surface or a line by counting boxes (thesis, eq. 2.9).
 

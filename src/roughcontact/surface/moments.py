@@ -18,7 +18,7 @@ from roughcontact.surface.wave_grid import (
     wave_powers,
     wavenumbers,
 )
-from roughcontact.validation import Array, require, require_numbers
+from roughcontact.validation import Array, numeric, require, require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]
 
@@ -134,6 +134,7 @@ def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square")
     return _summed(powers, grid)
 
 
+@numeric
 def surface_moments(
     surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
 ) -> Moments:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.missing import filled
-from roughcontact.validation import Array, Mask, require
+from roughcontact.validation import Array, Mask, numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -71,6 +71,7 @@ class Spikes:
         return f"{_counted(self.count, 'spike')} of {_counted(int(self.mask.sum()), 'cell')}"
 
 
+@numeric
 def find_spikes(surface: Surface) -> Spikes:
     """Return the clusters of a few cells that stand out of all that is around them.
 

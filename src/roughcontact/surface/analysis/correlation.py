@@ -11,7 +11,7 @@ import numpy.typing as npt
 import scipy.fft
 
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = [
     "LagCurve",
@@ -84,6 +84,7 @@ class LagMap:
         return LagCurve(lag[full] / pairs[full], total[full] / pairs[full], pairs[full])
 
 
+@numeric
 def autocorrelation(surface: Surface) -> LagMap:
     """Return the autocorrelation ``<h(x + r) h(x)>`` of the heights above their mean.
 
@@ -115,6 +116,7 @@ def autocorrelation(surface: Surface) -> LagMap:
     return _as_map(surface, _correlate(wave, wave, shape), _pairs(known, shape), shape)
 
 
+@numeric
 def structure_function(surface: Surface) -> LagMap:
     """Return the structure function ``<(h(x + r) - h(x))^2>`` of the heights.
 
@@ -147,6 +149,7 @@ def structure_function(surface: Surface) -> LagMap:
     return _as_map(surface, np.maximum(total, 0), _pairs(known, shape), shape)
 
 
+@numeric
 def structure_profile(
     surface: Surface, direction: Literal["x", "y"] = "x", *, lags: npt.ArrayLike | None = None
 ) -> LagCurve:

@@ -11,7 +11,7 @@ import scipy.fft
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import wave_vectors
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = ["PowerMap", "power_map"]
 
@@ -76,6 +76,7 @@ class PowerMap:
         return np.fft.fftshift(self.qy), qx, whole
 
 
+@numeric
 def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level = "auto") -> PowerMap:
     """Return the two-dimensional power spectrum C2D of a surface (thesis, eqs 2.13 and 2.14).
 

@@ -16,7 +16,7 @@ from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["fit_structure"]
 
@@ -63,6 +63,7 @@ class _Band:
         return np.asarray(density)
 
 
+@numeric
 def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLike | None = None) -> HurstFit:
     """Return the self-affine law whose band-limited structure function fits a surface best.
 

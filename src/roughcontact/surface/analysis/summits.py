@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, numeric, require
 
 __all__ = ["MeasuredSummits", "find_summits"]
 
@@ -59,6 +59,7 @@ class MeasuredSummits:
         return np.asarray(1 / np.sqrt(self.curvature.prod(axis=1)))
 
 
+@numeric
 def find_summits(surface: Surface) -> MeasuredSummits:
     """Return the summits of a surface: points higher than all eight neighbours.
 

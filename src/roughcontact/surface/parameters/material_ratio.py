@@ -118,6 +118,7 @@ class StratifiedParameters:
     Vvv: float
 
 
+@numeric
 def material_ratio(surface: Surface) -> MaterialRatio:
     """Return the material ratio curve of a surface or a line (ISO 25178-2:2021, 4.5.1).
 
