@@ -279,7 +279,8 @@ def _section(entry: Entry, folder: str) -> list[str]:
     lines += [f"![{entry.title}]({folder}/{entry.name}.png)", "", plain(entry.caption), ""]
     if entry.verdicts:
         lines += [
-            f"* **{plain(verdict.word[0].upper() + verdict.word[1:])}:** {plain(verdict.claim)}. *Here:* {plain(verdict.found)}."
+            f"* **{plain(verdict.word[0].upper() + verdict.word[1:])}:** {plain(verdict.claim)}. "
+            f"*Here:* {plain(verdict.found)}."
             for verdict in entry.verdicts
         ]
     else:
