@@ -102,5 +102,5 @@ def test_missing_points_are_refused():
 
 
 def test_a_scan_is_a_surface():
-    with pytest.raises(ValueError, match="Surface on a grid of one axis, not 5"):
+    with pytest.raises(ValueError, match=r"scan must be a Surface, as .*, not 5"):
         scan_spectrum(5)

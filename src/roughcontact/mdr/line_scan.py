@@ -18,7 +18,7 @@ from roughcontact.surface.analysis.cut import surface_spectrum
 from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric, require, shown
+from roughcontact.validation import Array, numeric
 
 __all__ = ["scan_curves", "scan_spectrum"]
 
@@ -85,7 +85,6 @@ def scan_spectrum(
     >>> round(float(slope), 1)  # C1D of the line, lambda q C2D ~ q^(-2 H - 1)
     -2.6
     """
-    require(isinstance(scan, Surface), f"a line scan is a Surface on a grid of one axis, not {shown(scan)}")
     if scan.grid.ndim != 1:
         raise ValueError(
             "a line scan has one axis; a map has a spectrum C2D of its own: line_spectrum(power_spectrum(surface))"
