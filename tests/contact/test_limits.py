@@ -315,10 +315,3 @@ def test_two_moduli_are_one_too_many(kind):
     assert rc.press(body, 2.0, force=0.1, operator=operator).status.converged
     with pytest.raises(ValueError, match="modulus of 2 Pa, and 1 Pa is asked for"):
         rc.press(body, 1.0, force=0.1, operator=operator)
-
-
-@pytest.mark.parametrize("load", [{"force": 1.0}, {"pressure": 1.0}, {"depth": 1e-3}], ids=str)
-def test_one_periodic_cell_is_refused(load):
-    cell = rc.Surface(np.zeros((1, 1)), rc.Grid((1, 1), 1.0, periodic=True))
-    with pytest.raises(ValueError, match="one periodic cell has no pressure but the mean"):
-        rc.press(cell, 1.0, **load)

@@ -13,7 +13,7 @@ from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.material import Solid, as_modulus
-from roughcontact.validation import numeric, require
+from roughcontact.validation import numeric
 
 __all__ = ["body_on", "half_space", "ring", "singly_periodic"]
 
@@ -45,7 +45,7 @@ def half_space(
     Raises
     ------
     ValueError
-        If the grid has one axis, or is one periodic cell, or the method is not for it.
+        If the grid has one axis, or the method is not for it.
 
     Notes
     -----
@@ -69,10 +69,6 @@ def half_space(
             "operator: operator=line(grid, modulus), or foundation(grid, modulus)"
         )
     if all(grid.periodic):
-        require(
-            grid.size > 1,
-            "one periodic cell has no pressure but the mean, which moves nothing: use more cells",
-        )
         operator = InfluenceOperator(grid, Tables(Periodic(grid, value), grid.shape), positive=False)
     elif any(grid.periodic):
         operator = singly_periodic(grid, value)
