@@ -9,9 +9,9 @@ from products import CASES, LOADS, PROJECTED, Task, count
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
 
-# Between kernels of BLAS, and processors that machine code is made for, rounding moved no count by more than one or
-# 1.6 %. A wrong start costs more, in some of the cases.
-SHARE, LEAST = 0.05, 1
+# Rounding moves a count by one or 2.1 %, those of Polonsky and Keer's method by up to 11 %, two iterations of two
+# products in 37: see `products.spread`. A wrong start costs more, in some of the cases.
+SHARE, PROJECTED_SHARE, LEAST = 0.05, 0.12, 1
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,8 @@ def table():
 def test_counts_are_what_they_were(case, table):
     """Neither more, which costs, nor less, which the table is to say before it is lost again."""
     found, expected = count(CASES[case]()), table[case, products.machine_code()]
-    allowed = [max(LEAST, SHARE * number) for number in expected]
+    share = PROJECTED_SHARE if "projected" in case else SHARE
+    allowed = [max(LEAST, share * number) for number in expected]
     allowed[-1] = max(allowed[-1], LEAST * expected.cells / max(expected.products, 1))  # one product more
     assert (np.abs(np.subtract(found, expected)) <= allowed).all(), (
         f"{found}, not {expected}: if meant, store it"
