@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
 from roughcontact.contact.press import control_of
@@ -63,8 +65,9 @@ def memory_needed(
     grid = surface if isinstance(surface, Grid) else getattr(surface, "grid", None)
     if not isinstance(grid, Grid) or grid.ndim != 2:
         raise ValueError(f"a map or its grid of two axes is wanted, not {surface!r}")
-    if isinstance(surface, Surface) and isinstance(surface.heights, SlabArray):
-        return share_peak(surface.heights.local.size, curve=curve)
+    heights: Any = getattr(surface, "heights", None)
+    if isinstance(heights, SlabArray):
+        return share_peak(heights.local.size, curve=curve)
     touch, loads = Touch(), {"force": force, "depth": depth, "pressure": pressure}
     if any(load is not None for load in loads.values()):
         if modulus is None or not isinstance(surface, Surface):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from typing import Any
 
 import numpy as np
 
@@ -66,8 +67,9 @@ def require_memory_for_load(surface: Body, modulus: float, control: Control, *, 
         return
     shape = " x ".join(map(str, grid.shape))
     what = f"{'a curve' if curve else 'this load'} on {shape} cells"
-    if isinstance(surface.heights, SlabArray):
-        _require_memory_in_slabs(surface.heights, what, curve=curve)
+    heights: Any = surface.heights
+    if isinstance(heights, SlabArray):
+        _require_memory_in_slabs(heights, what, curve=curve)
         return
     model = MemoryModel.of(grid)
     if not is_numpy(surface.heights) or model.peak(Touch(), curve=curve) / ERROR <= most_memory():
