@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty, zeros
+from roughcontact.kernels.buffers import empty_like, zeros
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
+from roughcontact.kernels.distributed import contiguous, local, of_all
 from roughcontact.kernels.loader import code_for
 from roughcontact.kernels.planes import run_on_plane
 from roughcontact.threads import spread
@@ -40,7 +40,7 @@ class ActiveCells:
     Attributes
     ----------
     inside : array
-        One on these cells, zero elsewhere.
+        One on these cells, zero elsewhere; in slabs those of this process are listed here, and totals are those of all.
 
     Parameters
     ----------
@@ -49,14 +49,15 @@ class ActiveCells:
         A pressure and its change: cells where their sum is not zero are listed as well.
     """
 
-    def __init__(self, inside: Field, pressed: tuple[Field, Field] | None = None) -> None:
+    def __init__(self, inside: Any, pressed: tuple[Any, Any] | None = None) -> None:
         self.inside = inside
         self._code = code_for("vector_kernels", inside)
-        lanes = WIDTH // inside.itemsize
-        self._whole = inside.size // lanes * lanes
-        groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
-        base, change = pressed or (inside, inside)
-        self._code["list_groups"](inside.size, inside, base, change, groups, found)
+        self._here = here = local(inside)
+        lanes = WIDTH // here.itemsize
+        self._whole = here.size // lanes * lanes
+        groups, found = np.empty(here.size // lanes + 1, np.int64), np.empty(1, np.int64)
+        base, change = map(local, pressed or (here, here))
+        self._code["list_groups"](here.size, here, base, change, groups, found)
         self._count = int(found[0])
         self._groups = Operand(groups[: self._count].copy())
         self._sums = Operand(np.empty(SUMS))
@@ -65,7 +66,14 @@ class ActiveCells:
         self, name: str, count: int, *arguments: Operand | Field | float, largest: bool = False
     ) -> list[float]:
         """Run a kernel over these cells, and return so many sums, or the largest, of what it finds."""
-        run, size, whole, end = self._code[name], self._count, self._whole, self.inside.size
+        found = self._run_here(name, count, *arguments, largest=largest)
+        return of_all(self.inside, found, count if largest else 0)
+
+    def _run_here(
+        self, name: str, count: int, *arguments: Operand | Field | float, largest: bool
+    ) -> list[float]:
+        """Run it over the cells of this process."""
+        run, size, whole, end = self._code[name], self._count, self._whole, self._here.size
         if size <= PART:
             run(self._groups, 0, size, whole, end, *arguments, *((self._sums,) if count else ()))
             few: list[float] = self._sums.field[:count].tolist()
@@ -84,52 +92,77 @@ class ActiveCells:
 
     def finds_blocks(self, side: int) -> bool:
         """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
-        columns, lanes = self.inside.shape[-1], WIDTH // self.inside.itemsize
-        return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self.inside.size
+        columns, lanes = self._here.shape[-1], WIDTH // self._here.itemsize
+        return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self._here.size
 
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
         """Run a kernel on the blocks that these cells are of."""
-        plan = 0, self._count, self._whole, self.inside.size, field.shape[-1], side, blocks.shape[1]
+        plan = 0, self._count, self._whole, self._here.size, field.shape[-1], side, blocks.shape[1]
         code_for("block_kernels", field)[name](self._groups, *plan, field, blocks)
 
 
-def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:
+def subtract_shifted(r: Any, v: Any, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
     run_on_plane(code_for("vector_kernels", r)["subtract_shifted"], 0, 0, r, v, alpha, mean)
 
 
-def mask_above(mask: Field, r: Field, least: float) -> float:
+def mask_above(mask: Any, r: Any, least: float) -> float:
     """Set a mask to one where r is above `least`, and above zero; return the largest r where it was not, or 0."""
     run = code_for("vector_kernels", mask)["mask_above"]
-    return run_on_plane(run, 1, 1, mask, np.ascontiguousarray(r, dtype=mask.dtype), least)[0]
+    return run_on_plane(run, 1, 1, mask, contiguous(r, mask.dtype), least)[0]
 
 
-def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
+def with_margins(field: Any, precision: npt.DTypeLike | None = None) -> Any:
     """Return a copy of a plane with as much zero before and behind it as a sum over near cells looks at."""
-    copy = zeros_with_margins(field.shape, precision or field.dtype)
+    copy = zeros_with_margins(field, precision or field.dtype)
     copy[...] = field
     return copy
 
 
-def zeros_with_margins(shape: tuple[int, ...], precision: npt.DTypeLike) -> Field:
-    """Return a plane of zeros with such margins."""
-    row, dtype, size = shape[-1] if len(shape) > 1 else 0, np.dtype(precision), math.prod(shape)
-    margin = REACH * (row + 1) + WIDTH // dtype.itemsize
-    return zeros((size + 2 * margin,), dtype)[margin : margin + size].reshape(shape)
+def zeros_with_margins(like: Any, precision: npt.DTypeLike) -> Any:
+    """Return a plane of zeros with such margins, where another plane lies."""
+    here, dtype = local(like), np.dtype(precision)
+    margin = _looked_at(here.shape[-1] if here.ndim > 1 else 0) + WIDTH // dtype.itemsize
+    memory = (zeros if like is here else np.zeros)((here.size + 2 * margin,), dtype)
+    plane = memory[margin : margin + here.size].reshape(here.shape)
+    return plane if like is here else like.like(plane)
 
 
-def sum_stencil(region: ActiveCells, field: Field, weights: Field) -> Field:
+def sum_stencil(region: ActiveCells, field: Any, weights: Field) -> Any:
     """Return the weighted sum over the cells near each of a region, of a field with margins.
 
-    The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same.
+    The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same. In
+    slabs the margins take what other processes have there.
     """
-    answer = empty(field.shape, field.dtype)
-    region.run("sum_stencil", 0, field.shape[-1], field, answer, weights)
+    answer, here = empty_like(field, field.dtype), local(field)
+    if field is not here:
+        _fill_margins(here, *field.functions.beyond(field, _looked_at(here.shape[-1])))
+    region.run("sum_stencil", 0, here.shape[-1], here, local(answer), weights)
     return answer
 
 
-def sum_blocks(region: ActiveCells, field: Field, side: int) -> Field:
-    """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off."""
+def _looked_at(row: int) -> int:
+    """Return how many cells before the first, and after the last, a sum over near cells looks at."""
+    return REACH * (row + 1)
+
+
+def _fill_margins(field: Field, before: Field, behind: Field) -> None:
+    """Write what comes before the first number of a field with margins, and after its last."""
+    memory = field.base
+    assert memory is not None  # that of `zeros_with_margins`
+    first = (memory.size - field.size) // 2
+    last = first + field.size
+    memory[first - before.size : first], memory[last : last + behind.size] = before, behind
+
+
+def sum_blocks(region: ActiveCells, field: Any, side: int) -> Any:
+    """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off.
+
+    In slabs blocks lie on one process each.
+    """
+    here = local(field)
+    if field is not here:
+        return field.in_blocks(sum_blocks(region, here, side), side)
     ny, nx = field.shape
     blocks = np.zeros((-(-ny // side), -(-nx // side)), dtype=field.dtype)
     if region.finds_blocks(side):
@@ -139,8 +172,9 @@ def sum_blocks(region: ActiveCells, field: Field, side: int) -> Field:
     return blocks
 
 
-def add_blocks(region: ActiveCells, field: Field, blocks: Field, side: int) -> None:
+def add_blocks(region: ActiveCells, field: Any, blocks: Any, side: int) -> None:
     """Add to each cell of a region what its block has; what others get means nothing."""
+    field, blocks = local(field), local(blocks)
     if region.finds_blocks(side):
         region.run_on_blocks("add_listed_blocks", field, blocks, side)
     else:

@@ -3,7 +3,7 @@
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
 cores. That costs 9 % of a press of half of 512 x 512 periodic cells on two threads (benchmarks/pairs.py, "flat-half").
 So what an array leaves is kept for the next one like it. Very large planes are not: their pages are better touched
-where they are needed.
+where they are needed. Nor are those in slabs, where memory is short.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.kernels.calls import address
+from roughcontact.kernels.distributed import local
 from roughcontact.threads import no_fork
 
-__all__ = ["aligned", "empty", "give_back", "zeros"]
+__all__ = ["aligned", "empty", "empty_like", "give_back", "zeros", "zeros_like"]
 
 Array = npt.NDArray[Any]
 Kind = tuple[tuple[int, ...], str]
@@ -54,6 +55,18 @@ def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     array = empty(shape, dtype)
     array.fill(0)
     return array
+
+
+def empty_like(field: Any, precision: npt.DTypeLike) -> Any:
+    """Return an array where another lies, of which no number is set."""
+    here = local(field)
+    return empty(here.shape, precision) if field is here else field.like(np.empty(here.shape, precision))
+
+
+def zeros_like(field: Any, precision: npt.DTypeLike) -> Any:
+    """Return an array of zeros where another lies."""
+    here = local(field)
+    return zeros(here.shape, precision) if field is here else field.like(np.zeros(here.shape, precision))
 
 
 def give_back() -> None:

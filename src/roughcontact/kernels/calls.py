@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.kernels.distributed import local
+
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
 
@@ -22,12 +24,13 @@ class Operand:
     Attributes
     ----------
     field : array
+        Of one in slabs the address is that of its rows on this process.
     """
 
     __slots__ = ("dtype", "field", "pointer")
 
-    def __init__(self, field: npt.NDArray[Any]) -> None:
-        self.field, self.dtype, self.pointer = field, field.dtype, _pointer(field)
+    def __init__(self, field: Any) -> None:
+        self.field, self.dtype, self.pointer = field, field.dtype, _pointer(local(field))
 
 
 class Function:

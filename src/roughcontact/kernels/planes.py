@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty
+from roughcontact.kernels.buffers import empty_like
 from roughcontact.kernels.constants import WIDTH
+from roughcontact.kernels.distributed import Distributed, local, of_all
 from roughcontact.kernels.loader import code_for
 from roughcontact.threads import spread
 from roughcontact.validation import Array, Mask
@@ -94,7 +95,7 @@ def predict_active(
 
     Those are wrong whose gap is more than their pressure would displace, if each moved itself by `own` alone [m/Pa].
     """
-    region = empty(pressure.shape, bool)
+    region = empty_like(pressure, bool)
     given = pressure, displacement, separation, depth, least, own, region
     stay, wrong = run_on_plane(code_for("plane_kernels", pressure)["predict_active"], 0, 2, *given)
     return region, int(stay), int(wrong)
@@ -124,16 +125,21 @@ def scale_down(
 
 def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
     """Return a pressure with its change, in a unit, zero where it would be negative and outside."""
-    answer = empty(pressure.shape, np.float64)
+    answer: Array = empty_like(pressure, np.float64)
     run = code_for("plane_kernels", inside)["add_scaled"]
     run_on_plane(run, 0, 0, pressure, change, inside, unit, answer)
     return answer
 
 
 def run_on_plane(
-    run: Callable[..., None], most: int, count: int, *arguments: Field | Mask | float
+    run: Callable[..., None], most: int, count: int, *arguments: Field | Mask | Distributed | float
 ) -> list[float]:
-    """Run a function over all cells; return the largest over all parts of its first totals, sums of the others."""
+    """Run a function over all cells; return the largest over all parts of its first totals, sums of the others.
+
+    The first argument is a field. Of fields in slabs all processes together run it.
+    """
+    if not isinstance(arguments[0], np.ndarray):
+        return of_all(arguments[0], run_on_plane(run, most, count, *map(local, arguments)), most)
     size = next(a.size for a in arguments if isinstance(a, np.ndarray))
     if size <= CELLS:
         few = np.zeros(count)

@@ -128,7 +128,43 @@ class SlabFunctions:
         row: Local = self.communicator.sendrecv(given.copy(), to, source=source)
         return row
 
+    def beyond(self, x: SlabArray, count: int) -> tuple[Local, Local]:
+        """Return so many entries before the first of this process, row by row, and as many after its last.
+
+        They are fewer where the whole begins or ends; a process without rows gets none.
+        """
+        ends = [math.prod(x.shape[1:]) * edge for edge in x.edges]
+
+        def given(giver: int, taker: int) -> slice:
+            """Return what one process gives to another, counted from its own first entry."""
+            low, high = ends[taker], ends[taker + 1]
+            start, end = (low - count, low) if giver < taker else (high, high + count)
+            if giver == taker or low == high:
+                start = end
+            places = (min(max(place, ends[giver]), ends[giver + 1]) for place in (start, end))
+            return slice(*(place - ends[giver] for place in places))
+
+        own, others = x.local.reshape(-1), range(self.size)
+        sent = [own[given(self.rank, other)] for other in others]
+        back = [part.stop - part.start for part in (given(other, self.rank) for other in others)]
+        taken = np.empty(sum(back), x.dtype)
+        there = [part.size for part in sent]
+        self.communicator.Alltoallv((np.concatenate(sent), there), (taken, back))
+        before = sum(back[: self.rank])
+        return taken[:before], taken[before:]
+
     # --- of the whole ---
+
+    def combined(self, totals: list[float], largest: int) -> list[float]:
+        """Return the largest of the first so many totals of the processes, and sums of the others."""
+        of_each = np.empty((self.size, len(totals)))
+        counts = [len(totals)] * self.size
+        self.communicator.Allgatherv(np.array(totals), (of_each.reshape(-1), counts))
+        return [*of_each[:, :largest].max(axis=0).tolist(), *of_each[:, largest:].sum(axis=0).tolist()]
+
+    def agreed(self, verdict: Any) -> Any:
+        """Return whether all processes find so."""
+        return False not in self._of_each(bool(verdict))
 
     def sum(self, x: SlabArray, *, dtype: Any = None) -> Any:
         """Return the sum of the entries, those of floating numbers in double precision."""

@@ -104,6 +104,10 @@ class SlabArray:
         """Return other numbers on the same rows."""
         return SlabArray(local, self.edges, self.functions)
 
+    def in_blocks(self, local: Local, side: int) -> SlabArray:
+        """Return numbers of blocks of so many rows, each on the process that holds these rows."""
+        return SlabArray(local, tuple(edge // side for edge in self.edges), self.functions)
+
     def beside(self, other: Any) -> Any:
         """Return what stands beside the rows of this process: the same rows of another, or a number.
 

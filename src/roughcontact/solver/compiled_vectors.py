@@ -1,6 +1,7 @@
 """The vectors of an inner solve in machine code: work follows the free set, not the grid.
 
-For NumPy's arrays, cells of one size and no upper bound. Every member does what that of `vectors.ArrayVectors` says.
+For NumPy's arrays and those in slabs, cells of one size and no upper bound. Every member does what that of
+`vectors.ArrayVectors` says.
 """
 
 from __future__ import annotations
@@ -8,13 +9,13 @@ from __future__ import annotations
 from typing import Any, Self
 
 import numpy as np
-import numpy.typing as npt
 
 from roughcontact.cached import cached_property
 from roughcontact.kernels import buffers as room, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
+from roughcontact.kernels.distributed import contiguous
 from roughcontact.solver import tuning
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Preconditioned, Products, Projected
@@ -23,7 +24,7 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["CompiledVectors"]
 
-Field = npt.NDArray[Any]  # of single or double precision
+Field = Any  # of single or double precision, an array or one in slabs
 
 
 class CompiledVectors:
@@ -37,10 +38,13 @@ class CompiledVectors:
         self.free, self._free = free, Operand(free)  # with margins
         self._r, self._base = (self._located(field) for field in (residual, base))
         self._correction, self._s, self._q = self._zeros(), self._zeros(), self._r
-        self._r_free, self._z = Operand(zeros_with_margins(free.shape, free.dtype)), self._r
+        self._r_free, self._z = Operand(zeros_with_margins(free, free.dtype)), self._r
         self.correction, self.r = self._correction.field, self._r.field
         self.s, self.q = self._s.field, self._q.field
-        self._inner, self._weight, self._theta = inner, weight, inner.diagonal_correction
+        self._inner, self._weight = inner, weight
+        local = inner.local_inverse
+        fits = local is None or local.fits(free)
+        self._local, self._theta = (local, inner.diagonal_correction) if fits else (None, 0.0)
         self._uses_w, self._lost = False, 0.0
         # Sums over F as the solve began: of the pressure, of its cells (this one is kept up to date), of r.
         self._p_sum, self._count, self._r_sum = 0.0, 0.0, 0.0
@@ -58,14 +62,14 @@ class CompiledVectors:
         otherwise: float,
     ) -> tuple[Self, float]:
         """Return the vectors of a solve from an iterate, and their unit; see `scaled_vectors`."""
-        start, displacement, separation = (np.ascontiguousarray(f, dtype=np.float64) for f in iterate)
-        free, precision = np.ascontiguousarray(free, dtype=bool), inner.scaled(np.empty(0)).dtype
+        start, displacement, separation = (contiguous(field, np.float64) for field in iterate)
+        free, precision = contiguous(free, bool), inner.scaled(np.empty(0)).dtype
         levels = planes.level_range(separation, displacement, free)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
-        inside = zeros_with_margins(free.shape, precision)
-        residual, base = (room.empty(free.shape, precision) for _ in range(2))
+        inside = zeros_with_margins(free, precision)
+        residual, base = (room.empty_like(free, precision) for _ in range(2))
         into = inside, residual, base
         planes.scale_down(start, displacement, separation, free, into, depth=depth, unit=unit)
         return cls(inner, weight, inside, residual, base), unit
@@ -164,17 +168,15 @@ class CompiledVectors:
         """Return the pressure that there is now."""
         self._forget_directions()
         self._forget_inverse_of_one()
-        return planes.add_scaled(
-            np.ascontiguousarray(start, dtype=np.float64), self.correction, self.free, unit
-        )
+        return planes.add_scaled(contiguous(start, np.float64), self.correction, self.free, unit)
 
     def _located(self, field: Field) -> Operand:
         if field.shape != self.free.shape:  # machine code checks no shape
             raise ValueError(f"a field of shape {field.shape} where {self.free.shape} is expected")
-        return Operand(np.ascontiguousarray(field, dtype=self.free.dtype))
+        return Operand(contiguous(field, self.free.dtype))
 
     def _zeros(self) -> Operand:
-        return Operand(room.zeros(self.free.shape, self.free.dtype))
+        return Operand(room.zeros_like(self.free, self.free.dtype))
 
     @cached_property
     def _region(self) -> ActiveCells:
@@ -200,10 +202,9 @@ class CompiledVectors:
 
     def _inverse(self, field: Operand) -> Operand:
         """Return M0^-1 of a field that is zero outside F and has margins, without the Schur correction."""
-        local = self._inner.local_inverse
-        if local is None:
+        if self._local is None:
             return self._located(self._inner.approximate_inverse(field.field))
-        return self._located(local.on(self._region, field.field))
+        return self._located(self._local.on(self._region, field.field))
 
     def _sums(self, name: str, count: int, *arguments: Operand | float) -> list[float]:
         return [self._weight * one for one in self._region.run(name, count, *arguments)]

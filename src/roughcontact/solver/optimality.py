@@ -15,6 +15,7 @@ import numpy as np
 from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.operator import Operator, self_influence
 from roughcontact.kernels import loader, planes
+from roughcontact.kernels.distributed import agreed, local
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
@@ -50,10 +51,11 @@ class Iterate(NamedTuple):
         """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
         if plastic or not loader.takes(self.pressure):
             return False
-        wanted = np.dtype(np.float64), self.pressure.shape, True
-        return all(
-            isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in self
+        here, wanted = map(local, self), (np.dtype(np.float64), local(self.pressure).shape, True)
+        fit = all(
+            isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in here
         )
+        return agreed(self.pressure, fit)
 
 
 class Evaluation(NamedTuple):

@@ -14,16 +14,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.arrays import is_numpy
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence.tables import definite, wavenumbers
+from roughcontact.halfspace.influence.tables import ALL, definite, wavenumbers
 from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
+from roughcontact.slabs.levels_of_slabs import divides
 from roughcontact.transforms import Convolution, fast_even_length
 from roughcontact.validation import Array
 
@@ -74,11 +76,15 @@ class LocalInverse:
             return cls(near, None)
         blocks = tuple(fast_even_length(-(-n // BLOCK)) for n in shape)
         box = blocks[0], blocks[1]
-        damping = [np.exp(-BLOCK_DAMPING * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box]
-        q = definite(wavenumbers(box, tuple(BLOCK * d for d in spacing)))
-        return cls(near, Convolution(modulus / 2 / BLOCK**2 * q * np.outer(*damping), box))
+        return cls(near, Convolution(partial(_far, modulus, box, tuple(BLOCK * d for d in spacing)), box))
 
-    def on(self, region: ActiveCells, field: Field) -> Field:
+    def fits(self, field: Any) -> bool:
+        """Whether it is one for a field: in slabs all blocks must lie on one process each, and none beside them."""
+        if self.far is None or is_numpy(field):
+            return True
+        return divides(field, (BLOCK,)) and self.far.lengths == tuple(-(-n // BLOCK) for n in field.shape)
+
+    def on(self, region: ActiveCells, field: Any) -> Any:
         """Return the pressure [Pa] on a region under a displacement [m] that is zero elsewhere, and has margins."""
         pressure = sum_stencil(region, field, self.near.astype(field.dtype))
         if self.far is not None:
@@ -90,6 +96,15 @@ def local_inverse(modulus: float, grid: Grid) -> LocalInverse | None:
     """Return the inverse for the cells of a half-space; None for a single row, which has no plane of waves."""
     ny, nx = grid.shape
     return LocalInverse.of(modulus, (ny, nx), grid.spacing) if min(ny, nx) > 1 else None
+
+
+def _far(modulus: float, box: Pair, spacing: tuple[float, ...], columns: slice = ALL) -> Array:
+    """Return the transfer function of blocks [Pa/m]; of some columns, if no others are wanted."""
+    q = wavenumbers(box, spacing, columns)
+    if columns.indices(box[1])[0] == 0:  # the mean, and next to it the longest waves
+        q[0, 0] = definite(wavenumbers(box, spacing, slice(0, 2)))[0, 0]
+    down, across = (np.exp(-BLOCK_DAMPING * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box)
+    return np.asarray(modulus / 2 / BLOCK**2 * q * np.outer(down, across[columns]))
 
 
 @lru_cache(maxsize=64)
