@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 from cases import Problem
 from certificate import Certificate, Judge
-from programs import Program
+from peer_roughcontact import product_seconds
+from programs import CERTIFICATE, Program
 from quiet import disturbed, others, waited
 
-__all__ = ["AGREEMENT", "CERTIFICATE", "Entry", "Settings", "compare"]
+__all__ = ["AGREEMENT", "Entry", "Settings", "compare"]
 
 Array = npt.NDArray[np.float64]
 
-CERTIFICATE = 1e-8  # what an answer has to reach before its time counts
 AGREEMENT = 1e-7  # of the largest pressure
 TIGHT = 1e-10  # certificate at which answers are compared once more before they are said to differ
 STEP = 10**-0.5  # from one tolerance that was missed to the next
@@ -38,6 +38,7 @@ class Entry:
     depth: float | None = None
     difference: float = np.nan  # of the pressure, from the reference, over the reference's largest
     compared_at: float = CERTIFICATE
+    product: float = np.nan  # seconds of an exact product of ours
     seconds: list[float] = field(default_factory=list)  # of rounds with the cores to itself
     disturbed: list[float] = field(default_factory=list)  # of the others
     trouble: str = ""  # why there is no time to show
@@ -58,12 +59,15 @@ def compare(problem: Problem, programs: list[Program], settings: Settings, repea
     entries = []
     for program in programs:
         entry = Entry(program.name, settings.get(program.name, program.adapter.START))
-        _certify(entry, program, problem, judge, CERTIFICATE)
+        _certify(entry, program, problem, judge, program.goal)
         if not entry.trouble:
             settings[program.name] = entry.tolerance
         entries.append(entry)
     _check_agreement(entries, programs, problem, judge)
     _take_times(entries, programs, problem, repeats)
+    ours = entries[0]
+    if ours.pressure is not None:
+        ours.product = product_seconds(ours.pressure, problem.spacing, periodic=problem.periodic)
     return entries
 
 
@@ -118,7 +122,7 @@ def _check_agreement(entries: list[Entry], programs: list[Program], problem: Pro
         if entry.trouble:
             continue
         entry.difference = _difference(entry, reference)
-        if entry.difference <= AGREEMENT:
+        if entry.difference <= AGREEMENT or program.goal > CERTIFICATE:
             continue
         tight = tight or _tighter(reference, programs[0], problem, judge)
         again = _tighter(entry, program, problem, judge)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import aspher
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +23,21 @@ def solve(
     tolerance: float,
 ) -> tuple[npt.NDArray[np.float64], float | None]:
     """Return the pressure [Pa] and the depth since first touch [m]. Square grids only."""
+    settings = {"backend": "periodic" if periodic else "fft", "precond_engine": "fft"}
+    settings |= {"precision": "float_then_double"}
+    return solve_nested(heights, spacing, modulus, force=force, tolerance=tolerance, **settings), None
+
+
+def solve_nested(
+    heights: npt.NDArray[np.float64],
+    spacing: tuple[float, float],
+    modulus: float,
+    *,
+    force: float,
+    tolerance: float,
+    **settings: Any,
+) -> npt.NDArray[np.float64]:
+    """Return the pressure [Pa] on nested grids."""
     n, step = heights.shape[0], spacing[0]
     if heights.shape != (n, n) or spacing != (step, step):
         raise ValueError("ASPHER solves squares of square cells")
@@ -31,13 +48,11 @@ def solve(
         domain_size=n * step,
         E_star=modulus,
         coarsest=coarsest(n),
-        backend="periodic" if periodic else "fft",
-        precond_engine="fft",
-        precision="float_then_double",
         tol=tolerance,
         light_result=True,
+        **settings,
     )
-    return np.asarray(result.pressure, dtype=np.float64).reshape(n, n), None
+    return np.asarray(result.pressure, dtype=np.float64).reshape(n, n)
 
 
 def coarsest(n: int) -> int:

@@ -7,7 +7,8 @@ import statistics
 from dataclasses import dataclass
 from typing import Any
 
-from measure import CERTIFICATE, Entry
+from measure import Entry
+from programs import CERTIFICATE
 
 __all__ = ["Row", "print_rows", "worst"]
 
@@ -42,6 +43,7 @@ class Row:
             "own_depth": entry.depth,
             "trouble": entry.trouble,
             "disturbed_seconds": entry.disturbed,
+            "product_seconds": entry.product,
         }
         if certificate:
             values |= {
@@ -70,6 +72,8 @@ def print_rows(rows: list[Row]) -> None:
         for row in mine:
             if row.entry.trouble:
                 print(f"  seed {row.seed}: not compared, {row.entry.trouble}")
+    products = [entry.median / entry.product for entry in ours.values()]
+    print(f"{rows[0].entry.program} takes the time of {statistics.median(products):.0f} exact products")
 
 
 def _line(name: str, rows: list[Row], ours: dict[int, Entry]) -> str:
@@ -101,6 +105,10 @@ def _line(name: str, rows: list[Row], ours: dict[int, Entry]) -> str:
     return f"{head}{statistics.median(ratios):>8.2f}{min(*ratios, *lowest):>8.2f}{tail}"
 
 
+def _error(entry: Entry) -> float:
+    return entry.certificate.error if entry.certificate else 0.0
+
+
 def worst(rows: list[Row]) -> int:
     """Return the exit status: 1 where our answer is not certified or a certified one differs from it."""
     troubles = [row for row in rows if row.entry.trouble]
@@ -114,5 +122,7 @@ def worst(rows: list[Row]) -> int:
             if len({row.entry.program for row in rows}) > 1
             else "; there is nothing to compare with"
         )
-        print(f"\nEvery answer shown is certified to {CERTIFICATE:.0e} by the same product{agree}.")
+        judged = {row.entry.program for row in rows if _error(row.entry) > CERTIFICATE}
+        others = f", but those of {', '.join(sorted(judged))}" if judged else ""
+        print(f"\nEvery answer shown is certified to {CERTIFICATE:.0e} by the same product{agree}{others}.")
     return 1 if mine or differ else 0

@@ -1,18 +1,23 @@
-"""What one surface in slabs takes: memory of each process, and what goes from one to another.
+"""What one surface in slabs takes: time, memory of each process, and what goes from one to another.
 
-mpiexec -n 4 python -m mpi4py benchmarks/slabs.py [CELLS_ALONG_A_SIDE]
+mpiexec -n 4 python -m mpi4py benchmarks/slabs.py [CELLS_ALONG_A_SIDE] [curve]
+python benchmarks/slabs.py [CELLS_ALONG_A_SIDE] [curve] whole
 
-Waves down from a quarter of the side. Memory is that of fields as Python counts it, without the
-interpreter; it is counted in bytes for each cell of a process's share, and so is what it sends.
+Waves down from a quarter of the side, one load or a curve of five up to it: the least time of three, and in one more
+run the memory. That is of fields as Python counts it, without the interpreter, in bytes for each cell of a process's
+share, and so is what a process sends. `whole` is one process without slabs.
 """
 
 import sys
+import time
 import tracemalloc
 
 import numpy as np
 from mpi4py import MPI
 
 import roughcontact as rc
+
+ROUNDS = 3
 
 
 class Counting:
@@ -30,24 +35,41 @@ class Counting:
         self._communicator.Alltoallv(sendbuf, recvbuf)
 
 
-def main(cells):
+def load(surface):
+    return rc.press(surface, 1e9, pressure=5e5).contact_fraction
+
+
+def load_curve(surface):
+    return rc.loading_curve(surface, 1e9, pressures=np.geomspace(5e4, 5e5, 5)).contact_fraction[-1]
+
+
+def main(cells, curve, whole):
     world = Counting(MPI.COMM_WORLD)
     slabs = rc.Slabs(world)
     grid = rc.Grid((cells, cells), 1e-6, periodic=True)
     rng, share = np.random.default_rng(1), grid.size / world.size
     surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rolloff=cells * 1e-6 / 4, rng=rng, slabs=slabs)
-    world.sent = 0  # to make it
+    if whole:
+        surface = rc.Surface(surface.heights.gathered(), grid)
+    work, seconds = load_curve if curve else load, []
+    for _ in range(ROUNDS):
+        start = time.perf_counter()
+        work(surface)
+        seconds.append(time.perf_counter() - start)
+    world.sent = 0
     tracemalloc.start()
-    solution = rc.press(surface, 1e9, pressure=5e5)
+    contact = work(surface)
     held = 8 + tracemalloc.get_traced_memory()[1] / share
     sent = world.sent / share
     everyone = world.gather((held, sent))
-    contact = solution.contact_fraction
+    needed = 8 + rc.memory_needed(surface, curve=curve) / share
     if world.rank == 0:
-        print(f"{cells} x {cells} cells, {contact:.1%} in contact, {solution.steps} products")
+        print(
+            f"{cells} x {cells} cells, {contact:.1%} in contact: {min(seconds):.2f} s; by memory_needed {needed:.0f}"
+        )
         for rank, (bytes_held, bytes_sent) in enumerate(everyone):
             print(f"process {rank} of {world.size}: {bytes_held:.0f} bytes a cell, sent {bytes_sent:.0f}")
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1024)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1024, "curve" in sys.argv, "whole" in sys.argv)

@@ -42,9 +42,10 @@ def test_a_flat_free_surface_is_a_punch(force):
     assert solution.touches_edge
 
 
+@pytest.mark.parametrize("shape", [(16, 20), (1, 1)], ids=str)
 @pytest.mark.parametrize("force", [1e-6, 1.0, 1e6])
-def test_a_flat_periodic_surface_carries_a_uniform_pressure(force):
-    surface = rc.Surface(np.full((16, 20), 3.0), rc.Grid((16, 20), 0.1, True))
+def test_a_flat_periodic_surface_carries_a_uniform_pressure(force, shape):
+    surface = rc.Surface(np.full(shape, 3.0), rc.Grid(shape, 0.1, True))
     solution = rc.press(surface, 1.0, force=force)
     np.testing.assert_allclose(solution.pressure, force / surface.grid.area, rtol=1e-9)
     assert solution.depth == pytest.approx(0, abs=1e-12 * force)

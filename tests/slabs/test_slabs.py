@@ -367,3 +367,19 @@ def test_how_much_touches_is_not_asked_of_slabs(monkeypatch):
             rc.memory_needed(surface, 1.0, pressure=1e-3)
 
     together(2, work)
+
+
+@pytest.mark.parametrize("processes", [1, 3])
+def test_what_does_not_fit_is_refused_on_all_processes(processes, monkeypatch):
+    surface, told = rough((256, 256)), []
+
+    def refused(communicator):
+        with pytest.raises(ValueError, match="memory") as error:
+            rc.press(in_slabs(surface, communicator), 1e9, pressure=1e6)
+        told.append(str(error.value))
+        assert rc.memory_needed(in_slabs(surface, communicator)) > 1e7
+
+    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 1e7)
+    together(processes, refused)
+    assert len(told) == processes
+    assert f"this load on 256 x 256 cells, held by {processes} processes of which {processes} share" in told[0]

@@ -13,7 +13,7 @@ from roughcontact.grid import Grid
 from roughcontact.kernels.buffers import LARGE, MOST, SMALL
 from roughcontact.solver import tuning
 
-__all__ = ["MemoryModel", "Touch"]
+__all__ = ["MemoryModel", "Touch", "share_peak"]
 
 PLANE = 8  # a plane in double precision
 # Mask, residual, pressure, correction, direction, masked residual, constraint direction; a group of cells is a number.
@@ -26,6 +26,14 @@ TILES, TILES_AT_MOST = 5, 0.3  # cells of tiles for one in contact; of a plane's
 # gap cancels and boxes of many shapes are kept.
 LIGHT, HEAVY = 0.003, 0.05
 MARGIN = 1.3  # of a number of cells that is not known better
+# In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load and of a
+# curve; and for the levels that every process solves by itself.
+IN_SLABS, CURVE_IN_SLABS, LEVELS_IN_SLABS = 108, 150, 20e6
+
+
+def share_peak(cells: int, *, curve: bool) -> int:
+    """Return the peak of a load, or of a curve, on a process with so many cells of a surface in slabs [bytes]."""
+    return round((CURVE_IN_SLABS if curve else IN_SLABS) * cells + LEVELS_IN_SLABS)
 
 
 @dataclass(frozen=True, slots=True)

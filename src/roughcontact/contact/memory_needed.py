@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.memory_model import MemoryModel, Touch
+from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
 from roughcontact.contact.press import control_of
 from roughcontact.contact.touch import touch_of
 from roughcontact.grid import Grid
 from roughcontact.material import Solid, as_modulus
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
 
 __all__ = ["memory_needed"]
@@ -39,8 +42,8 @@ def memory_needed(
     Returns
     -------
     int
-        Memory of arrays [bytes]. On a free grid light loads take far less than heavy ones. Python and its libraries
-        take some 150 MB beside it.
+        Memory of arrays [bytes]; of a surface in slabs that of this process, whatever the load. On a free grid light
+        loads take far less than heavy ones. Python and its libraries take some 150 MB beside it.
 
     Raises
     ------
@@ -62,6 +65,9 @@ def memory_needed(
     grid = surface if isinstance(surface, Grid) else getattr(surface, "grid", None)
     if not isinstance(grid, Grid) or grid.ndim != 2:
         raise ValueError(f"a map or its grid of two axes is wanted, not {surface!r}")
+    heights: Any = getattr(surface, "heights", None)
+    if isinstance(heights, SlabArray):
+        return share_peak(heights.local.size, curve=curve)
     touch, loads = Touch(), {"force": force, "depth": depth, "pressure": pressure}
     if any(load is not None for load in loads.values()):
         if modulus is None or not isinstance(surface, Surface):
@@ -70,7 +76,7 @@ def memory_needed(
             )
         if not is_numpy(surface.heights):
             raise ValueError(
-                "how much touches is asked of heights of NumPy alone: leave out the load (in slabs: docs/scale.md)"
+                "how much touches is asked of heights of NumPy alone: leave out the load"
             )
         touch = touch_of(surface, as_modulus(modulus), control_of(grid, **loads))
     return MemoryModel.of(grid).peak(touch, curve=curve)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import platform
+from typing import Any
+
 import numpy as np
 
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.memory_model import MemoryModel, Touch
+from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
 from roughcontact.contact.problem import Body, separation_of
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
 from roughcontact.memory import most_memory, require_memory
+from roughcontact.slabs.agreement import by_each
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import tuning
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Start, Terms
@@ -60,10 +65,24 @@ def require_memory_for_load(surface: Body, modulus: float, control: Control, *, 
     grid = surface.grid
     if grid.size < FEWEST or not (isinstance(surface, Surface) and isinstance(grid, Grid) and grid.ndim == 2):
         return
+    shape = " x ".join(map(str, grid.shape))
+    what = f"{'a curve' if curve else 'this load'} on {shape} cells"
+    heights: Any = surface.heights
+    if isinstance(heights, SlabArray):
+        _require_memory_in_slabs(heights, what, curve=curve)
+        return
     model = MemoryModel.of(grid)
     if not is_numpy(surface.heights) or model.peak(Touch(), curve=curve) / ERROR <= most_memory():
         return
     need = model.peak(touch_of(surface, modulus, control), curve=curve)
-    shape = " x ".join(map(str, grid.shape))
-    what = f"{'a curve' if curve else 'this load'} on {shape} cells"
     require_memory(round(need / ERROR), what, "press a part, average cells, or take a smaller load")
+
+
+def _require_memory_in_slabs(heights: SlabArray, what: str, *, curve: bool) -> None:
+    """Refuse on all processes what the machine of one of them has not the memory for: several may share it."""
+    communicator, machine = heights.functions.communicator, platform.node()
+    told = communicator.allgather((machine, share_peak(heights.local.size, curve=curve) / ERROR))
+    here = [need for name, need in told if name == machine]
+    what = f"{what}, held by {len(told)} processes of which {len(here)} share this machine,"
+    remedy = "press a part, average cells, take more machines"
+    by_each(communicator, lambda: require_memory(round(sum(here)), what, remedy))

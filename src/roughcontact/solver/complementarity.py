@@ -160,7 +160,10 @@ def _floored(
         return state
     p = xp.where(weak, 0.0, p)
     if isinstance(terms.control, Force) and not terms.plastic:
-        p *= terms.control.value / measure.total(p)
+        total = measure.total(p)
+        if not total > 0:  # nothing displaces anything, as on one periodic cell
+            return state
+        p *= terms.control.value / total
     iterate = Iterate(p, operator.apply(p), separation)
     depth, residual, *_ = conditions.evaluate(iterate)
     if residual > terms.tolerance:  # which then is below the rounding floor
