@@ -49,6 +49,24 @@ def test_the_environment_may_ask_for_fewer(asked, given):
     assert int(found.stdout) == (given or min(cores, 8))
 
 
+@pytest.mark.parametrize("launcher", ["MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE"])
+def test_processes_on_one_machine_share_its_cores(launcher, monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    monkeypatch.setattr(os, "cpu_count", lambda: 16)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(16), raising=False)
+    found, available = [], threads_module._available.__wrapped__
+    for beside in ("", "1", "4", "64"):
+        monkeypatch.setenv(launcher, beside)
+        found.append(available())
+    assert found == [8, 8, 4, 1]
+    monkeypatch.setenv("OMP_NUM_THREADS", "2")
+    assert available() == 2
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    monkeypatch.setenv(launcher, "4")
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(3), raising=False)  # bound to these
+    assert available() == 3
+
+
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_all_is_done_once(count):
     done = []

@@ -31,6 +31,8 @@ T = TypeVar("T")
 Ts = TypeVarTuple("Ts")
 
 MOST = 8  # transforms wait for memory: more threads than this find none
+# Where launchers of MPI say how many processes they have started on this machine: MPICH and its kin; Open MPI.
+BESIDE = "MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE"
 
 _limit: ContextVar[int | None] = ContextVar("threads", default=None)
 
@@ -66,8 +68,8 @@ class once(Generic[*Ts, T]):  # noqa: N801  # a decorator
 def threads() -> int:
     """Return how many threads there are for large transforms.
 
-    As many as the process may use cores, 8 at most, or fewer if ``OMP_NUM_THREADS`` says so; one within a case of a
-    study, of which others run beside it.
+    As many as the process may use cores, 8 at most, or fewer if ``OMP_NUM_THREADS`` says so; without it the processes
+    that MPI has started on a machine share its cores. One within a case of a study, of which others run beside it.
     """
     limit = _limit.get()
     return _available() if limit is None else limit
@@ -219,9 +221,16 @@ def controller() -> ThreadpoolController:
 
 @cache
 def _available() -> int:
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    asked = os.environ.get("OMP_NUM_THREADS", "")
-    return max(1, min(MOST, cores, int(asked) if asked.isdecimal() and int(asked) else cores))
+    there = os.cpu_count() or 1
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else there
+    share = max(1, there // max(1, *map(_stated, BESIDE)))
+    return max(1, min(MOST, cores, _stated("OMP_NUM_THREADS") or share))
+
+
+def _stated(variable: str) -> int:
+    """Return the number in a variable of the environment; 0 without one."""
+    text = os.environ.get(variable, "")
+    return int(text) if text.isdecimal() else 0
 
 
 class _Crew:

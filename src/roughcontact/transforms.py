@@ -13,8 +13,11 @@ import scipy.fft
 
 from roughcontact.arrays import Placed, is_numpy, namespace, require_floating
 from roughcontact.kernels import loader
-from roughcontact.kernels.compiled_convolution import CompiledConvolution, fits
+from roughcontact.kernels.compiled_convolution import CompiledConvolution
+from roughcontact.kernels.plane_plan import fits
 from roughcontact.slabs.exchange import filtered_in_slabs, is_in_slabs
+from roughcontact.slabs.rows import Edges
+from roughcontact.slabs.slab_convolution import SlabConvolution
 from roughcontact.threads import limit_threads, spread, threads
 from roughcontact.validation import Array
 
@@ -43,13 +46,15 @@ class Convolution:
         ``(My, Mx)`` of the transforms, at least those of the fields.
     """
 
-    __slots__ = ("_multiplier", "_placed", "_ready", "lengths")
+    __slots__ = ("_dealt", "_multiplier", "_placed", "_ready", "lengths")
 
     def __init__(self, multiplier: Array | Callable[[slice], Array], lengths: Pair) -> None:
         self.lengths = lengths
         self._multiplier: Array | Callable[[slice], Array] | None = multiplier
         self._placed: Placed | None = None
         self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
+        # Of planes in slabs, None where not all processes have machine code for them.
+        self._dealt: dict[tuple[Edges, int, np.dtype[Any]], SlabConvolution | None] = {}
 
     def apply(self, field: Array) -> Array:
         """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
@@ -78,15 +83,33 @@ class Convolution:
         return ready
 
     def _in_slabs(self, field: Any) -> Array:
-        require_floating(field)
-        multiplier = self._multiplier
-        kernel: Any = None if callable(multiplier) else self._kernel()
+        kind = field.edges, field.functions.rank, field.dtype
+        if kind not in self._dealt:
+            self._dealt[kind] = self._deal(field)
+        ready = self._dealt[kind]
+        if ready is not None:
+            return ready.apply(field)  # type: ignore[return-value]
 
         def multiply(spectrum: Any, columns: slice) -> None:
-            part = multiplier(columns) if callable(multiplier) else kernel[:, columns]
-            _multiply_even(spectrum, part.astype(field.dtype, copy=False))
+            _multiply_even(spectrum, self._columns(columns).astype(field.dtype, copy=False))
 
         return filtered_in_slabs(field, multiply, self.lengths)  # type: ignore[return-value]
+
+    def _deal(self, field: Any) -> SlabConvolution | None:
+        """Return the machine's kernel for planes dealt out like this one; None where a process has no code for it."""
+        require_floating(field)
+        periodic, tall = field.shape == self.lengths, field.shape[0] >= FEWEST_ROWS
+        here = periodic and tall and fits(self.lengths) and loader.takes(field.local)
+        if not all(field.functions.communicator.allgather(here)):
+            return None
+        edges, rank = field.edges, field.functions.rank
+        return SlabConvolution.of(self._columns, self.lengths, field.dtype.name, edges, rank)
+
+    def _columns(self, part: slice) -> Array:
+        """Return some columns of the multiplier."""
+        given = self._multiplier
+        columns: Array = given(part) if callable(given) else self._kernel()[:, part]
+        return columns
 
     def _kernel(self) -> Array:
         """Return the multiplier, from what was made of it in double precision if that is all there is."""

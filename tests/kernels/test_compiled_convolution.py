@@ -6,8 +6,9 @@ import scipy.fft
 from hypothesis import given, settings, strategies as st
 
 from roughcontact.kernels import buffers as room, loader
-from roughcontact.kernels.compiled_convolution import LARGE, CompiledConvolution, _plan, fits
+from roughcontact.kernels.compiled_convolution import LARGE, CompiledConvolution
 from roughcontact.kernels.constants import HALF
+from roughcontact.kernels.plane_plan import _plan, fits
 from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")

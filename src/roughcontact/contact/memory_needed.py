@@ -75,8 +75,6 @@ def memory_needed(
                 "what a load takes depends on how much touches: give the surface and the modulus"
             )
         if not is_numpy(surface.heights):
-            raise ValueError(
-                "how much touches is asked of heights of NumPy alone: leave out the load"
-            )
+            raise ValueError("how much touches is asked of heights of NumPy alone: leave out the load")
         touch = touch_of(surface, as_modulus(modulus), control_of(grid, **loads))
     return MemoryModel.of(grid).peak(touch, curve=curve)

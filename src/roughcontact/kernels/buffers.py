@@ -76,11 +76,11 @@ def give_back() -> None:
         _total[0] = 0
 
 
-def aligned(numbers: int, precision: str) -> Array:
+def aligned(numbers: int, precision: str, *, kept: bool = True) -> Array:
     """Return so many numbers, of which none is set, from the start of a line of the cache on."""
     dtype = np.dtype(precision)
     size = numbers * dtype.itemsize
-    if SMALL <= size < LARGE:
+    if kept and SMALL <= size < LARGE:
         return empty((numbers,), dtype)
     memory = np.empty(size + LINE, np.uint8)
     start = -address(memory) % LINE

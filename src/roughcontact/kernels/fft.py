@@ -5,12 +5,13 @@ spectrum is multiplied where it lies, in digit-reversed order, so that nothing i
 rows or columns as there are lanes go at once.
 
 In between, spectra lie in blocks of columns: number ``((b * rows + y) * 2 + part) * lanes + l`` is the real or the
-imaginary part of wave ``b * lanes + l`` of row y.
+imaginary part of wave ``b * lanes + l`` of row y. Of a plane whose rows lie on several processes each has such a
+spectrum of its rows; every step is a kernel of its own there, and of whole columns a process has one piece from each.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import sqrt
 from typing import NamedTuple
@@ -93,11 +94,53 @@ class BlockedSpectrum(NamedTuple):
     rows: Index
 
 
+class ColumnPieces(NamedTuple):
+    """Some blocks of whole columns, in pieces of some rows each, one spectrum after the other.
+
+    The numbers, how many blocks and pieces; then, for each piece and after the last: its first row, and how many rows
+    there is memory for before it.
+    """
+
+    numbers: Vector
+    blocks: Index
+    parts: Index
+    edges: Indices
+    places: Indices
+
+
 class Scratch(NamedTuple):
     """Memory for one thread: for transforms as they come, and in order from an offset on."""
 
     reversed: Vector
     offset: Index
+
+
+class RowTransform(NamedTuple):
+    """What rows are transformed with.
+
+    The spectrum; the transform, of half of the columns as padded, whose neighbours are taken for complex numbers, and
+    the twiddle factors that tell these apart; how many rows are a part of the work; and memory for one thread.
+    """
+
+    spectrum: BlockedSpectrum
+    plan: Plan
+    pairs: Vector
+    many: Index
+    scratch: Scratch
+
+
+class ColumnTransform(NamedTuple):
+    """What columns are transformed with.
+
+    The columns; the transform; the multiplier, block by block; how many blocks are a part of the work; and memory for
+    one.
+    """
+
+    pieces: ColumnPieces
+    plan: Plan
+    multiplier: Vector
+    wide: Index
+    work: Vector
 
 
 @kernel
@@ -108,35 +151,46 @@ def convolve(
     answer: Vector,
     ny: Index,
     nx: Index,
-    spectrum: BlockedSpectrum,
-    along: Plan,
-    pairs: Vector,
-    across: Plan,
-    multiplier: Vector,
-    many: Index,
-    wide: Index,
-    scratch: Scratch,
+    along: RowTransform,
+    across: ColumnTransform,
 ) -> None:
     """Plan rows, transform columns there and back with the multiplier in between, and rows back.
 
-    Parameters: counters for three phases, see `Code.shared`; the field, the answer, rows and columns of both; the
-    spectrum; the transform along rows, of half of the columns as padded, whose neighbours are taken for complex
-    numbers, and the twiddle factors that tell these apart; the transform along columns; the multiplier in blocks of
-    columns; how many rows, and blocks of columns, are a part of the work; and memory for one thread.
+    Parameters: counters for three phases, see `Code.shared`; the field, the answer, rows and columns of both.
     """
-    blocks = along.length // code.count + 1
+    for some in _parts(code, counters, 0, ny, along.many):
+        code.call(_rows, RealField(field, ny, nx), some, along, inverse=False)
+    for some in _parts(code, counters, 1, across.pieces.blocks, across.wide):
+        code.call(_columns, some, across)
+    for some in _parts(code, counters, 2, ny, along.many):
+        code.call(_rows, RealField(answer, ny, nx), some, along, inverse=True)
 
-    def some_rows(phase: int, field: Vector, *, inverse: bool) -> None:
-        plane = RealField(field, ny, nx)
-        for part in code.shared(counters, phase, (ny + many - 1) // many):
-            some = IndexRange(part * many, (part * many + many).min(ny))
-            code.call(_rows, plane, some, spectrum, along, pairs, scratch, inverse=inverse)
 
-    some_rows(0, field, inverse=False)
-    for part in code.shared(counters, 1, (blocks + wide - 1) // wide):
-        some = IndexRange(part * wide, (part * wide + wide).min(blocks))
-        code.call(_columns, spectrum, ny, some, across, multiplier, scratch.reversed)
-    some_rows(2, answer, inverse=True)
+@kernel
+def transform_rows(code: Code, counters: Indices, plane: RealField, along: RowTransform) -> None:
+    """Do the first step of `convolve` alone."""
+    for some in _parts(code, counters, 0, plane.ny, along.many):
+        code.call(_rows, plane, some, along, inverse=False)
+
+
+@kernel
+def filter_columns(code: Code, counters: Indices, across: ColumnTransform) -> None:
+    """Do the second alone."""
+    for some in _parts(code, counters, 0, across.pieces.blocks, across.wide):
+        code.call(_columns, some, across)
+
+
+@kernel
+def transform_rows_back(code: Code, counters: Indices, plane: RealField, along: RowTransform) -> None:
+    """Do the third alone."""
+    for some in _parts(code, counters, 0, plane.ny, along.many):
+        code.call(_rows, plane, some, along, inverse=True)
+
+
+def _parts(code: Code, counters: Indices, phase: int, count: Index, size: Index) -> Iterator[IndexRange]:
+    """Loop over parts of so many rows or blocks, which all threads share."""
+    for part in code.shared(counters, phase, (count + size - 1) // size):
+        yield IndexRange(part * size, (part * size + size).min(count))
 
 
 @kernel
@@ -207,19 +261,9 @@ def _half_butterfly(a: Sequence[Complex]) -> list[Complex]:
 
 
 @kernel
-def _rows(
-    code: Code,
-    plane: RealField,
-    some: IndexRange,
-    spectrum: BlockedSpectrum,
-    plan: Plan,
-    pairs: Vector,
-    scratch: Scratch,
-    *,
-    inverse: bool,
-) -> None:
+def _rows(code: Code, plane: RealField, some: IndexRange, along: RowTransform, *, inverse: bool) -> None:
     """Transform some rows of a plane into the spectrum; or back."""
-    raw = scratch.reversed
+    (spectrum, plan, pairs, _, scratch), raw = along, along.scratch.reversed
     ordered = raw + scratch.offset
     for y in code.range(some.begin, some.end, code.count):
         if inverse:
@@ -269,38 +313,40 @@ def _transpose_blocks(
 
 
 @kernel
-def _columns(
-    code: Code,
-    spectrum: BlockedSpectrum,
-    ny: Index,
-    some: IndexRange,
-    plan: Plan,
-    multiplier: Vector,
-    work: Vector,
-) -> None:
-    """Multiply some blocks of columns, of which ny rows count, by a multiplier between transforms there and back.
-
-    The multiplier lies block by block, and `work` has memory for one block.
-    """
-    my, lanes = plan.length, code.count
+def _columns(code: Code, some: IndexRange, across: ColumnTransform) -> None:
+    """Multiply some blocks of columns, whose rows beyond the last piece are zero, between transforms there and back."""
+    (pieces, plan, multiplier, _, work), size = across, 2 * code.count
+    # What is whole, neither padded nor in pieces, is worked on where it lies.
+    whole = pieces.edges[code.index(1)].equals(plan.length)
+    count = where(whole, code.index(0), pieces.parts)
     for b in code.range(some.begin, some.end):
-        part = spectrum.numbers + b * spectrum.rows * (2 * lanes)
-        own = multiplier + b * (my // 2 + 1) * lanes
-        # What is not padded is worked on where it lies.
-        whole = ny.equals(my)
-        copied, block = where(whole, code.index(0), ny), where(whole, part, work)
-        for i in code.range(0, copied * 2):
-            block[(i * lanes).lanes] = part[(i * lanes).lanes]
-        for i in code.range(ny * 2, my * 2):
-            block[(i * lanes).lanes] = 0.0
+        block = where(whole, pieces.numbers + b * pieces.places[code.index(1)] * size, work)
+        own = multiplier + b * (plan.length // 2 + 1) * code.count
+        _copy_pieces(code, pieces, b, count, block, back=False)
+        for i in code.range(pieces.edges[pieces.parts] * size, plan.length * size, code.count):
+            block[i.lanes] = 0.0
         code.call(_transform, block, plan, inverse=False)
-        for i in code.range(0, my):
-            factor = own[(plan.order[i] * lanes).lanes]
-            for k in (i * (2 * lanes), i * (2 * lanes) + lanes):
+        for i in code.range(0, plan.length):
+            factor = own[(plan.order[i] * code.count).lanes]
+            for k in (i * size, i * size + code.count):
                 block[k.lanes] = block[k.lanes] * factor
         code.call(_transform, block, plan, inverse=True)
-        for i in code.range(0, copied * 2):
-            part[(i * lanes).lanes] = block[(i * lanes).lanes]
+        _copy_pieces(code, pieces, b, count, block, back=True)
+
+
+def _copy_pieces(
+    code: Code, pieces: ColumnPieces, b: Index, count: Index, block: Vector, *, back: bool
+) -> None:
+    """Bring the first pieces of a block of columns together; or back."""
+    for k in code.range(0, count):
+        rows, before = pieces.edges[k + 1] - pieces.edges[k], pieces.places[k]
+        place = before * pieces.blocks + b * (pieces.places[k + 1] - before)
+        part, own = (x * (2 * code.count) for x in (place, pieces.edges[k]))
+        for i in code.range(0, rows * (2 * code.count), code.count):
+            if back:
+                pieces.numbers[(part + i).lanes] = block[(own + i).lanes]
+            else:
+                block[(own + i).lanes] = pieces.numbers[(part + i).lanes]
 
 
 def _gather(code: Code, plane: RealField, y: Index, raw: Vector, half: Index) -> None:

@@ -16,7 +16,7 @@ from roughcontact.slabs.slab_array import SlabArray
 if TYPE_CHECKING:
     from roughcontact.slabs.array_functions import SlabFunctions
 
-__all__ = ["filtered_in_slabs", "is_in_slabs", "plane_of_waves"]
+__all__ = ["at_once", "filtered_in_slabs", "is_in_slabs", "plane_of_waves"]
 
 FEWEST = 2**18  # waves of a slab of columns that goes round at once, at least: messages of megabytes
 PARTS = 16  # of a slab that do so otherwise: what goes round is memory beyond it
@@ -100,14 +100,18 @@ def plane_of_waves(
     return SlabArray(scipy.fft.irfft(spectrum, n=nx, axis=1, overwrite_x=True), edges, functions)
 
 
+def at_once(edges: Edges, nx: int) -> int:
+    """Return how many waves of a slab of columns go round at once, of planes with rows of so many cells."""
+    return max(FEWEST, max(np.diff(edges).tolist()) * nx // PARTS)  # cells of the largest slab
+
+
 def _turns(columns: int, ny: int, edges: Edges) -> Iterator[list[slice]]:
     """Yield which columns go to each process in one exchange, until all have gone.
 
     Every process takes part in every exchange, as the largest slabs tell: all know how many there are.
     """
     ends = [columns * process // (len(edges) - 1) for process in range(len(edges))]
-    cells = max(np.diff(edges).tolist()) * (2 * columns - 2)  # of the largest slab
-    width = max(1, max(FEWEST, cells // PARTS) // ny)
+    width = max(1, at_once(edges, 2 * columns - 2) // ny)
     for turn in range(max(-(-(end - start) // width) for start, end in pairwise(ends))):
         yield [
             slice(min(start + turn * width, end), min(start + (turn + 1) * width, end))
