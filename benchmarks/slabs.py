@@ -36,11 +36,12 @@ class Counting:
 
 
 def load(surface):
-    return rc.press(surface, 1e9, pressure=5e5).contact_fraction
+    solution = rc.press(surface, 1e9, pressure=5e5)
+    return solution.contact_fraction, f"{solution.steps} products, "
 
 
 def load_curve(surface):
-    return rc.loading_curve(surface, 1e9, pressures=np.geomspace(5e4, 5e5, 5)).contact_fraction[-1]
+    return rc.loading_curve(surface, 1e9, pressures=np.geomspace(5e4, 5e5, 5)).contact_fraction[-1], ""
 
 
 def main(cells, curve, whole):
@@ -58,15 +59,14 @@ def main(cells, curve, whole):
         seconds.append(time.perf_counter() - start)
     world.sent = 0
     tracemalloc.start()
-    contact = work(surface)
+    contact, products = work(surface)
     held = 8 + tracemalloc.get_traced_memory()[1] / share
     sent = world.sent / share
     everyone = world.gather((held, sent))
     needed = 8 + rc.memory_needed(surface, curve=curve) / share
     if world.rank == 0:
-        print(
-            f"{cells} x {cells} cells, {contact:.1%} in contact: {min(seconds):.2f} s; by memory_needed {needed:.0f}"
-        )
+        print(f"{cells} x {cells} cells, {contact:.1%} in contact: {products}{min(seconds):.2f} s")
+        print(f"memory_needed: {needed:.0f} bytes a cell")
         for rank, (bytes_held, bytes_sent) in enumerate(everyone):
             print(f"process {rank} of {world.size}: {bytes_held:.0f} bytes a cell, sent {bytes_sent:.0f}")
 

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 
 from roughcontact.grid import Grid
+from roughcontact.kernels import loader
 from roughcontact.kernels.buffers import LARGE, MOST, SMALL
 from roughcontact.solver import tuning
 
@@ -26,14 +27,16 @@ TILES, TILES_AT_MOST = 5, 0.3  # cells of tiles for one in contact; of a plane's
 # gap cancels and boxes of many shapes are kept.
 LIGHT, HEAVY = 0.003, 0.05
 MARGIN = 1.3  # of a number of cells that is not known better
-# In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load and of a
-# curve; and for the levels that every process solves by itself.
-IN_SLABS, CURVE_IN_SLABS, LEVELS_IN_SLABS = 108, 150, 20e6
+# In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load, a curve, and
+# either without machine code; and while levels are solved that every process has as a whole.
+SHARE, CURVE_SHARE, PLAIN_SHARE = 65, 86, 109
+LEVELS, BESIDE_LEVELS = 22e6, 34
 
 
 def share_peak(cells: int, *, curve: bool) -> int:
     """Return the peak of a load, or of a curve, on a process with so many cells of a surface in slabs [bytes]."""
-    return round((CURVE_IN_SLABS if curve else IN_SLABS) * cells + LEVELS_IN_SLABS)
+    own = (CURVE_SHARE if curve else SHARE) if loader.is_available() else PLAIN_SHARE
+    return round(max(own * cells, LEVELS + BESIDE_LEVELS * cells))
 
 
 @dataclass(frozen=True, slots=True)
