@@ -1,5 +1,6 @@
 """The model of the memory that a load or a curve takes is held against the peak that Python's allocators report."""
 
+import gc
 import tracemalloc
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.kernels import buffers, loader
+from roughcontact.threads import limit_threads
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -17,13 +19,18 @@ def surface(n, periodic, flat):
 
 
 def peak(run):
-    """Return the largest memory of a run [bytes] that begins with nothing kept; what is made once is made before."""
+    """Return the largest memory of a run [bytes] that begins with nothing kept; what is made once is made before.
+
+    By one thread: what several hold at one time is chance.
+    """
+    gc.collect()  # or what others have left is kept meanwhile
     with buffers.no_fork:
         buffers._kept.clear()
         buffers._total[0] = 0
     tracemalloc.start()
     try:
-        run()
+        with limit_threads(1):
+            run()
         return tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

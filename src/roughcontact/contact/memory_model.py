@@ -27,8 +27,8 @@ TILES, TILES_AT_MOST = 5, 0.3  # cells of tiles for one in contact; of a plane's
 # gap cancels and boxes of many shapes are kept.
 LIGHT, HEAVY = 0.003, 0.05
 MARGIN = 1.3  # of a number of cells that is not known better
-# In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load, a curve, and
-# either without machine code; and while levels are solved that every process has as a whole.
+# In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load, a curve,
+# and either without machine code; and while levels are solved that every process has as a whole.
 SHARE, CURVE_SHARE, PLAIN_SHARE = 65, 86, 109
 LEVELS, BESIDE_LEVELS = 22e6, 34
 
