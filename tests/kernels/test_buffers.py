@@ -7,7 +7,17 @@ import numpy as np
 import pytest
 
 from roughcontact.kernels import buffers as room
-from roughcontact.kernels.buffers import LARGE, LINE, MOST, SMALL, aligned, empty, zeros
+from roughcontact.kernels.buffers import (
+    FITTING,
+    LARGE,
+    LINE,
+    MOST,
+    SMALL,
+    aligned,
+    empty,
+    large_ones_kept,
+    zeros,
+)
 from roughcontact.kernels.calls import address
 
 COUNT = SMALL // 4  # numbers of which some memory is kept
@@ -118,3 +128,86 @@ def test_what_is_used_now_takes_the_place_of_what_was():
     del new
     assert kept() <= MOST
     assert where(empty((size - 64,), "bool")) == place
+
+
+def large(size=LARGE):
+    return empty((size,), "bool")
+
+
+def test_a_large_one_is_kept_within_a_loop():
+    with large_ones_kept():
+        first = large()
+        place = where(first)
+        assert place % LINE == 0
+        del first
+        second, third = large(), large()
+        assert place == where(second) != where(third)
+        del second
+        assert where(aligned(LARGE // 4, "float32")) == place
+        assert kept() == 0
+
+
+@pytest.mark.parametrize(
+    ("part", "taken"), [(0.5 * (1 + 1 / FITTING), True), (0.9 / FITTING, False), (1.1, False)]
+)
+def test_a_smaller_one_takes_the_piece_of_a_larger_one_if_that_fits(part, taken):
+    with large_ones_kept():
+        first = large(2 * LARGE)
+        place, end = where(first), where(first) + first.nbytes
+        del first
+        second = large(round(2 * LARGE * part))
+        assert (place <= where(second) < end) is taken
+        second[:] = True
+
+
+def test_the_smallest_piece_that_fits_is_taken():
+    with large_ones_kept():
+        pieces = [large(size) for size in (LARGE + 2000, LARGE + 1000, LARGE + 3000)]
+        places = [where(piece) for piece in pieces]
+        pieces.clear()
+        assert [where(large(LARGE + k)) for k in (900, 1900, 2900)] == [places[k] for k in (1, 0, 2)]
+
+
+def test_a_loop_keeps_nothing_beyond_its_end(monkeypatch):
+    ended = []
+    monkeypatch.setattr(room._Loop, "end", lambda loop: ended.append(loop))
+
+    def interrupted():
+        with large_ones_kept():
+            large()
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        interrupted()
+    assert room._loop.get() is None
+    (loop,) = ended
+    monkeypatch.undo()
+    assert len(loop._left) == 1
+    loop.end()
+    assert loop._left is None
+    array = loop.block(((LARGE,), "|b1"), LARGE)
+    loop.keep(array)
+    assert loop._left is None
+
+
+def test_an_array_outlives_its_loop():
+    with large_ones_kept():
+        array = zeros((2, LARGE), "bool")
+        array[1] = True
+        part = array[1]
+        del array
+    with large_ones_kept():
+        other = large(2 * LARGE)
+        assert not np.shares_memory(other, part)
+        other[:] = False
+    assert part.all()
+
+
+def test_each_loop_has_its_own():
+    with large_ones_kept():
+        outer = large()
+        place = where(outer)
+        del outer
+        with large_ones_kept():
+            assert where(large()) != place
+        assert where(large()) == place

@@ -12,7 +12,7 @@ from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
 from roughcontact.kernels.distributed import contiguous, local, of_all
 from roughcontact.kernels.loader import code_for
-from roughcontact.kernels.planes import run_on_plane
+from roughcontact.kernels.planes import CELLS, run_on_plane
 from roughcontact.threads import spread
 
 __all__ = [
@@ -96,9 +96,16 @@ class ActiveCells:
         return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self._here.size
 
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
-        """Run a kernel on the blocks that these cells are of."""
-        plan = 0, self._count, self._whole, self._here.size, field.shape[-1], side, blocks.shape[1]
-        code_for("block_kernels", field)[name](self._groups, *plan, field, blocks)
+        """Run a kernel on the blocks that these cells are of, on some whole rows of blocks at once."""
+        run, columns, across = code_for("block_kernels", field)[name], field.shape[-1], blocks.shape[1]
+        rows = max(CELLS // (side * columns), 1) * side
+        starts = np.arange(0, field.size + rows * columns, rows * columns)
+        edges = np.searchsorted(self._groups.field, starts).tolist()
+
+        def part(k: int) -> None:
+            run(self._groups, edges[k], edges[k + 1], 0, 0, columns, side, across, field, blocks)
+
+        spread(part, range(len(edges) - 1), SEVERAL)
 
 
 def subtract_shifted(r: Any, v: Any, alpha: float, mean: float) -> None:

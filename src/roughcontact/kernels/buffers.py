@@ -2,13 +2,16 @@
 
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
 cores. That costs 9 % of a press of half of 512 x 512 periodic cells on two threads (benchmarks/pairs.py, "flat-half").
-So what an array leaves is kept for the next one like it. Very large planes are not: their pages are better touched
-where they are needed. Nor are those in slabs, where memory is short.
+So what an array leaves is kept for the next one like it. What very large planes leave is kept within a loop that takes
+the same ones in every step, and not beyond; that of planes in slabs never is, since memory is short there.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -18,39 +21,79 @@ from roughcontact.kernels.calls import address
 from roughcontact.kernels.distributed import local
 from roughcontact.threads import no_fork
 
-__all__ = ["aligned", "empty", "empty_like", "give_back", "zeros", "zeros_like"]
+__all__ = ["aligned", "empty", "empty_like", "give_back", "large_ones_kept", "zeros", "zeros_like"]
 
 Array = npt.NDArray[Any]
 Kind = tuple[tuple[int, ...], str]
-Block = tuple[dict[str, Any], npt.NDArray[np.uint8]]
+Memory = npt.NDArray[np.uint8]
+Block = tuple[dict[str, Any], Memory]
 
 LINE = 64  # bytes of a line of the cache, with one of which all that is kept begins
 SMALL = 2**16  # bytes up to which the allocator keeps memory itself
-LARGE = 2**23  # bytes from which on none is kept
-MOST = 2**26  # bytes that are kept in all
+LARGE = 2**23  # bytes from which on it is kept within a loop alone
+MOST = 2**26  # bytes that are kept in all, beside those
+FITTING = 1.25  # times as large as an array, up to which it takes a piece that another has left in a loop
 _kept: dict[Kind, list[Block]] = {}
 _total = [0]  # bytes that are kept now
+
+
+class _Loop:
+    """What the large arrays of a loop have left, until it ends."""
+
+    def __init__(self) -> None:
+        self._left: list[Memory] | None = []
+
+    def block(self, kind: Kind, size: int) -> Block:
+        """Return the smallest piece in which an array fits, or a new one where that is much too large."""
+        left = self._left or []
+        fit = [(k.nbytes, at) for at, k in enumerate(left) if size <= k.nbytes - LINE <= FITTING * size]
+        return _block(kind, left.pop(min(fit)[1]) if fit else np.empty(size + LINE, np.uint8))
+
+    def keep(self, block: Block) -> None:
+        if self._left is not None:
+            self._left.append(block[1])
+
+    def end(self) -> None:
+        self._left = None
+
+
+_loop: ContextVar[_Loop | None] = ContextVar("loop", default=None)
+
+
+@contextmanager
+def large_ones_kept() -> Iterator[None]:
+    """Keep what very large arrays leave for the next ones like them, until this ends."""
+    loop = _Loop()
+    token = _loop.set(loop)
+    try:
+        yield
+    finally:
+        _loop.reset(token)
+        loop.end()
 
 
 def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     """Return an array of which no number is set."""
     dtype = np.dtype(precision)
-    size = math.prod(shape) * dtype.itemsize
+    kind, size = (shape, dtype.str), math.prod(shape) * dtype.itemsize
+    loop = _loop.get() if size >= LARGE else None
+    if loop is not None:
+        return np.asarray(_Lent(loop.block(kind, size), loop.keep))
     if not SMALL <= size < LARGE:
         return np.empty(shape, dtype)
-    kind, block = (shape, dtype.str), None
+    block = None
     with no_fork:
         blocks = _kept.get(kind)
         if blocks:
             block = blocks.pop()
             _total[0] -= size
-    return np.asarray(_Lent(block or _new(kind, size)))
+    return np.asarray(_Lent(block or _block(kind, np.empty(size + LINE, np.uint8)), _keep))
 
 
 def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     """Return an array of zeros."""
     dtype = np.dtype(precision)
-    if not SMALL <= math.prod(shape) * dtype.itemsize < LARGE:
+    if not SMALL <= math.prod(shape) * dtype.itemsize < LARGE:  # the system has cleared large ones
         return np.zeros(shape, dtype)
     array = empty(shape, dtype)
     array.fill(0)
@@ -80,7 +123,7 @@ def aligned(numbers: int, precision: str, *, kept: bool = True) -> Array:
     """Return so many numbers, of which none is set, from the start of a line of the cache on."""
     dtype = np.dtype(precision)
     size = numbers * dtype.itemsize
-    if kept and SMALL <= size < LARGE:
+    if kept and size >= SMALL and (size < LARGE or _loop.get() is not None):
         return empty((numbers,), dtype)
     memory = np.empty(size + LINE, np.uint8)
     start = -address(memory) % LINE
@@ -90,19 +133,18 @@ def aligned(numbers: int, precision: str, *, kept: bool = True) -> Array:
 class _Lent:
     """A block under some arrays; when the last of them is gone it is kept."""
 
-    __slots__ = ("__array_interface__", "_block")
+    __slots__ = ("__array_interface__", "_block", "_keep")
 
-    def __init__(self, block: Block) -> None:
-        self._block = block
+    def __init__(self, block: Block, keep: Callable[[Block], None]) -> None:
+        self._block, self._keep = block, keep
         self.__array_interface__ = block[0]
 
     def __del__(self) -> None:
-        _keep(self._block)
+        self._keep(self._block)
 
 
-def _new(kind: Kind, size: int) -> Block:
+def _block(kind: Kind, memory: Memory) -> Block:
     """Return what NumPy calls the interface of an array, and the memory that this speaks of."""
-    memory = np.empty(size + LINE, np.uint8)
     start = address(memory)
     data = start + -start % LINE, False
     return {"data": data, "shape": kind[0], "typestr": kind[1], "version": 3}, memory

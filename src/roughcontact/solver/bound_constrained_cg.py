@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from roughcontact.kernels import buffers
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Force
 from roughcontact.solver.inner_operator import InnerOperator
@@ -139,25 +140,26 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
     """
     (inner, vectors, start, unit, goal), terms = system, conditions.terms
     target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
-    while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
-        residual, done, estimate = bound_constrained_cg(
-            inner,
-            vectors,
-            estimate,
-            force_given=terms.depth is None,
-            self_influence=conditions.self_influence,
-            limit=target,
-            max_steps=max_steps - steps,
-        )
-        steps += done
-        worst = vectors.free_violated(0.5 * goal)  # B16
-        if worst:
-            target = max(goal, tuning.INNER_FORCING * max(residual, worst))  # B17
-            rounds += 1
-        elif target > goal and residual <= target:
-            target = goal
-        else:
-            break
+    with buffers.large_ones_kept():
+        while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
+            residual, done, estimate = bound_constrained_cg(
+                inner,
+                vectors,
+                estimate,
+                force_given=terms.depth is None,
+                self_influence=conditions.self_influence,
+                limit=target,
+                max_steps=max_steps - steps,
+            )
+            steps += done
+            worst = vectors.free_violated(0.5 * goal)  # B16
+            if worst:
+                target = max(goal, tuning.INNER_FORCING * max(residual, worst))  # B17
+                rounds += 1
+            elif target > goal and residual <= target:
+                target = goal
+            else:
+                break
     p = vectors.pressure(start, unit)
     if vectors.upper is not None:
         p = conditions.measure.xp.where(vectors.upper, terms.hardness, p)

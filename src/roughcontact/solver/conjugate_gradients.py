@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from roughcontact.kernels import buffers
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.vectors import Vectors
 
@@ -41,14 +42,15 @@ def conjugate_gradients(
     if not r_max > limit:
         return r_max, steps
     last = vectors.inner_products(vectors.q)
-    while r_max > limit and steps < max_steps:  # C1
-        rz, zq, _, _ = vectors.precondition()  # C2
-        if not rz > 0:
-            break
-        s = vectors.update_direction(-zq / last.sq if last.sq > 0 else 0.0)  # C3, C4
-        last = vectors.inner_products(inner.apply(s))  # C5: the product of the step
-        steps += 1
-        if not last.sq > 0:  # the direction is but rounding
-            break
-        r_max = vectors.advance(last.rs / last.sq, 0.0)  # C6
+    with buffers.large_ones_kept():
+        while r_max > limit and steps < max_steps:  # C1
+            rz, zq, _, _ = vectors.precondition()  # C2
+            if not rz > 0:
+                break
+            s = vectors.update_direction(-zq / last.sq if last.sq > 0 else 0.0)  # C3, C4
+            last = vectors.inner_products(inner.apply(s))  # C5: the product of the step
+            steps += 1
+            if not last.sq > 0:  # the direction is but rounding
+                break
+            r_max = vectors.advance(last.rs / last.sq, 0.0)  # C6
     return r_max, steps

@@ -117,7 +117,8 @@ class InfluenceOperator:
         xp, plane = namespace(pressure), {"axis": (-2, -1), "keepdims": True}
         mean = xp.mean(pressure, **plane)
         displacement = self._sum.apply(less(pressure, mean))
-        displacement += self.constant * mean - xp.mean(displacement, **plane)
+        if self.constant:
+            displacement += self.constant * mean
         return displacement
 
     def approximate_inverse(self, displacement: Array) -> Array:
