@@ -50,7 +50,11 @@ BODIES = {
     "Surface": "a Surface, as rc.read and rc.self_affine return it",
     "Solution": "a Solution, as rc.press returns it",
     "Curve": "a Curve, as rc.loading_curve returns it",
+    "Loop": "a Loop, as rc.loading_loop returns it",
+    "Flow": "a Flow, as solution.flow holds it",
+    "Body": "a Surface or a RadialProfile",
 }
+KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one
 
 
 def number(value: Any, what: str) -> Array:
@@ -212,8 +216,9 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
     ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
-    be broadcast; none takes NaN. With ``| None`` they may be None. ``Surface``, ``Solution`` and ``Curve`` want one.
-    Whatever else is annotated is passed on, as are all values as given: their range is the function's own affair.
+    be broadcast; none takes NaN. With ``| None`` they may be None. ``Surface``, ``Solution`` and the others of `BODIES`
+    want one. Whatever else is annotated is passed on, as are all values as given: their range is the function's own
+    affair.
 
     Raises
     ------
@@ -232,7 +237,7 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
         given = dict(zip(names, args, strict=False)) | kwargs
         shapes = {}
         for name, value in given.items():
-            if kinds.get(name) in BODIES and kinds[name] not in (one.__name__ for one in type(value).__mro__):
+            if not _is_a(kinds.get(name), value):
                 raise ValueError(f"{name} must be {BODIES[kinds[name]]}, not {shown(value)}")
             if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
                 shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
@@ -269,6 +274,11 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
     except ValueError as error:
         told = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
         raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
+
+
+def _is_a(kind: str | None, value: Any) -> bool:
+    """Return whether a value is of the class, or of one of the classes, of an annotation; true of any other."""
+    return kind not in BODIES or any(one.__name__ in KINDS.get(kind, (kind,)) for one in type(value).__mro__)
 
 
 def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:

@@ -20,7 +20,7 @@ from roughcontact.plot.maps import height_map
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes, readable_ticks
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array
+from roughcontact.validation import Array, numeric
 
 __all__ = ["bearing_curves", "depth_loop", "flattened_figure", "loop_figure", "stiffness_loop"]
 
@@ -34,6 +34,7 @@ _BEFORE, _AFTER = "0.55", "#0072b2"
 _POINTS = 2000  # of a bearing curve: more are not seen
 
 
+@numeric
 def depth_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     """Draw force against depth along the loop, and the depth that stays.
 
@@ -70,6 +71,7 @@ def depth_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@numeric
 def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     """Draw the interfacial stiffness per area against the nominal pressure along the loop, both logarithmic.
 
@@ -119,6 +121,7 @@ def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@numeric
 def bearing_curves(surface: Body, flow: Flow, ax: Axes | None = None) -> Axes:
     """Draw the bearing (Abbott) curve of a surface before and after it has flowed: heights above the first mean.
 
@@ -167,6 +170,7 @@ def bearing_of(surface: Body) -> tuple[Array, Array]:
     return above / above[-1], heights[there][order]
 
 
+@numeric
 def loop_figure(loop: Loop) -> Figure:
     """Return force against depth beside stiffness against pressure, along a loop.
 
@@ -193,6 +197,7 @@ def loop_figure(loop: Loop) -> Figure:
     return figure
 
 
+@numeric
 def flattened_figure(surface: Body, flow: Flow) -> Figure:
     """Return the flattened surface beside its bearing curve, before and after.
 
