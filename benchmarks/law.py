@@ -59,7 +59,7 @@ def tables(folder: Path = FOLDER) -> dict[str, str]:
 
 def cost() -> None:
     """Print the seconds of a processor that one curve of E2 takes on every grid."""
-    for name in ("e2-grids", "e2-grids-2048"):
+    for name in ("e2-grids", "e2-grids-2048", "e2-grids-4096"):
         for parameters in Study.read(STUDIES / f"{name}.toml").combinations():
             if parameters.hurst in (0.25, 1.3, 2.95) and parameters.short_cutoff is None:
                 start = time.process_time()

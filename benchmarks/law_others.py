@@ -128,7 +128,7 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
 def e5(folder: Path = FOLDER) -> dict[str, str]:
     """Return stiffnesses of nominally flat surfaces, free and periodic, and of patches."""
     tables, told = {}, {}
-    for name in ("e5-flat", "e5-flat-1024"):
+    for name in ("e5-flat", "e5-flat-1024", "e5-flat-2048"):
         ensemble = read(name, folder)
         if ensemble is not None:
             samples = ensemble.sizes["sample"]

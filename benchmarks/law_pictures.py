@@ -31,7 +31,7 @@ def pictures(folder: Path = FOLDER) -> Iterator[tuple[str, Figure]]:
         same = nested(ensembles, wanted)
         if len(same) == len(wanted):
             yield name, drawn(4.4, convergence, same, words)
-    for name, limit in (("local-exponents", "e2-all"), ("local-exponents-2048", "e2-all-2048")):
+    for name, limit in (("local-exponents", "e2-all"), ("local-exponents-4096", "e2-all-4096")):
         every = nested(ensembles, LIMITS[limit][1])
         if len(every) == len(LIMITS[limit][1]):
             yield name, drawn(4.4, local_exponents, every)
@@ -104,7 +104,7 @@ def convergence(figure: Figure, same: dict[int, xarray.Dataset], words: str) -> 
                 axes.errorbar(n, off, np.nan_to_num(bars), label=f"F/(E* h L) = {at:g}", **style)
         axes.axhline(0, color="0.5", linewidth=0.7)
         drawing.label(axes, "cells a side", "k over finest, %", xscale="log")
-        drawing.named_ticks(axes, np.array(list(same)), "{}")
+        drawing.named_ticks(axes, np.array([*same][:: 2 if len(same) > 4 else 1]), "{}")
         axes.minorticks_off()
     key(figure, panels, f"{words}; {samples} surfaces")
 

@@ -206,7 +206,7 @@ def e1_lines(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Table:
 
 def on_grids(folder: Path = FOLDER) -> list[xarray.Dataset]:
     """Return the nested ensembles that are there."""
-    found = (read(name, folder) for name in ("e2-grids", "e2-grids-2048"))
+    found = (read(name, folder) for name in ("e2-grids", "e2-grids-2048", "e2-grids-4096"))
     return [each for each in found if each is not None]
 
 
@@ -219,15 +219,15 @@ def nested(
     return dict(zip(there, paired(*there.values()), strict=True)) if there else {}
 
 
-# Few surfaces are on 2048 cells: what is paired with them stands alone, so that the others keep all of theirs.
-_COARSE, _EVERY = (256, 512, 1024), (256, 512, 1024, 2048)
+# Few surfaces are on 4096 cells: what is paired with them stands alone, so that the others keep all of theirs.
+_MOST, _EVERY = (256, 512, 1024, 2048), (256, 512, 1024, 2048, 4096)
 LIMITS = {
-    "e2-band": ("a band down to L/32", [(n, 1 / 32) for n in (128, *_COARSE)]),
-    "e2-band-128": ("a band down to L/128", [(n, 1 / 128) for n in _EVERY[1:]]),
-    "e2-wide": ("8 cells to the shortest wave", [(n, 8 / n) for n in _COARSE]),
-    "e2-wide-2048": ("8 cells to the shortest wave", [(n, 8 / n) for n in _EVERY]),
-    "e2-all": ("all waves", [(n, ALL) for n in _COARSE]),
-    "e2-all-2048": ("all waves", [(n, ALL) for n in _EVERY]),
+    "e2-band": ("a band down to L/32", [(n, 1 / 32) for n in (128, *_MOST[:3])]),
+    "e2-band-128": ("a band down to L/128", [(n, 1 / 128) for n in _MOST[1:]]),
+    "e2-wide": ("8 cells to the shortest wave", [(n, 8 / n) for n in _MOST]),
+    "e2-wide-4096": ("8 cells to the shortest wave", [(n, 8 / n) for n in _EVERY]),
+    "e2-all": ("all waves", [(n, ALL) for n in _MOST]),
+    "e2-all-4096": ("all waves", [(n, ALL) for n in _EVERY]),
 }
 
 
@@ -259,12 +259,12 @@ def e2(folder: Path = FOLDER) -> dict[str, str]:
         if len(same) == len(wanted):
             head, body = convergence(same)
             tables[name] = markdown((head, body)) + f"\n\n{surfaces(same)}"
-    every, finer = (nested(ensembles, LIMITS[name][1]) for name in ("e2-all", "e2-all-2048"))
+    every, finer = (nested(ensembles, LIMITS[name][1]) for name in ("e2-all", "e2-all-4096"))
     if len(every) >= 2:
         tables["e2-rule"] = markdown(rule(every)) + f"\n\n{surfaces(every)}"
         tables["e2-local"] = markdown(local(every)) + f"\n\n{surfaces(every)}"
-    if 2048 in finer:
-        tables["e2-local-2048"] = markdown(local(finer)) + f"\n\n{surfaces(finer)}"
+    if 4096 in finer:
+        tables["e2-local-4096"] = markdown(local(finer)) + f"\n\n{surfaces(finer)}"
     return tables
 
 
