@@ -46,7 +46,8 @@ class Contact:
         if not problem.periodic:
             raise ValueError(f"{name} is not periodic")
         surface = rc.Surface(problem.heights, rc.Grid((n, n), problem.spacing, periodic=True))
-        self.inside = rc.press(surface, problem.modulus, force=problem.force).contact
+        solution = rc.press(surface, problem.modulus, force=problem.force)
+        self.inside, self.load = solution.contact, solution.steps
         self.operator = rc.half_space(surface.grid, problem.modulus)
         unit = np.zeros((n, n))
         unit[0, 0] = 1.0
@@ -175,6 +176,7 @@ def main() -> None:
                 steps = contact.steps(contact.balanced(ways[way], columns))
                 found[f"{way}, and their means"] = f"{steps} steps, {3 * steps}"
         print(f"{name}, {asked.n}^2, {contact.inside.mean():.0%} in contact, {columns.shape[1]} spots:")
+        print(f"  a whole load to 1e-8, after those on coarser cells: {contact.load}")
         print(*(f"  {way}: {count}" for way, count in found.items()), sep="\n", flush=True)
 
 
