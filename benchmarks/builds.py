@@ -28,8 +28,8 @@ CASES = {
     "512 periodic": (512, True, 1e-4, 1, 10),
     "1024 free": (1024, False, 1e-4, 1, 5),
     "1024 periodic": (1024, True, 1e-4, 1, 4),
-    "2048 periodic": (2048, True, 1e-4, 1, 4),
-    "4096 periodic": (4096, True, 1e-4, 1, 3),
+    "2048 periodic": (2048, True, 1e-3, 1, 3),
+    "4096 periodic": (4096, True, 1e-3, 1, 2),
 }
 BARE = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
 

@@ -5,12 +5,12 @@
 A load finds its contact and solves on it; the second alone, from nothing to 1e-7 of a unit displacement, takes as many
 products as are shown. Periodic cases only: A is known by its waves, A^-1 on the whole plane too.
 
-* "symbol": A^-1 of the plane, E* q/2 in waves, on the contact; "less rim": with the Schur correction of
-  docs/method.md (3); "stencil": what the library takes, a sum over near cells (and blocks), less rim.
-* "rim solved k times": in place of that correction k steps of Jacobi for the cells outside, Q_OO y = Q_OF r in (2).
-* "spots": the exact inverse of the matrix of each contact spot, those of more than LARGEST cells by "stencil".
-* "and their means": a step of exact deflation before and after it (balancing; Mandel, Commun. Numer. Meth. Eng. 9, 233,
-  1993), in which the mean pressure of every spot is solved for; two more products each step, which are counted.
+* "symbol": the inverse on the whole plane, E* q/2 in waves, restricted to the contact; "stencil": that of the library,
+  a sum over near cells (and blocks); "corrected": with the Schur correction of docs/method.md, (3), on the diagonal.
+* "symbol, k steps of Jacobi": with the Schur complement of (2), where k steps of Jacobi solve for the cells outside.
+* "spots": block Jacobi, the exact inverse of the matrix of each contact spot; of those above LARGEST cells "stencil".
+* "balanced": a coarse solve with one unknown for each spot before and after it (balancing; Mandel, Commun. Numer.
+  Meth. Eng. 9, 233, 1993); two more products a step, which are counted. Up to SPOTS spots.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Map = Callable[[Array], Array]
 GOAL = 1e-7
 MOST = 500
 LARGEST = 600  # cells of a spot whose matrix is inverted
-SPOTS = 2500  # of which the means are solved for
+SPOTS = 2500  # unknowns of the coarse solve at most
 
 
 class Contact:
@@ -48,43 +48,38 @@ class Contact:
         surface = rc.Surface(problem.heights, rc.Grid((n, n), problem.spacing, periodic=True))
         solution = rc.press(surface, problem.modulus, force=problem.force)
         self.inside, self.load = solution.contact, solution.steps
-        self.operator = rc.half_space(surface.grid, problem.modulus)
-        unit = np.zeros((n, n))
-        unit[0, 0] = 1.0
-        self.influence = self.operator.apply(unit)
+        operator = rc.half_space(surface.grid, problem.modulus)
+        self.unit = np.zeros((n, n))
+        self.unit[0, 0] = 1.0
+        self.influence = operator.apply(self.unit)
         waves = np.fft.rfft2(self.influence).real
         waves[0, 0] = 2 * waves[0, 1]  # any: the mean pressure moves nothing
-        self.apply, self.symbol = self._by_waves(waves), self._by_waves(1 / waves)
-        local = capabilities(self.operator).local_inverse()
+        self.plane_inverse = by_waves(1 / waves)
+        self.apply, self.symbol = map(self.restricted, (by_waves(waves), self.plane_inverse))
+        local = capabilities(operator).local_inverse()
         assert local is not None
         everywhere = ActiveCells(np.ones((n, n)))
         self.stencil: Map = lambda r: np.array(local.on(everywhere, with_margins(1.0 * self.inside * r)))
 
-    def _by_waves(self, waves: Array) -> Map:
-        return lambda r: self.inside * np.fft.irfft2(np.fft.rfft2(self.inside * r) * waves, self.inside.shape)
+    def restricted(self, whole: Map) -> Map:
+        """Return a map of the plane on the contact."""
+        return lambda r: self.inside * whole(self.inside * r)
 
-    def less_rim(self, inverse: Map) -> Map:
-        """Return an inverse less what cells outside take off, on the diagonal (docs/method.md, (3))."""
+    def corrected(self, inverse: Map) -> Map:
+        """Return an inverse with the Schur correction on the diagonal (docs/method.md, (3))."""
         taken = DIAGONAL_CORRECTION * self.inside * inverse(np.ones(self.inside.shape))
         return lambda r: self.inside * inverse(r) - taken * r
 
-    def rim_solved(self, steps: int) -> Map:
-        """Return the symbol less Q_FO Q_OO^-1 Q_OF, of which Q_OO^-1 is some steps of Jacobi."""
-        waves = np.fft.rfft2(self.influence).real
-        waves[0, 0] = 2 * waves[0, 1]
-
-        def whole(r: Array) -> Array:
-            return np.fft.irfft2(np.fft.rfft2(r) / waves, r.shape)
-
-        unit = np.zeros(self.inside.shape)
-        unit[0, 0] = 1.0
-        own, outside = whole(unit)[0, 0], ~self.inside
+    def by_jacobi(self, steps: int) -> Map:
+        """Return the symbol less Q_FO Q_OO^-1 Q_OF, of which Q_OO^-1 is some steps of Jacobi (docs/method.md, (2))."""
+        whole, outside = self.plane_inverse, ~self.inside
+        diagonal = whole(self.unit)[0, 0]
 
         def inverse(r: Array) -> Array:
             answer = whole(self.inside * r)
             y = np.zeros_like(r)
             for _ in range(steps):
-                y += outside * (answer - whole(y)) / own
+                y += outside * (answer - whole(y)) / diagonal
             return self.inside * (answer - whole(y))
 
         return inverse
@@ -118,20 +113,20 @@ class Contact:
         return inverse, scipy.sparse.csc_array((columns[order], (order, where)), shape=(n * n, count))
 
     def balanced(self, inverse: Map, columns: scipy.sparse.csc_array) -> Map:
-        """Return an inverse between two exact solves for a number of each spot."""
+        """Return an inverse between two coarse solves, for one unknown of each spot."""
         shape, count = self.inside.shape, columns.shape[1]
         small = np.empty((count, count))
         for k in range(count):
             small[:, k] = columns.T @ self.apply(columns[:, [k]].toarray().reshape(shape)).ravel()
         solve = np.linalg.inv(small)
 
-        def means(r: Array) -> Array:
+        def coarse(r: Array) -> Array:
             return (columns @ (solve @ (columns.T @ r.ravel()))).reshape(shape)
 
         def both(r: Array) -> Array:
-            first = means(r)
+            first = coarse(r)
             z = inverse(r - self.apply(first))
-            return first + z - means(self.apply(z))
+            return first + z - coarse(self.apply(z))
 
         return both
 
@@ -148,7 +143,12 @@ class Contact:
             z = inverse(r)
             before, rz = rz, float(np.vdot(r, z))
             s = z + rz / before * s
-        return MOST
+        raise RuntimeError(f"not within {MOST} steps")
+
+
+def by_waves(waves: Array) -> Map:
+    """Return the map of a plane that multiplies its waves."""
+    return lambda r: np.fft.irfft2(np.fft.rfft2(r) * waves, r.shape)
 
 
 def main() -> None:
@@ -164,17 +164,17 @@ def main() -> None:
         ways = {
             "none": lambda r: r,
             "symbol": contact.symbol,
-            "symbol, less rim": contact.less_rim(contact.symbol),
-            "rim solved once": contact.rim_solved(1),
-            "rim solved 4 times": contact.rim_solved(4),
-            "stencil, less rim": contact.less_rim(contact.stencil),
+            "symbol, corrected": contact.corrected(contact.symbol),
+            "symbol, 1 step of Jacobi": contact.by_jacobi(1),
+            "symbol, 4 steps of Jacobi": contact.by_jacobi(4),
+            "stencil, corrected (the library's)": contact.corrected(contact.stencil),
             "spots": spots,
         }
         found = {way: str(contact.steps(inverse)) for way, inverse in ways.items()}
         if columns.shape[1] <= SPOTS:
-            for way in ("spots", "symbol, less rim"):
+            for way in ("spots", "symbol, corrected"):
                 steps = contact.steps(contact.balanced(ways[way], columns))
-                found[f"{way}, and their means"] = f"{steps} steps, {3 * steps}"
+                found[f"{way}, balanced"] = f"{steps} steps, {3 * steps}"
         print(f"{name}, {asked.n}^2, {contact.inside.mean():.0%} in contact, {columns.shape[1]} spots:")
         print(f"  a whole load to 1e-8, after those on coarser cells: {contact.load}")
         print(*(f"  {way}: {count}" for way, count in found.items()), sep="\n", flush=True)

@@ -330,8 +330,8 @@ def test_sum_stencil(given_region):
 
 @pytest.mark.parametrize("few", [-1.0, 1.0], ids=["all of the plane", "group by group"])
 @many
-@given(regions(), st.integers(1, 8), st.booleans())
-def test_blocks(few, given_region, side, fits):
+@given(regions(), st.integers(1, 8), st.booleans(), st.booleans())
+def test_blocks(few, given_region, side, fits, apart):
     """Group by group where rows are whole groups, and groups whole blocks: else all of the plane."""
     inside, rng = given_region
     lanes = WIDTH // inside.itemsize
@@ -346,6 +346,9 @@ def test_blocks(few, given_region, side, fits):
     cells, (ny, nx) = ActiveCells(inside), field.shape
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(region, "FEW", few)
+        if apart:  # each row of blocks, on several threads
+            patch.setattr(region, "CELLS", 1)
+            patch.setattr(region, "SEVERAL", 2)
         sums = sum_blocks(cells, shown, side)
         assert sums.shape == (-(-ny // side), -(-nx // side))
         out = np.random.default_rng(0).standard_normal(sums.shape).astype(field.dtype)

@@ -102,7 +102,7 @@ class ActiveCells:
         starts = np.arange(0, field.size + rows * columns, rows * columns)
         edges = np.searchsorted(self._groups.field, starts).tolist()
 
-        def part(k: int) -> None:
+        def part(k: int) -> None:  # rows are whole groups: none is cut at the end
             run(self._groups, edges[k], edges[k + 1], 0, 0, columns, side, across, field, blocks)
 
         spread(part, range(len(edges) - 1), SEVERAL)
