@@ -6,7 +6,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from contextvars import ContextVar
 from functools import cache, update_wrapper
 from queue import SimpleQueue
@@ -17,12 +17,14 @@ if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
 __all__ = [
+    "call_others",
     "controller",
     "join_in",
     "limit_threads",
     "no_fork",
     "once",
     "one_blas_thread",
+    "others_called",
     "spread",
     "threads",
 ]
@@ -136,6 +138,16 @@ def join_in(work: Callable[[int], None], count: int) -> None:
         wanted.clear()  # who has not come holds nothing any more
 
 
+def call_others(work: Callable[[int], None], count: int) -> None:
+    """Have so many other threads, numbered from 0, do some work when they come to it; nobody waits for them."""
+    _crew.call([work], range(count))
+
+
+def others_called() -> int:
+    """Return how many were called who have not come yet."""
+    return _crew.waiting
+
+
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
     """Keep BLAS and LAPACK to one thread meanwhile.
@@ -150,12 +162,16 @@ def one_blas_thread() -> Iterator[None]:
     if me in _inside:
         yield
         return
+    limits = ExitStack()
     try:
-        _come_in(me)
-        with _own().limit(limits=1, user_api="blas"):
-            yield
+        with no_fork:  # threadpoolctl takes a lock of its own, on the way in and out
+            _come_in(me)
+            limits.enter_context(_own().limit(limits=1, user_api="blas"))
+        yield
     finally:
-        _go_out(me)
+        with no_fork:
+            limits.close()
+            _go_out(me)
 
 
 _inside: set[int] = set()  # the threads of Python that want one BLAS thread
@@ -243,6 +259,11 @@ class _Crew:
         self._calls: SimpleQueue[tuple[list[Callable[[int], None]], int]] = SimpleQueue()
         self._size = 0
         self._lock = Lock()
+
+    @property
+    def waiting(self) -> int:
+        """Calls that nobody has come to yet."""
+        return self._calls.qsize()
 
     def call(self, wanted: list[Callable[[int], None]], numbers: Sequence[int]) -> None:
         """Have others do the work that is wanted when they come to it, for each number."""

@@ -9,7 +9,7 @@ pytest.importorskip("llvmlite")
 
 from roughcontact.kernels import loader
 from roughcontact.kernels.code import Code
-from roughcontact.kernels.constants import APART, WIDTH
+from roughcontact.kernels.constants import WIDTH
 from roughcontact.kernels.signature import Double, Doubles, Flags, Indices, Scalar, Vector, kernel
 from roughcontact.kernels.values import Index, maximum, where
 
@@ -293,14 +293,14 @@ def test_two_precisions_do_not_meet_unseen():
 
 def test_kernels_call_each_other(precision):
     @kernel
-    def twice(code: Code, n: Index, a: Vector, by: Scalar, calls: Indices):
+    def _twice(code: Code, n: Index, a: Vector, by: Scalar, calls: Indices):
         for i in code.range(0, n):
             a[i] = a[i] * by
         calls[code.index(0)] = calls[code.index(0)] + 1
 
     def outer(code: Code, n: Index, a: Vector, by: Scalar, calls: Indices):
-        code.call(twice, n, a, by, calls)
-        code.call(twice, n - 1, a + code.index(1), by, calls)
+        code.call(_twice, n, a, by, calls)
+        code.call(_twice, n - 1, a + code.index(1), by, calls)
 
     a, calls = np.ones(3, precision), np.zeros(1, np.int64)
     made(precision, outer)(3, a, 2.0, calls)
@@ -327,25 +327,45 @@ def test_parts_are_shared_between_threads_and_phases_wait_for_each_other(precisi
     """Each number is written once in the first phase; the second reads what others wrote, the other way round."""
     parts = 1000
 
-    def tiny(code: Code, counters: Indices, taken: Indices, first: Indices, second: Indices):
-        for part in code.shared(counters, 0, code.index(parts)):
+    def tiny(code: Code, taken: Indices, first: Indices, second: Indices, by: Indices):
+        for part in code.shared(0, code.index(parts)):
             taken[part] = taken[part] + 1
             first[part] = part + 1
-        for part in code.shared(counters, 1, code.index(parts)):
+            by[part] = code.thread
+        for part in code.shared(1, code.index(parts)):
             second[part] = first[code.index(parts - 1) - part]
 
     run = made(precision, tiny)
-    for _ in range(20):
-        counters, (taken, first, second) = np.zeros(4 * APART, np.int64), np.zeros((3, parts), np.int64)
-        team = [Thread(target=run, args=(counters, taken, first, second)) for _ in range(workers)]
-        for one in team:
-            one.start()
-        for one in team:
-            one.join()
+    for _ in range(200):
+        taken, first, second, by = np.zeros((4, parts), np.int64)
+        run(taken, first, second, by, workers=workers)
         np.testing.assert_array_equal(taken, 1)
         np.testing.assert_array_equal(second, np.arange(parts, 0, -1))
-        run(counters, taken, first, second)  # who comes late finds nothing left
-        np.testing.assert_array_equal(taken, 1)
+        assert 0 <= by.min() <= by.max() < workers
+
+
+def test_threads_that_lead_at_once_each_do_their_own(precision):
+    """One is served, the others do all alone, and nobody's work is mixed with another's."""
+    parts, rounds, threads = 500, 200, 4
+
+    def tiny(code: Code, number: Index, taken: Indices):
+        for part in code.shared(0, code.index(parts)):
+            taken[part] = taken[part] + number
+
+    run, wrong = made(precision, tiny), []
+
+    def lead(number):
+        for _ in range(rounds):
+            taken = np.zeros(parts, np.int64)
+            run(number, taken, workers=3)
+            wrong.extend(taken[taken != number].tolist())
+
+    team = [Thread(target=lead, args=(k + 1,)) for k in range(threads)]
+    for one in team:
+        one.start()
+    for one in team:
+        one.join()
+    assert wrong == []
 
 
 @pytest.mark.parametrize("size", [0, 1, 3, 4, 7, 8, 9, 23])

@@ -11,9 +11,9 @@ pytest.importorskip("llvmlite")
 from roughcontact.kernels import loader
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import WIDTH
+from roughcontact.kernels.groups import Cells
 from roughcontact.kernels.signature import Doubles, Vector, kernel
 from roughcontact.kernels.totals import Totals
-from roughcontact.kernels.values import Index
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
@@ -24,22 +24,22 @@ SIZES = (0, 1, 3, 4, 7, 8, 9, 35)
 def made(precision, most):
     """Return what finds a number, its negative, its square, and itself."""
 
-    def tiny(code: Code, n: Index, a: Vector, totals: Doubles):
-        found = Totals(code, 4 - most, most, compensated=True)
-        for i in code.each(n):
+    def tiny(code: Code, cells: Cells, a: Vector, totals: Doubles):
+        found = Totals(code, totals, 4 - most, most, compensated=True)
+        for i in cells.each(code, found):
             x = a[i]
             found.add(x, -x, x * x, x)
-        found.store(totals)
 
     kernels = {"tiny": kernel(tiny)}
     return loader._loaded(loader._translated(kernels, precision), kernels, precision)["tiny"]
 
 
-def totals_of(field, most=2):
+def totals_of(field, most=2, parts=1, workers=1):
     """Return what is left of a field, of which the first are the largest; nothing lies behind."""
-    totals = np.full(6, 77.0)
-    made(field.dtype.name, most)(field.size, field, totals)
-    assert totals[4:].tolist() == [77, 77]
+    part = -(-max(field.size, 1) // parts)
+    totals = np.full(4 * parts + 2, 77.0)
+    made(field.dtype.name, most)(field.size, part, field, totals, workers=workers)
+    assert totals[4 * parts :].tolist() == [77, 77]
     return totals[:4]
 
 
@@ -66,6 +66,18 @@ def test_sums_alone_and_largest_alone(most):
     field = np.arange(1.0, 12.0)
     wanted = [11, -1, 121, 11] if most else [66, -66, 506, 66]
     assert totals_of(field, most).tolist() == wanted
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_those_of_all_parts_are_combined(workers):
+    """Of whole numbers nothing is rounded, and whoever does a part, the bits of sums are the same."""
+    field = np.random.default_rng(1).permutation(2**14).astype(np.float64)
+    wanted = [field.max(), -field.min(), (field**2).sum(), field.sum()]
+    assert totals_of(field, parts=64, workers=workers).tolist() == wanted
+    field /= 3
+    one, *others = (totals_of(field, parts=64, workers=workers).tolist() for _ in range(50))
+    assert all(other == one for other in others)
+    assert totals_of(field, parts=64).tolist() == one
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])

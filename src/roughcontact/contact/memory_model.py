@@ -94,7 +94,7 @@ class MemoryModel:
     def _curve(self, touch: Touch) -> int:
         """Return the peak with the last tangent, the next, and its region."""
         if self._whole:
-            return self._peak(plane=0, box=4 * PLANE + 1, touch=touch, less=PLANE)
+            return self._peak(plane=0, box=4 * PLANE + 1, touch=touch, less=PLANE, lighter=True)
         # The displacement by reciprocity is kept, and all cells are pressed for the stiffness of full contact. Where
         # the mean gap cancels, it is found by a product more on three planes.
         planes = 6 if touch.contact > HEAVY else 3
@@ -108,12 +108,20 @@ class MemoryModel:
         )
 
     def _peak(
-        self, *, plane: int, box: int, touch: Touch, less: int, levels: bool = True, shapes: int = 1
+        self,
+        *,
+        plane: int,
+        box: int,
+        touch: Touch,
+        less: int,
+        levels: bool = True,
+        shapes: int = 1,
+        lighter: bool = False,
     ) -> int:
         """Return the larger of two: inner products in single precision, and the one in double that certifies.
 
         `plane` and `box` are bytes of fields for each cell of the plane and of the box; `less` those of a pressure
-        without its mean.
+        without its mean; `lighter` says whether lighter loads are found as well.
         """
         along, across = (1 if p else 2 for p in self.periodic)
         boxed = self._cells * (1.0 if self._whole else touch.box)
@@ -131,7 +139,9 @@ class MemoryModel:
         few = touch.contact <= (FEW_ON_PERIOD if self._whole else FEW_ON_PLANE)
         if few:
             tiles = min(TILES_AT_MOST, TILES * touch.contact) * (VECTORS + 4 * single) * boxed
-            return round(exact + tiles + min(MOST, coarser / 2 + lent) + self._factor(touch))
+            factor = self._factor(touch, lighter=lighter)
+            kept = coarser / 2 + (lent if factor or not self._whole else 0.0)
+            return round(exact + tiles + min(MOST, kept) + factor)
         inner = held + (VECTORS + single) * boxed + min(MOST, coarser)
         return round(max(inner, exact + min(MOST, shapes * own + coarser - lent)))
 
@@ -140,10 +150,10 @@ class MemoryModel:
         kept = single * cells if SMALL <= 4 * cells < LARGE else 0.0
         return kept + (double * cells if SMALL <= PLANE * cells < LARGE else 0.0)
 
-    def _factor(self, touch: Touch) -> float:
-        """Return what the factorised matrix of a small contact takes [bytes]."""
+    def _factor(self, touch: Touch, *, lighter: bool = False) -> float:
+        """Return what the factorised matrix of a small contact takes, or the largest of lighter loads [bytes]."""
         cells, most = touch.contact * self._cells, tuning.DIRECT_BESIDE_TILES
-        return PLANE * min(cells, most) ** 2 if cells <= MARGIN * most else 0.0
+        return PLANE * min(cells, most) ** 2 if lighter or cells <= most else 0.0
 
     @property
     def _cells(self) -> int:

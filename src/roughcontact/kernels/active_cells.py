@@ -13,7 +13,7 @@ from roughcontact.kernels.constants import REACH, WIDTH
 from roughcontact.kernels.distributed import contiguous, local, of_all
 from roughcontact.kernels.loader import code_for
 from roughcontact.kernels.planes import CELLS, run_on_plane
-from roughcontact.threads import spread
+from roughcontact.threads import threads
 
 __all__ = [
     "ActiveCells",
@@ -28,9 +28,9 @@ __all__ = [
 
 Field = npt.NDArray[Any]  # of single or double precision
 
-PART = 2**13  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
+PART = 2**10  # groups of cells that are taken at once; sums are added up part by part, whatever the threads
 SUMS = 8  # that a function finds at most
-SEVERAL = 4  # parts from which on threads are worth waking
+SEVERAL = 4  # parts from which on a second thread comes in time
 FEW = 0.25  # of a plane: cells of a region up to which blocks are found group by group (benchmarks/pairs.py)
 
 
@@ -60,35 +60,18 @@ class ActiveCells:
         self._code["list_groups"](here.size, here, base, change, groups, found)
         self._count = int(found[0])
         self._groups = Operand(groups[: self._count].copy())
-        self._sums = Operand(np.empty(SUMS))
+        self._parts = max(-(-self._count // PART), 1)
+        self._given = self._groups, self._count, PART, self._whole, here.size
+        self._totals = Operand(np.empty(self._parts * SUMS))
 
     def run(
         self, name: str, count: int, *arguments: Operand | Field | float, largest: bool = False
     ) -> list[float]:
         """Run a kernel over these cells, and return so many sums, or the largest, of what it finds."""
-        found = self._run_here(name, count, *arguments, largest=largest)
-        return of_all(self.inside, found, count if largest else 0)
-
-    def _run_here(
-        self, name: str, count: int, *arguments: Operand | Field | float, largest: bool
-    ) -> list[float]:
-        """Run it over the cells of this process."""
-        run, size, whole, end = self._code[name], self._count, self._whole, self._here.size
-        if size <= PART:
-            run(self._groups, 0, size, whole, end, *arguments, *((self._sums,) if count else ()))
-            few: list[float] = self._sums.field[:count].tolist()
-            return few
-        parts = -(-size // PART)
-        totals = np.zeros((parts, count))
-
-        def part(k: int) -> None:
-            last = (k + 1) * PART, whole, whole
-            ends = last if k < parts - 1 else (size, whole, end)
-            run(self._groups, k * PART, *ends, *arguments, *((totals[k],) if count else ()))
-
-        spread(part, range(parts), SEVERAL)
-        found: list[float] = (totals.max(axis=0) if largest else totals.sum(axis=0)).tolist()
-        return found
+        workers = threads() if self._parts >= SEVERAL else 1
+        totals = (self._totals,) if count else ()
+        self._code[name](*self._given, *arguments, *totals, workers=workers)
+        return of_all(self.inside, self._totals.field[:count].tolist(), count if largest else 0)
 
     def finds_blocks(self, side: int) -> bool:
         """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
@@ -97,15 +80,13 @@ class ActiveCells:
 
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
         """Run a kernel on the blocks that these cells are of, on some whole rows of blocks at once."""
-        run, columns, across = code_for("block_kernels", field)[name], field.shape[-1], blocks.shape[1]
-        rows = max(CELLS // (side * columns), 1) * side
-        starts = np.arange(0, field.size + rows * columns, rows * columns)
-        edges = np.searchsorted(self._groups.field, starts).tolist()
-
-        def part(k: int) -> None:  # rows are whole groups: none is cut at the end
-            run(self._groups, edges[k], edges[k + 1], 0, 0, columns, side, across, field, blocks)
-
-        spread(part, range(len(edges) - 1), SEVERAL)
+        columns, across = field.shape[-1], blocks.shape[1]
+        step = max(CELLS // (side * columns), 1) * side * columns
+        edges = np.searchsorted(self._groups.field, np.arange(0, field.size + step, step))
+        parts = len(edges) - 1
+        given = self._groups, edges, parts, columns, side, across, field, blocks
+        workers = threads() if self._parts >= SEVERAL else 1
+        code_for("block_kernels", field)[name](*given, workers=workers)
 
 
 def subtract_shifted(r: Any, v: Any, alpha: float, mean: float) -> None:
@@ -189,5 +170,7 @@ def add_blocks(region: ActiveCells, field: Any, blocks: Any, side: int) -> None:
 
 
 def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:
-    row = np.empty(blocks.shape[1] * side + WIDTH, dtype=field.dtype)
-    code_for("block_kernels", field)[name](*field.shape, side, field, blocks, row)
+    workers = threads() if field.size >= SEVERAL * CELLS else 1
+    rows = np.empty((workers, blocks.shape[1] * side + WIDTH), dtype=field.dtype)
+    run = code_for("block_kernels", field)[name]
+    run(*field.shape, side, field, blocks, rows, rows.shape[1], workers=workers)

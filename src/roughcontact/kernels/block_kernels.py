@@ -3,18 +3,64 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
-from roughcontact.kernels.groups import Groups
-from roughcontact.kernels.signature import Vector, kernel
+from roughcontact.kernels.signature import Indices, Vector, kernel
 from roughcontact.kernels.values import Index
 
 
+class Plane(NamedTuple):
+    """Rows and columns of a plane, the side of a block, the numbers of its cells and of its blocks."""
+
+    ny: Index
+    nx: Index
+    side: Index
+    x: Vector
+    blocks: Vector
+
+
+class RowScratch(NamedTuple):
+    """Memory for a row, as long as all blocks of it, for each thread: so many numbers apart."""
+
+    rows: Vector
+    room: Index
+
+
+class Pieces(NamedTuple):
+    """Groups of cells on rows that are whole groups, which are whole blocks.
+
+    Where groups begin; which is the first of each part of the work, of whole rows of blocks, and at last how many they
+    are; how many parts; how many cells and blocks a row has; the side of a block; the numbers of cells and of blocks.
+    """
+
+    starts: Indices
+    edges: Indices
+    parts: Index
+    nx: Index
+    side: Index
+    across: Index
+    x: Vector
+    blocks: Vector
+
+    def of(self, code: Code) -> Iterator[tuple[Index, Iterator[Index]]]:
+        """Loop over the pieces of blocks that groups are: which block, and its cells."""
+        for part in code.shared(0, self.parts):
+            for k in code.range(self.edges[part], self.edges[part + 1]):
+                first = self.starts[k]
+                y = first // self.nx
+                block = y // self.side * self.across + (first - y * self.nx) // self.side
+                for b in code.range(0, code.index(code.count) // self.side):
+                    begin = first + b * self.side
+                    yield block + b, code.range(begin, begin + self.side)
+
+
 @kernel
-def sum_blocks(code: Code, ny: Index, nx: Index, side: Index, x: Vector, blocks: Vector, row: Vector) -> None:
-    """Sum over the blocks of a plane of ny rows and nx columns; `row` is scratch, as long as all blocks of a row."""
+def sum_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
+    """Sum over the blocks of a plane."""
+    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.room
     across = (nx + side - 1) // side
-    for block in code.range(0, (ny + side - 1) // side):
+    for block in code.shared(0, (ny + side - 1) // side):
         for k in code.range(0, across * side):
             row[k] = 0.0
         for y in code.range(block * side, (block * side + side).min(ny)):
@@ -28,10 +74,11 @@ def sum_blocks(code: Code, ny: Index, nx: Index, side: Index, x: Vector, blocks:
 
 
 @kernel
-def add_blocks(code: Code, ny: Index, nx: Index, side: Index, x: Vector, blocks: Vector, row: Vector) -> None:
-    """Add to each cell what its block has; parameters as there."""
+def add_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
+    """Add to each cell what its block has."""
+    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.room
     across = (nx + side - 1) // side
-    for block in code.range(0, (ny + side - 1) // side):
+    for block in code.shared(0, (ny + side - 1) // side):
         for b in code.range(0, across):
             for k in code.range(b * side, b * side + side):
                 row[k] = blocks[block * across + b]
@@ -41,39 +88,19 @@ def add_blocks(code: Code, ny: Index, nx: Index, side: Index, x: Vector, blocks:
 
 
 @kernel
-def sum_listed_blocks(
-    code: Code, groups: Groups, nx: Index, side: Index, across: Index, x: Vector, blocks: Vector
-) -> None:
-    """Sum over the blocks of a list of groups, on rows that are whole groups, which are whole blocks.
-
-    A row has nx cells and `across` blocks.
-    """
-    for block, cells in _listed_blocks(code, groups, nx, side, across):
-        total = code.variable(blocks[block])
+def sum_listed_blocks(code: Code, pieces: Pieces) -> None:
+    """Sum over the blocks of a list of groups."""
+    for block, cells in pieces.of(code):
+        total = code.variable(pieces.blocks[block])
         for cell in cells:
-            total.set(total.get() + x[cell])
-        blocks[block] = total.get()
+            total.set(total.get() + pieces.x[cell])
+        pieces.blocks[block] = total.get()
 
 
 @kernel
-def add_listed_blocks(
-    code: Code, groups: Groups, nx: Index, side: Index, across: Index, x: Vector, blocks: Vector
-) -> None:
-    """Add to each cell of a list of groups what its block has; parameters as there."""
-    for block, cells in _listed_blocks(code, groups, nx, side, across):
-        share = blocks[block]
+def add_listed_blocks(code: Code, pieces: Pieces) -> None:
+    """Add to each cell of a list of groups what its block has."""
+    for block, cells in pieces.of(code):
+        share = pieces.blocks[block]
         for cell in cells:
-            x[cell] = x[cell] + share
-
-
-def _listed_blocks(
-    code: Code, groups: Groups, nx: Index, side: Index, across: Index
-) -> Iterator[tuple[Index, Iterator[Index]]]:
-    """Loop over the pieces of blocks that groups are: which block, and its cells."""
-    for k in code.range(groups.begin, groups.end):
-        first = groups.starts[k]
-        y = first // nx
-        block = y // side * across + (first - y * nx) // side
-        for b in code.range(0, code.index(code.count) // side):
-            begin = first + b * side
-            yield block + b, code.range(begin, begin + side)
+            pieces.x[cell] = pieces.x[cell] + share

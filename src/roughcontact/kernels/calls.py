@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import struct
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from roughcontact.kernels.distributed import local
 
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
+    from roughcontact.kernels.team import Team
 
 __all__ = ["Function", "Operand", "address"]
 
@@ -27,14 +28,27 @@ class Operand:
         Of one in slabs the address is that of its rows on this process.
     """
 
-    __slots__ = ("dtype", "field", "pointer")
+    __slots__ = ("address", "dtype", "field")
 
     def __init__(self, field: Any) -> None:
-        self.field, self.dtype, self.pointer = field, field.dtype, _pointer(local(field))
+        self.field, self.dtype, self.address = field, field.dtype, _begin(local(field))
+
+    def __reduce__(self) -> tuple[type[Operand], tuple[Any]]:
+        """Return what makes a copy, which lies elsewhere."""
+        return Operand, (self.field,)
 
 
 class Function:
-    """A kernel in machine code. What it works on lives as long as it does.
+    """A kernel in machine code.
+
+    Parameters
+    ----------
+    name : str
+    parameters : sequence of Parameter
+    place : int
+        Its address.
+    team : Team
+        The threads that run it.
 
     Raises
     ------
@@ -43,37 +57,41 @@ class Function:
         the kernel's or they do not lie one after the other, or a single number is none.
     """
 
-    __slots__ = ("_count", "_run", "name")
+    __slots__ = ("_arrays", "_pack", "_place", "_team", "name")
 
-    def __init__(self, name: str, parameters: Sequence[Parameter], place: int) -> None:
-        self.name, self._count = name, len(parameters)
-        types = [_ArrayOf(np.dtype(p.dtype)) if p.array else p.ctype for p in parameters]
-        self._run = ctypes.CFUNCTYPE(None, *types)(place)  # type: ignore[arg-type]
+    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, team: Team) -> None:
+        self.name, self._place, self._team = name, place, team
+        self._arrays = [np.dtype(p.dtype) if p.array else None for p in parameters]
+        self._pack = struct.Struct("=" + "".join(p.slot for p in parameters)).pack
 
-    def __call__(self, *arguments: Any) -> None:
-        """Run it; that arrays are as large as the kernel asks for is not checked."""
-        if len(arguments) != self._count:
-            raise TypeError(f"{self.name} takes {self._count} arguments, not {len(arguments)}")
+    def __call__(self, *arguments: Any, workers: int = 1) -> None:
+        """Run it, by so many threads if it shares work; that arrays are as large as it asks for is not checked."""
+        if len(arguments) != len(self._arrays):
+            raise TypeError(f"{self.name} takes {len(self._arrays)} arguments, not {len(arguments)}")
         try:
-            self._run(*arguments)
-        except ctypes.ArgumentError as error:
+            # A solve makes some hundred calls: what is usual is found out first.
+            packed = self._pack(
+                *[
+                    given
+                    if wanted is None
+                    else given.address
+                    if given.__class__ is Operand and given.dtype is wanted
+                    else _address(given, wanted)
+                    for given, wanted in zip(arguments, self._arrays, strict=True)
+                ]
+            )
+        except (TypeError, struct.error) as error:
             raise TypeError(f"{self.name}: {error}") from None
+        self._team.run(self._place, packed, workers)
 
 
-@dataclass(frozen=True, slots=True)
-class _ArrayOf:
-    """A parameter of a kernel: arrays of one type of numbers, of which the call takes the address."""
-
-    dtype: np.dtype[Any]
-
-    def from_param(self, argument: Any) -> Any:
-        """Return what ctypes passes on; it asks so for each argument."""
-        if not isinstance(argument, (Operand, np.ndarray)):
-            raise TypeError(f"an array of {self.dtype} is needed, not {type(argument).__name__}")
-        # A solve makes some hundred calls: types of numbers are compared by identity first.
-        if argument.dtype is not self.dtype and argument.dtype != self.dtype:
-            raise TypeError(f"an array of {self.dtype} is needed, not one of {argument.dtype}")
-        return argument.pointer if isinstance(argument, Operand) else _pointer(argument)
+def _address(given: Any, wanted: np.dtype[Any]) -> int:
+    """Return where an array of a type begins."""
+    if not isinstance(given, (Operand, np.ndarray)):
+        raise TypeError(f"an array of {wanted} is needed, not {type(given).__name__}")
+    if given.dtype != wanted:
+        raise TypeError(f"an array of {wanted} is needed, not one of {given.dtype}")
+    return given.address if isinstance(given, Operand) else _begin(given)
 
 
 def address(array: npt.NDArray[Any]) -> int:
@@ -81,11 +99,10 @@ def address(array: npt.NDArray[Any]) -> int:
     return int(array.__array_interface__["data"][0])
 
 
-def _pointer(array: Any) -> Any:
-    """Return what a call takes for an array, and what keeps it alive meanwhile."""
+def _begin(array: Any) -> int:
     try:
-        return ctypes.byref(ctypes.c_char.from_buffer(array))
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))
     except (TypeError, ValueError):  # read only or empty: a slower way
         if not array.flags.c_contiguous:
             raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None
-        return ctypes.c_void_p(address(array))
+        return address(array)

@@ -6,6 +6,7 @@ lanes, as many as a processor takes in one instruction. README.md beside this fi
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -14,8 +15,8 @@ from typing import Any, Generic, TypeVar
 
 from llvmlite import ir
 
-from roughcontact.kernels.constants import APART, WIDTH
-from roughcontact.kernels.signature import Indices, KernelDefinition, Vector
+from roughcontact.kernels.constants import APART, PHASES, WIDTH
+from roughcontact.kernels.signature import KernelDefinition, Parameter, Vector
 from roughcontact.kernels.values import (
     ELEMENTS,
     INDEX,
@@ -30,6 +31,13 @@ from roughcontact.kernels.values import (
 __all__ = ["Code", "Local"]
 
 T = TypeVar("T", Number, Index)
+
+# What a kernel is given that is called from Python: its arguments in eight bytes each, counters, and the thread.
+PACKED = (INDEX.as_pointer(), INDEX.as_pointer(), INDEX)
+# What tells a processor that a thread but waits for memory to change: LLVM's names, and their arguments.
+PAUSES = dict.fromkeys(("x86_64", "amd64"), ("llvm.x86.sse2.pause", ())) | dict.fromkeys(
+    ("aarch64", "arm64"), ("llvm.aarch64.isb", (ir.Constant(ir.IntType(32), 15),))
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,19 +65,26 @@ class Code:
         Of its real numbers.
     count : int
         Lanes: numbers of that precision in a register.
+    thread : Index
+        Number of the thread that runs it, from 0, in a kernel that is called from Python.
     """
 
     def __init__(self, module: Any, kernel: KernelDefinition, precision: str, **known: Any) -> None:
         parameters = kernel.parameters(precision)
-        kind = ir.FunctionType(ir.VoidType(), [p.llvm for p in parameters])
+        kind = ir.FunctionType(ir.VoidType(), PACKED if kernel.packed else [p.llvm for p in parameters])
         self.precision, (self._real, size) = precision, ELEMENTS[precision]
         self.count = WIDTH // size
         self.function = ir.Function(module, kind, _name(kernel, precision, known))
         self._variables = ir.IRBuilder(self.function.append_basic_block("variables"))
         start = self.function.append_basic_block("start")
         self.builder = builder = ir.IRBuilder(start)
+        given: Any = self.function.args
+        if kernel.packed:
+            packed, self._counters, thread = given
+            self.thread = Index(thread, builder)
+            given = [_unpacked(packed, place, p, builder) for place, p in enumerate(parameters)]
         values: list[Any] = []
-        for parameter, value in zip(parameters, self.function.args, strict=True):
+        for parameter, value in zip(parameters, given, strict=True):
             if parameter.array:
                 values.append(Memory(value, builder, parameter.dtype, self.count))
             else:
@@ -130,30 +145,59 @@ class Code:
         builder.branch(head)
         builder.position_at_end(after)
 
-    def shared(self, counters: Indices, phase: int, parts: Index) -> Iterator[Index]:
-        """Loop over parts of some work that other threads do with the same counters; go on when all parts are done.
+    def shared(self, phase: int, parts: Index) -> Iterator[Index]:
+        """Loop over parts of the work of a phase, which all threads share that run the kernel; go on when all are done.
 
-        Each takes the next part that is left: whoever comes late finds less to do, or nothing. Counters are zero at
-        first, and for each phase in turn there are two, in lines of the cache of their own.
+        Each takes the next part that is left: whoever comes late finds less to do, or nothing. Phases are numbered in
+        turn; for each there are two counters, in lines of the cache of their own.
         """
+        counters: Memory[Index] = Memory(self._counters, self.builder, "int64", self.count)
+        taken, done = (self.index((2 * phase + k) * APART) for k in range(2))
+        part = self.variable(counters.add(taken, 1))
+        for _ in self.repeated(lambda: part.get() < parts):
+            yield part.get()
+            counters.add(done, 1)
+            part.set(counters.add(taken, 1))
+        for _ in self.repeated(lambda: counters.current(done) < parts):
+            self.pause()
+
+    def repeated(self, condition: Callable[[], Condition]) -> Iterator[None]:
+        """Loop as long as a condition holds; it and the body are written once."""
         builder = self.builder
-        taken, done = (counters.place(self.index((2 * phase + k) * APART)) for k in range(2))
-        one = ir.Constant(INDEX, 1)
-        head, body, wait, after = (
-            builder.append_basic_block(name) for name in ("head", "body", "wait", "after")
-        )
+        head, body, after = (builder.append_basic_block(name) for name in ("head", "body", "after"))
         builder.branch(head)
         builder.position_at_end(head)
-        part = builder.atomic_rmw("add", taken, one, "seq_cst")
-        builder.cbranch(builder.icmp_signed("<", part, parts.value), body, wait)
+        builder.cbranch(condition().value, body, after)
         builder.position_at_end(body)
-        yield Index(part, builder)
-        builder.atomic_rmw("add", done, one, "seq_cst")
+        yield
         builder.branch(head)
-        builder.position_at_end(wait)
-        all_done = builder.icmp_signed("==", builder.load_atomic(done, "seq_cst", 8), parts.value)
-        builder.cbranch(all_done, after, wait)
         builder.position_at_end(after)
+
+    def pause(self) -> None:
+        """Wait a moment, where another thread is waited for."""
+        name, given = PAUSES.get(platform.machine().lower(), ("", ()))
+        if name:
+            kind, module = ir.FunctionType(ir.VoidType(), [x.type for x in given]), self.function.module
+            self.builder.call(module.globals.get(name) or ir.Function(module, kind, name), given)
+
+    def call_system(self, function: Index, number: Index) -> None:
+        """Call a function of the system, of which the address is known, on a number of 32 bits."""
+        word = ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [word]).as_pointer()
+        place = self.builder.inttoptr(function.value, kind)
+        self.builder.call(place, [self.builder.trunc(number.value, word)])
+
+    def new_counters(self) -> Index:
+        """Return the address of counters for all phases of a kernel, in this function's own memory."""
+        counters = self._variables.alloca(ir.ArrayType(INDEX, 2 * PHASES * APART))
+        self.builder.store(ir.Constant(counters.type.pointee, None), counters)
+        return Index(self.builder.ptrtoint(counters, INDEX), self.builder)
+
+    def run(self, kernel: Index, packed: Index, counters: Index, thread: Index) -> None:
+        """Run the kernel at an address on packed arguments: those of all threads that share its work."""
+        kind = ir.FunctionType(ir.VoidType(), PACKED).as_pointer()
+        given = (self.builder.inttoptr(x.value, PACKED[0]) for x in (packed, counters))
+        self.builder.call(self.builder.inttoptr(kernel.value, kind), [*given, thread.value])
 
     @contextmanager
     def when(self, condition: Condition) -> Iterator[None]:
@@ -202,6 +246,17 @@ class Code:
 
     def _index(self, value: Index | int) -> Index:
         return value if isinstance(value, Index) else self.index(value)
+
+
+def _unpacked(packed: Any, place: int, parameter: Parameter, builder: Any) -> Any:
+    """Return an argument that a call from Python has packed."""
+    value = builder.load(builder.gep(packed, [ir.Constant(INDEX, place)]))
+    if parameter.array:
+        return builder.inttoptr(value, parameter.llvm)
+    if parameter.dtype == "int64":
+        return value
+    number = builder.bitcast(value, ir.DoubleType())
+    return number if parameter.dtype == "float64" else builder.fptrunc(number, parameter.llvm)
 
 
 def _name(kernel: KernelDefinition, precision: str, known: dict[str, Any]) -> str:

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.kernels.buffers import aligned, empty
-from roughcontact.kernels.constants import APART
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.loader import functions
-from roughcontact.kernels.plane_plan import Indices, PlanePlan
-from roughcontact.threads import join_in, threads
+from roughcontact.kernels.plane_plan import PlanePlan
+from roughcontact.threads import threads
 from roughcontact.validation import Array
 
 __all__ = ["LARGE", "PARTS", "CompiledConvolution"]
 
-LARGE = 600_000  # bytes of rows as padded from which on a second thread comes in time (timed by benchmarks/pairs.py)
+LARGE = 200_000  # bytes of rows as padded from which on a second thread comes in time (timed by benchmarks/pairs.py)
 PARTS = 4  # of the work for each thread, since not all are equally fast
 
 
@@ -28,17 +28,17 @@ class CompiledConvolution:
     shape : tuple of int
         Of the fields.
     plan : PlanePlan
-    multiplier : array
+    multiplier : Operand
         Transform of the kernel in blocks of as many columns as there are lanes.
-    edges, places : int array
+    edges, places : Operand
         Rows of the fields, and rows of the spectrum: columns lie in one piece.
     """
 
     shape: tuple[int, int]
     plan: PlanePlan
-    multiplier: Array
-    edges: Indices
-    places: Indices
+    multiplier: Operand
+    edges: Operand
+    places: Operand
 
     @classmethod
     def of(
@@ -58,13 +58,13 @@ class CompiledConvolution:
             Of the fields.
         """
         plan = PlanePlan.of(shape, lengths, precision)
-        edges, places = (np.array([0, rows], np.int64) for rows in (shape[0], plan.padded(shape[0])))
-        return cls(shape, plan, plan.in_blocks(multiplier), edges, places)
+        edges, places = (Operand(np.array([0, rows], np.int64)) for rows in (shape[0], plan.padded(shape[0])))
+        return cls(shape, plan, Operand(plan.in_blocks(multiplier)), edges, places)
 
     def kernel(self) -> Array:
         """Return the multiplier as it was given."""
         my, half = self.plan.lengths[0], self.plan.lengths[1] // 2
-        rows = self.multiplier.swapaxes(0, 1).reshape(my // 2 + 1, -1)
+        rows = self.multiplier.field.swapaxes(0, 1).reshape(my // 2 + 1, -1)
         return np.asarray(rows[:, : half + 1] * (4.0 * half * my))
 
     def apply(self, plane: Array) -> Array:
@@ -78,16 +78,10 @@ class CompiledConvolution:
         answer = empty((ny, nx), plan.precision)
         workers = threads() if ny * plan.lengths[1] * given.itemsize >= LARGE else 1
         parts = PARTS * workers
-        counters = np.zeros(6 * APART, np.int64)
         memory = aligned(workers * room + blocks * rows * 2 * lanes, plan.precision)
-        spectrum = memory[workers * room :]
+        spectrum = Operand(memory[workers * room :])
         along = spectrum, rows, *plan.along, -(-rows // (parts * lanes)) * lanes
         pieces = spectrum, blocks, 1, self.edges, self.places
         across = *pieces, *plan.across, self.multiplier, -(-blocks // parts)
-
-        def join(k: int) -> None:
-            scratch = memory[k * room :]
-            convolve(counters, given, answer, ny, nx, *along, scratch, plan.raw, *across, scratch)
-
-        join_in(join, workers)
+        convolve(given, answer, ny, nx, *along, *across, memory, room, plan.raw, workers=workers)
         return answer

@@ -6,17 +6,13 @@ large: no memory is kept for the next.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from roughcontact.kernels.buffers import aligned
 from roughcontact.kernels.compiled_convolution import LARGE, PARTS
-from roughcontact.kernels.constants import APART
 from roughcontact.kernels.loader import functions
 from roughcontact.kernels.plane_plan import Indices, PlanePlan
-from roughcontact.threads import join_in, threads
+from roughcontact.threads import threads
 from roughcontact.validation import Array
 
 __all__ = ["filter_columns", "transform_rows", "transform_rows_back"]
@@ -55,31 +51,24 @@ def filter_columns(
     blocks = len(multiplier)
     if not blocks:
         return
-    filter_some = functions("fft", plan.precision)["filter_columns"]
-
-    def work(counters: Indices, parts: int, scratch: Array) -> None:
-        pieces = columns, blocks, len(edges) - 1, edges, places
-        filter_some(counters, *pieces, *plan.across, multiplier, -(-blocks // parts), scratch)
-
-    _together(plan, columns.nbytes, work)
+    workers, scratch = _shared(plan, columns.nbytes)
+    pieces = columns, blocks, len(edges) - 1, edges, places
+    wide = -(-blocks // (PARTS * workers))
+    run = functions("fft", plan.precision)["filter_columns"]
+    run(*pieces, *plan.across, multiplier, wide, *scratch, workers=workers)
 
 
 def _along_rows(name: str, plan: PlanePlan, local: Array, spectrum: Array) -> None:
     (ny, nx), rows = local.shape, spectrum.shape[1]
     if not rows:
         return
-    transform = functions("fft", plan.precision)[name]
-
-    def work(counters: Indices, parts: int, scratch: Array) -> None:
-        many = -(-rows // (parts * plan.lanes)) * plan.lanes
-        transform(counters, local, ny, nx, spectrum, rows, *plan.along, many, scratch, plan.raw)
-
-    _together(plan, local.nbytes, work)
+    workers, scratch = _shared(plan, local.nbytes)
+    many = -(-rows // (PARTS * workers * plan.lanes)) * plan.lanes
+    run = functions("fft", plan.precision)[name]
+    run(local, ny, nx, spectrum, rows, *plan.along, many, *scratch, workers=workers)
 
 
-def _together(plan: PlanePlan, size: int, work: Callable[[Indices, int, Any], None]) -> None:
-    """Have threads join in some work on so many bytes, each with memory of its own."""
+def _shared(plan: PlanePlan, size: int) -> tuple[int, tuple[Array, int, int]]:
+    """Return how many threads share work on so many bytes, and the memory that each has of its own."""
     workers = threads() if size >= LARGE else 1
-    counters = np.zeros(2 * APART, np.int64)
-    memory = aligned(workers * plan.room, plan.precision, kept=False)
-    join_in(lambda k: work(counters, PARTS * workers, memory[k * plan.room :]), workers)
+    return workers, (aligned(workers * plan.room, plan.precision, kept=False), plan.room, plan.raw)

@@ -109,87 +109,86 @@ class ColumnPieces(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Memory for one thread: for transforms as they come, and in order from an offset on."""
+    """Memory for each thread, so many numbers apart, and where that for what is in order begins in a thread's own."""
 
-    reversed: Vector
+    memory: Vector
+    room: Index
     offset: Index
+
+    def own(self, code: Code) -> Vector:
+        """Return that of this thread."""
+        return self.memory + code.thread * self.room
 
 
 class RowTransform(NamedTuple):
-    """What rows are transformed with.
+    """The spectrum; the transform of rows; how many of these are a part of the work.
 
-    The spectrum; the transform, of half of the columns as padded, whose neighbours are taken for complex numbers, and
-    the twiddle factors that tell these apart; how many rows are a part of the work; and memory for one thread.
+    Of half of the columns as padded, whose neighbours are taken for complex numbers; twiddle factors tell these apart.
     """
 
     spectrum: BlockedSpectrum
     plan: Plan
     pairs: Vector
     many: Index
-    scratch: Scratch
 
 
 class ColumnTransform(NamedTuple):
-    """What columns are transformed with.
-
-    The columns; the transform; the multiplier, block by block; how many blocks are a part of the work; and memory for
-    one.
-    """
+    """The columns; their transform; the multiplier, block by block; how many blocks are a part of the work."""
 
     pieces: ColumnPieces
     plan: Plan
     multiplier: Vector
     wide: Index
-    work: Vector
 
 
 @kernel
 def convolve(
     code: Code,
-    counters: Indices,
     field: Vector,
     answer: Vector,
     ny: Index,
     nx: Index,
     along: RowTransform,
     across: ColumnTransform,
+    scratch: Scratch,
 ) -> None:
-    """Plan rows, transform columns there and back with the multiplier in between, and rows back.
+    """Transform rows, columns there and back with the multiplier in between, and rows back.
 
-    Parameters: counters for three phases, see `Code.shared`; the field, the answer, rows and columns of both.
+    Parameters: the field, the answer, rows and columns of both.
     """
-    for some in _parts(code, counters, 0, ny, along.many):
-        code.call(_rows, RealField(field, ny, nx), some, along, inverse=False)
-    for some in _parts(code, counters, 1, across.pieces.blocks, across.wide):
-        code.call(_columns, some, across)
-    for some in _parts(code, counters, 2, ny, along.many):
-        code.call(_rows, RealField(answer, ny, nx), some, along, inverse=True)
+    own = scratch.own(code)
+    for some in _parts(code, 0, ny, along.many):
+        code.call(_rows, RealField(field, ny, nx), some, along, own, scratch.offset, inverse=False)
+    for some in _parts(code, 1, across.pieces.blocks, across.wide):
+        code.call(_columns, some, across, own)
+    for some in _parts(code, 2, ny, along.many):
+        code.call(_rows, RealField(answer, ny, nx), some, along, own, scratch.offset, inverse=True)
 
 
 @kernel
-def transform_rows(code: Code, counters: Indices, plane: RealField, along: RowTransform) -> None:
+def transform_rows(code: Code, plane: RealField, along: RowTransform, scratch: Scratch) -> None:
     """Do the first step of `convolve` alone."""
-    for some in _parts(code, counters, 0, plane.ny, along.many):
-        code.call(_rows, plane, some, along, inverse=False)
+    for some in _parts(code, 0, plane.ny, along.many):
+        code.call(_rows, plane, some, along, scratch.own(code), scratch.offset, inverse=False)
 
 
 @kernel
-def filter_columns(code: Code, counters: Indices, across: ColumnTransform) -> None:
+def filter_columns(code: Code, across: ColumnTransform, scratch: Scratch) -> None:
     """Do the second alone."""
-    for some in _parts(code, counters, 0, across.pieces.blocks, across.wide):
-        code.call(_columns, some, across)
+    for some in _parts(code, 0, across.pieces.blocks, across.wide):
+        code.call(_columns, some, across, scratch.own(code))
 
 
 @kernel
-def transform_rows_back(code: Code, counters: Indices, plane: RealField, along: RowTransform) -> None:
+def transform_rows_back(code: Code, plane: RealField, along: RowTransform, scratch: Scratch) -> None:
     """Do the third alone."""
-    for some in _parts(code, counters, 0, plane.ny, along.many):
-        code.call(_rows, plane, some, along, inverse=True)
+    for some in _parts(code, 0, plane.ny, along.many):
+        code.call(_rows, plane, some, along, scratch.own(code), scratch.offset, inverse=True)
 
 
-def _parts(code: Code, counters: Indices, phase: int, count: Index, size: Index) -> Iterator[IndexRange]:
+def _parts(code: Code, phase: int, count: Index, size: Index) -> Iterator[IndexRange]:
     """Loop over parts of so many rows or blocks, which all threads share."""
-    for part in code.shared(counters, phase, (count + size - 1) // size):
+    for part in code.shared(phase, (count + size - 1) // size):
         yield IndexRange(part * size, (part * size + size).min(count))
 
 
@@ -261,10 +260,18 @@ def _half_butterfly(a: Sequence[Complex]) -> list[Complex]:
 
 
 @kernel
-def _rows(code: Code, plane: RealField, some: IndexRange, along: RowTransform, *, inverse: bool) -> None:
-    """Transform some rows of a plane into the spectrum; or back."""
-    (spectrum, plan, pairs, _, scratch), raw = along, along.scratch.reversed
-    ordered = raw + scratch.offset
+def _rows(
+    code: Code,
+    plane: RealField,
+    some: IndexRange,
+    along: RowTransform,
+    raw: Vector,
+    offset: Index,
+    *,
+    inverse: bool,
+) -> None:
+    """Transform some rows of a plane into the spectrum, in memory for transforms as they come and in order; or back."""
+    (spectrum, plan, pairs, _), ordered = along, raw + offset
     for y in code.range(some.begin, some.end, code.count):
         if inverse:
             _transpose_blocks(code, spectrum, y, ordered, plan.length, back=True)
@@ -313,9 +320,9 @@ def _transpose_blocks(
 
 
 @kernel
-def _columns(code: Code, some: IndexRange, across: ColumnTransform) -> None:
+def _columns(code: Code, some: IndexRange, across: ColumnTransform, work: Vector) -> None:
     """Multiply some blocks of columns, whose rows beyond the last piece are zero, between transforms there and back."""
-    (pieces, plan, multiplier, _, work), size = across, 2 * code.count
+    (pieces, plan, multiplier, _), size = across, 2 * code.count
     # What is whole, neither padded nor in pieces, is worked on where it lies.
     whole = pieces.edges[code.index(1)].equals(plan.length)
     count = where(whole, code.index(0), pieces.parts)

@@ -15,6 +15,7 @@ from roughcontact.kernels import disk
 from roughcontact.kernels.calls import Function
 from roughcontact.kernels.distributed import agreed, local
 from roughcontact.kernels.processor import is_off, processor
+from roughcontact.kernels.team import Team
 from roughcontact.threads import once
 
 if TYPE_CHECKING:
@@ -23,8 +24,12 @@ if TYPE_CHECKING:
 __all__ = ["code_for", "functions", "is_available", "takes"]
 
 # Modules whose text all code depends on.
-COMMON = ("calls", "code", "constants", "groups", "loader", "signature", "stencil", "totals", "values")
+COMMON = (
+    *("calls", "code", "constants", "team", "team_kernels", "groups", "loader"),
+    *("signature", "stencil", "totals", "values"),
+)
 _ENGINES: list[Any] = []  # they own the code that runs
+_TEAM: list[Team] = []  # the one, of the first code that was loaded
 _NAMES = {"f": "float32", "d": "float64"}  # by the short ones, which are sooner found
 
 
@@ -111,7 +116,7 @@ def _kernels(family: str) -> Mapping[str, KernelDefinition]:
     from roughcontact.kernels.signature import KernelDefinition
 
     found = [k for k in vars(_families()[family]).values() if isinstance(k, KernelDefinition)]
-    return {kernel.name: kernel for kernel in found if not kernel.name.startswith("_")}
+    return {kernel.name: kernel for kernel in found if kernel.packed}
 
 
 @cache
@@ -141,9 +146,10 @@ def _translated(kernels: Mapping[str, KernelDefinition], precision: str) -> byte
     from llvmlite import binding, ir
 
     from roughcontact.kernels.code import Code
+    from roughcontact.kernels.team_kernels import _lead, _serve
 
     written = ir.Module()
-    for kernel in kernels.values():
+    for kernel in (*kernels.values(), _lead, _serve):
         Code(written, kernel, precision)
     module = binding.parse_assembly(str(written))
     module.triple, module.data_layout = _target().triple, str(_target().target_data)
@@ -171,12 +177,16 @@ def _loaded(code: bytes, kernels: Mapping[str, KernelDefinition], precision: str
     engine = binding.create_mcjit_compiler(empty, _new_target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    places = {name: engine.get_function_address(f"{name}_{precision}") for name in kernels}
-    if 0 in places.values():
-        raise RuntimeError(f"not all of {', '.join(places)} are in the code")
+    names = *kernels, "_lead", "_serve"
+    *places, lead, serve = (engine.get_function_address(f"{name}_{precision}") for name in names)
+    if 0 in (*places, lead, serve):
+        raise RuntimeError(f"not all of {', '.join(names)} are in the code")
     _ENGINES.append(engine)
+    if not _TEAM:
+        _TEAM.append(Team(lead, serve))
     return {
-        name: Function(name, kernel.parameters(precision), places[name]) for name, kernel in kernels.items()
+        kernel.name: Function(kernel.name, kernel.parameters(precision), place, _TEAM[0])
+        for kernel, place in zip(kernels.values(), places, strict=True)
     }
 
 

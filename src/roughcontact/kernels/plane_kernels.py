@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import NEVER
+from roughcontact.kernels.groups import Cells
 from roughcontact.kernels.signature import Double, Doubles, Flags, Vector, kernel
 from roughcontact.kernels.totals import Totals
-from roughcontact.kernels.values import Index, maximum, where
+from roughcontact.kernels.values import maximum, where
 
 
 class Fields(NamedTuple):
@@ -24,13 +25,13 @@ class Fields(NamedTuple):
 
 
 @kernel
-def extremes(code: Code, n: Index, fields: Fields, totals: Doubles) -> None:
+def extremes(code: Code, cells: Cells, fields: Fields, totals: Doubles) -> None:
     """Leave the largest level where p > 0, -level, abs(u), p, -p, -p where p > 0, and -level elsewhere.
 
     Then the sum of the levels where p > 0, how many these are, and zero: or NaN where some p or u is no finite number.
     """
-    found = Totals(code, 3, 7, compensated=True)
-    for i in code.each(n):
+    found = Totals(code, totals, 3, 7, compensated=True)
+    for i in cells.each(code, found):
         p, u = fields.p[i], fields.u[i]
         level, positive = u + fields.s[i], p > 0.0
         found.add(
@@ -45,19 +46,25 @@ def extremes(code: Code, n: Index, fields: Fields, totals: Doubles) -> None:
             where(positive, p.filled(1.0), 0.0),
             (p - p) + (u - u),
         )
-    found.store(totals)
 
 
 @kernel
 def predict_active(
-    code: Code, n: Index, f: Fields, depth: Double, least: Double, own: Double, active: Flags, totals: Doubles
+    code: Code,
+    cells: Cells,
+    f: Fields,
+    depth: Double,
+    least: Double,
+    own: Double,
+    active: Flags,
+    totals: Doubles,
 ) -> None:
     """Mark where p > 0 or the gap ``u + s - depth < least``, but not where ``own max(p, 0) < gap``.
 
     Leave how many are marked, and how many are not for the last reason: there one cell by itself would pull.
     """
-    found = Totals(code, 2, compensated=True)
-    for i in code.each(n):
+    found = Totals(code, totals, 2, compensated=True)
+    for i in cells.each(code, found):
         p = f.p[i]
         gap, one = f.u[i] + f.s[i] - depth, p.filled(1.0)
         pulls = maximum(p, p.filled(0.0)) * own < gap  # nothing times infinity is NaN, and not below
@@ -65,14 +72,13 @@ def predict_active(
         stays = candidate & ~pulls
         active[i] = stays
         found.add(where(stays, one, 0.0), where(candidate & pulls, one, 0.0))
-    found.store(totals)
 
 
 @kernel
-def level_range(code: Code, n: Index, s: Doubles, u: Doubles, m: Flags, totals: Doubles) -> None:
+def level_range(code: Code, cells: Cells, s: Doubles, u: Doubles, m: Flags, totals: Doubles) -> None:
     """Leave the largest level and -level where m, their sum, and how many they are."""
-    found = Totals(code, 2, 2, compensated=True)
-    for i in code.each(n):
+    found = Totals(code, totals, 2, 2, compensated=True)
+    for i in cells.each(code, found):
         level, inside = s[i] + u[i], m[i]
         found.add(
             where(inside, level, -math.inf),
@@ -80,13 +86,12 @@ def level_range(code: Code, n: Index, s: Doubles, u: Doubles, m: Flags, totals: 
             where(inside, level, 0.0),
             where(inside, level.filled(1.0), 0.0),
         )
-    found.store(totals)
 
 
 @kernel
 def scale_down(
     code: Code,
-    n: Index,
+    cells: Cells,
     f: Fields,
     depth: Double,
     a: Double,
@@ -96,7 +101,7 @@ def scale_down(
     base: Vector,
 ) -> None:
     """``m := 1`` where active, else 0; ``r := a (depth - s - u)``, at least NEVER; ``base := a p``."""
-    for i in code.each(n):
+    for i in cells.each(code):
         residual = (depth - (f.s[i] + f.u[i])) * a
         r[i] = maximum(residual, residual.filled(NEVER))
         base[i] = f.p[i] * a
@@ -105,9 +110,9 @@ def scale_down(
 
 @kernel
 def add_scaled(
-    code: Code, n: Index, p: Doubles, change: Vector, m: Vector, unit: Double, answer: Doubles
+    code: Code, cells: Cells, p: Doubles, change: Vector, m: Vector, unit: Double, answer: Doubles
 ) -> None:
     """``answer := m max(p + unit change, 0)``."""
-    for i in code.each(n):
+    for i in cells.each(code):
         new = p[i] + change[i].double() * unit
         answer[i] = where(new > 0.0, new, 0.0) * m[i].double()

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import HALF, WIDTH
 from roughcontact.validation import Array
 
@@ -37,12 +38,10 @@ class PlanePlan:
     raw, room : int
         Numbers that a thread works in: of rows as they come from a transform, and in all, either of rows, as they come
         and in order, or of one block of columns.
-    rows, columns : FourierPlan
-        Along a row, whose neighbours are taken for complex numbers, and along a column.
-    pairs : array
-        Twiddle factors that tell neighbours in a row apart.
-    folded : int array
-        Row of a multiplier for each place in a column, whose waves are in digit-reversed order.
+    along, across : tuple
+        What kernels are told of transforms along rows, whose neighbours are taken for complex numbers and told apart by
+        twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are in
+        digit-reversed order.
     """
 
     lengths: tuple[int, int]
@@ -51,10 +50,8 @@ class PlanePlan:
     blocks: int
     raw: int
     room: int
-    rows: FourierPlan
-    columns: FourierPlan
-    pairs: Array
-    folded: Indices
+    along: tuple[Any, ...]
+    across: tuple[Any, ...]
 
     @classmethod
     def of(cls, shape: tuple[int, int], lengths: tuple[int, int], precision: str) -> PlanePlan:
@@ -66,17 +63,9 @@ class PlanePlan:
         rows, columns = _plan(half, -(-nx // 2), precision), _plan(my, ny, precision)
         pairs = _twiddles(np.arange(half // 2 + 1), mx, precision)
         folded = np.minimum(columns.waves, my - columns.waves)
-        return cls(lengths, precision, lanes, blocks, raw, room, rows, columns, pairs, folded)
-
-    @property
-    def along(self) -> tuple[Any, ...]:
-        """What kernels are told of transforms along rows."""
-        return self.lengths[1] // 2, *self.rows.arguments, self.rows.order, self.pairs
-
-    @property
-    def across(self) -> tuple[Any, ...]:
-        """What they are told of those along columns."""
-        return self.lengths[0], *self.columns.arguments, self.folded
+        along = half, *rows.arguments, Operand(rows.order), Operand(pairs)
+        across = my, *columns.arguments, Operand(folded)
+        return cls(lengths, precision, lanes, blocks, raw, room, along, across)
 
     def padded(self, rows: int) -> int:
         """Return how many rows a spectrum has memory for that holds so many."""
@@ -120,7 +109,7 @@ class FourierPlan:
     @property
     def arguments(self) -> tuple[Any, ...]:
         """What the kernel is told."""
-        return self.radices, len(self.radices), self.twiddles
+        return Operand(self.radices), len(self.radices), Operand(self.twiddles)
 
 
 @lru_cache(maxsize=64)

@@ -13,7 +13,7 @@ from roughcontact.kernels.buffers import empty_like
 from roughcontact.kernels.constants import WIDTH
 from roughcontact.kernels.distributed import Distributed, local, of_all
 from roughcontact.kernels.loader import code_for
-from roughcontact.threads import spread
+from roughcontact.threads import threads
 from roughcontact.validation import Array, Mask
 
 __all__ = [
@@ -29,8 +29,8 @@ __all__ = [
 
 Field = npt.NDArray[Any]  # of single or double precision
 
-CELLS = 2**17  # cells that are taken at once; totals are made part by part, whatever the threads
-SEVERAL = 4  # parts from which on threads are worth waking
+CELLS = 2**14  # cells that are taken at once; totals are made part by part, whatever the threads
+SEVERAL = 4  # parts from which on a second thread comes in time
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,19 +140,11 @@ def run_on_plane(
     """
     if not isinstance(arguments[0], np.ndarray):
         return of_all(arguments[0], run_on_plane(run, most, count, *map(local, arguments)), most)
-    size = next(a.size for a in arguments if isinstance(a, np.ndarray))
-    if size <= CELLS:
-        few = np.zeros(count)
-        run(size, *arguments, *((few,) if count else ()))
-        return few.tolist()
     assert CELLS % WIDTH == 0
-    starts = range(0, max(size, 1), CELLS)
-    totals = np.zeros((len(starts), count))
-    fields = [a.reshape(-1) if isinstance(a, np.ndarray) else a for a in arguments]
-
-    def part(start: int) -> None:
-        given = [a[start:] if isinstance(a, np.ndarray) else a for a in fields]
-        run(min(CELLS, size - start), *given, *((totals[start // CELLS],) if count else ()))
-
-    spread(part, starts, SEVERAL)
-    return [*totals[:, :most].max(axis=0).tolist(), *totals[:, most:].sum(axis=0).tolist()]
+    size = arguments[0].size
+    parts = max(-(-size // CELLS), 1)
+    totals = np.empty((parts, count))
+    workers = threads() if parts >= SEVERAL else 1
+    run(size, CELLS, *arguments, *((totals,) if count else ()), workers=workers)
+    found: list[float] = totals[0].tolist()
+    return found

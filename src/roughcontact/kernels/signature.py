@@ -5,7 +5,6 @@ The types of LLVM's function and those of the call from Python are both made of 
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple, get_type_hints
@@ -49,12 +48,11 @@ class Parameter(NamedTuple):
         return element.as_pointer() if self.array else element
 
     @property
-    def ctype(self) -> Any:
-        """The type in a call from Python."""
-        return ctypes.c_void_p if self.array else _CTYPES[self.dtype]
+    def slot(self) -> str:
+        """How eight bytes hold it in a call from Python, for `struct`: an address and an index alike, or a number."""
+        return "q" if self.array or self.dtype == "int64" else "d"
 
 
-_CTYPES = {"float32": ctypes.c_float, "float64": ctypes.c_double, "int64": ctypes.c_int64}
 _PARAMETERS: dict[Any, Parameter] = {
     Index: Parameter(False, "int64"),
     Scalar: Parameter(False, "precision"),
@@ -75,7 +73,8 @@ class KernelDefinition:
     body : function
         Takes the `Code` to write to, then its parameters. Each is annotated by `Index` or one of the types above, or by
         a NamedTuple of such, which stands for its fields one after the other. What it takes by keyword alone is known
-        when it is written, by another kernel that calls it. One whose name begins with an underscore is for others.
+        when it is written, by another kernel that calls it. One whose name begins with an underscore is for others, and
+        takes its arguments as machine code does.
     """
 
     body: Callable[..., None]
@@ -84,6 +83,11 @@ class KernelDefinition:
     def name(self) -> str:
         """The function's own."""
         return self.body.__name__
+
+    @property
+    def packed(self) -> bool:
+        """Whether it takes its arguments as a call from Python packs them."""
+        return not self.name.startswith("_")
 
     def parameters(self, precision: str) -> tuple[Parameter, ...]:
         """Return the parameters one after the other.

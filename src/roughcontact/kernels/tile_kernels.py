@@ -8,12 +8,13 @@ from operator import or_
 from typing import NamedTuple
 
 from roughcontact.kernels.code import Code, Local
-from roughcontact.kernels.constants import REACH, SIDE
+from roughcontact.kernels.constants import NEAR_ROWS, REACH, SIDE
 from roughcontact.kernels.signature import Indices, Vector, kernel
 from roughcontact.kernels.stencil import sum_near
 from roughcontact.kernels.values import Index, Number, where
 
 WIDE = SIDE * SIDE  # of the influence of near sums, and so of an offset of one row
+TOGETHER = 16  # tiles that a thread takes at once
 
 
 class Sources(NamedTuple):
@@ -71,7 +72,6 @@ def list_nonzero(code: Code, tiles: Index, x: Vector, sources: Sources) -> None:
 @kernel
 def sum_pairs(
     code: Code,
-    counters: Indices,
     tiles: Index,
     rows: Indices,
     columns: Indices,
@@ -80,13 +80,13 @@ def sum_pairs(
     wide: Index,
     sums: Vector,
 ) -> None:
-    """Write to each tile the sum over the sources of all tiles; several threads may join.
+    """Write to each tile the sum over the sources of all tiles.
 
-    Parameters: counters for one phase, see `Code.shared`; how many tiles, and where they are, counted in tiles; the
-    influence at offsets of rows from zero up, and of columns to both sides of its middle; how long its rows are.
+    Parameters: how many tiles, and where they are, counted in tiles; the influence at offsets of rows from zero up, and
+    of columns to both sides of its middle; how long its rows are.
     """
     steps = {sign: [wide * (sign * v) for v in range(SIDE)] for sign in (-1, 1)}
-    for tile in code.shared(counters, 0, tiles):
+    for tile in code.shared(0, tiles):
         totals = [[code.variable(code.lanes(0.0)) for _ in _lanes(code)] for _ in range(SIDE)]
         for source in code.range(0, tiles):
             down = (rows[tile] - rows[source]) * SIDE
@@ -109,21 +109,19 @@ def sum_pairs(
 @kernel
 def add_near_sources(
     code: Code,
-    begin: Index,
-    end: Index,
-    map: TilePlaces,
     tiles: Index,
+    map: TilePlaces,
     reach: Index,
     sources: Sources,
     influence: Vector,
     sums: Vector,
 ) -> None:
-    """Add to some of the tiles, from begin to end, the sums over the sources of tiles near them.
+    """Add to each of so many tiles the sums over the sources of tiles near it.
 
     Near are `reach` tiles to each side. The influence is at offsets of cells from the middle of rows of eight tiles.
     """
     middle = WIDE // 2 * WIDE + WIDE // 2
-    for tile in code.range(begin, end):
+    for tile in _shared(code, tiles):
         totals: list[tuple[Local[Number], int, int]] = [
             (code.variable(sums[((tile * SIDE + y) * SIDE + x).lanes]), y, x)
             for y in range(SIDE)
@@ -145,20 +143,20 @@ def add_near_sources(
 @kernel
 def sum_stencil_on_tiles(
     code: Code,
-    begin: Index,
-    end: Index,
+    tiles: Index,
     map: TilePlaces,
     x: Vector,
     y: Vector,
     weights: Vector,
     scratch: Vector,
 ) -> None:
-    """Write to some tiles of y the weighted sums over the cells of x near each; see `sum_stencil`.
+    """Write to so many tiles of y the weighted sums over the cells of x near each; see `sum_stencil`.
 
-    Scratch holds the rows of three by three tiles that such sums look at.
+    Scratch holds the rows of three by three tiles that such sums look at, for each thread.
     """
     wide = 3 * SIDE
-    for tile in code.range(begin, end):
+    scratch = scratch + code.thread * NEAR_ROWS
+    for tile in _shared(code, tiles):
         for k in range(9):
             of, first = (
                 map.numbers[map.places[tile] + map.across * (k // 3 - 1) + (k % 3 - 1)],
@@ -200,12 +198,18 @@ def _blocks_of(code: Code, blocks: Blocks) -> Iterator[tuple[Index, Iterator[Ind
     """Loop over the blocks of tiles: where each is in the plane of blocks, and its cells."""
     tiles, places, across, side = blocks
     many = code.index(SIDE) // side
-    for tile in code.range(0, tiles):
+    for tile in _shared(code, tiles):
         for down in code.range(0, many):
             for right in code.range(0, many):
                 first = (tile * SIDE + down * side) * SIDE + right * side
                 cells = (first + y * SIDE + x for y in code.range(0, side) for x in code.range(0, side))
                 yield places[tile] + down * across + right, cells
+
+
+def _shared(code: Code, tiles: Index) -> Iterator[Index]:
+    """Loop over tiles, some of which a thread takes at once."""
+    for part in code.shared(0, (tiles + (TOGETHER - 1)) // TOGETHER):
+        yield from code.range(part * TOGETHER, (part * TOGETHER + TOGETHER).min(tiles))
 
 
 def _lanes(code: Code) -> range:

@@ -1,4 +1,4 @@
-"""Sums, and largest ones, of what a loop finds."""
+"""Sums, and largest ones, of what a loop finds, part by part."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from roughcontact.kernels.code import Code, Local
 from roughcontact.kernels.signature import Doubles
-from roughcontact.kernels.values import Number, maximum, where
+from roughcontact.kernels.values import Index, Number, maximum, where
 
 __all__ = ["Totals"]
 
@@ -17,6 +17,8 @@ class Totals:
     Parameters
     ----------
     code : Code
+    memory : Doubles
+        Where they are written, those of all at first, with room for those of each part.
     sums, largest : int
         How many numbers.
     least : float
@@ -30,14 +32,28 @@ class Totals:
     """
 
     def __init__(
-        self, code: Code, sums: int, largest: int = 0, *, least: float = -math.inf, compensated: bool = False
+        self,
+        code: Code,
+        memory: Doubles,
+        sums: int,
+        largest: int = 0,
+        *,
+        least: float = -math.inf,
+        compensated: bool = False,
     ) -> None:
-        self._code, self._largest, self._compensated = code, largest, compensated
-        starts = [least] * largest + [0.0] * sums
+        self._code, self._memory, self._largest, self._compensated = code, memory, largest, compensated
+        self._starts = [least] * largest + [0.0] * sums
         self._lanes, self._ones = (
-            [(code.variable(zero.filled(start)), code.variable(zero.filled(0.0))) for start in starts]
+            [(code.variable(zero), code.variable(zero)) for _ in self._starts]
             for zero in (code.lanes(0.0).double(), code.number(0.0).double())
         )
+
+    def clear(self) -> None:
+        """Begin with a part."""
+        for kind in (self._lanes, self._ones):
+            for start, (total, lost) in zip(self._starts, kind, strict=True):
+                total.set(total.first.filled(start))
+                lost.set(lost.first.filled(0.0))
 
     def add(self, *numbers: Number) -> None:
         """Count some numbers, one in each lane or single ones."""
@@ -52,12 +68,23 @@ class Totals:
             else:
                 total.set(total.get() + found)
 
-    def store(self, memory: Doubles) -> None:
-        """Write them down one after the other."""
+    def store(self, part: Index) -> None:
+        """Write down those of a part."""
+        first = part * len(self._starts)
         for place, ((lanes, _), (one, _)) in enumerate(zip(self._lanes, self._ones, strict=True)):
             combine = maximum if place < self._largest else Number.__add__
             found = combine(self._code.across(lanes.get(), combine), one.get())
-            memory[self._code.index(place)] = found
+            self._memory[first + place] = found
+
+    def combine(self, parts: Index) -> None:
+        """Write down those of all, in the order of the parts, when all are done: one thread does."""
+        code, memory, count = self._code, self._memory, len(self._starts)
+        with code.when(code.thread.equals(0)):
+            for part in code.range(1, parts):
+                for place in range(count):
+                    combine = maximum if place < self._largest else Number.__add__
+                    at = code.index(place)
+                    memory[at] = combine(memory[part * count + place], memory[at])
 
 
 def _add_compensated(total: Local[Number], lost: Local[Number], number: Number) -> None:

@@ -214,6 +214,22 @@ class Memory(Generic[T]):
         if at.wide:
             instruction.align = size
 
+    def add(self: Memory[Index], at: Index, number: int) -> Index:
+        """Add to an index that other threads look at as well, and return what it was."""
+        return self._exchanged("add", at, number)
+
+    def swap(self: Memory[Index], at: Index, number: int) -> Index:
+        """Make it another, and return what it was."""
+        return self._exchanged("xchg", at, number)
+
+    def current(self: Memory[Index], at: Index) -> Index:
+        """Return what it is now."""
+        return Index(self.builder.load_atomic(self.place(at), "seq_cst", 8), self.builder)
+
+    def _exchanged(self: Memory[Index], operation: str, at: Index, number: int) -> Index:
+        value = ir.Constant(INDEX, number)
+        return Index(self.builder.atomic_rmw(operation, self.place(at), value, "seq_cst"), self.builder)
+
     def place(self, at: Index) -> Any:
         """Return the address of a value."""
         return self.builder.gep(self.pointer, [at.value])

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import ROUNDINGS
-from roughcontact.kernels.groups import Groups
+from roughcontact.kernels.groups import Cells, Groups
 from roughcontact.kernels.signature import Doubles, Indices, Scalar, Vector, kernel
 from roughcontact.kernels.stencil import sum_near
 from roughcontact.kernels.totals import Totals
@@ -62,12 +62,11 @@ def correct_and_dot(
     sums: Doubles,
 ) -> None:
     """``z := m (z - s e c)``; leave e.z, z.v, the sum of z, and c.(m v)."""
-    totals = Totals(code, 4)
-    for i in groups.cells(code):
+    totals = Totals(code, sums, 4)
+    for i in groups.cells(code, totals):
         new = (z[i] - e[i] * c[i] * s) * m[i]
         z[i] = new
         totals.add(e[i] * new, new * v[i], new, c[i] * v[i] * m[i])
-    totals.store(sums)
 
 
 @kernel
@@ -89,11 +88,10 @@ def dot_products(
     code: Code, groups: Groups, t: Vector, v: Vector, m: Vector, r: Vector, sums: Doubles
 ) -> None:
     """Leave t.v, m.v, r.t, r.(m t), m.t and m.r."""
-    totals = Totals(code, 6)
-    for i in groups.cells(code):
+    totals = Totals(code, sums, 6)
+    for i in groups.cells(code, totals):
         inside = m[i] * t[i]
         totals.add(t[i] * v[i], m[i] * v[i], r[i] * t[i], r[i] * inside, inside, m[i] * r[i])
-    totals.store(sums)
 
 
 @kernel
@@ -109,13 +107,12 @@ def axpy_and_max(
     most: Doubles,
 ) -> None:
     """``x := x + a t`` and ``e := m r``; leave the largest entry of abs(e)."""
-    totals = Totals(code, 0, 1, least=0.0)
-    for i in groups.cells(code):
+    totals = Totals(code, most, 0, 1, least=0.0)
+    for i in groups.cells(code, totals):
         x[i] = x[i] + t[i] * a
         masked = r[i] * m[i]
         e[i] = masked
         totals.add(abs(masked))
-    totals.store(most)
 
 
 @kernel
@@ -123,10 +120,9 @@ def masked_sums(
     code: Code, groups: Groups, base: Vector, change: Vector, m: Vector, r: Vector, sums: Doubles
 ) -> None:
     """Leave the sums of ``base + change`` and of m, and m.r."""
-    totals = Totals(code, 3)
-    for i in groups.cells(code):
+    totals = Totals(code, sums, 3)
+    for i in groups.cells(code, totals):
         totals.add(base[i] + change[i], m[i], r[i] * m[i])
-    totals.store(sums)
 
 
 @kernel
@@ -141,11 +137,10 @@ def subtract_affine(
 @kernel
 def max_violation(code: Code, groups: Groups, base: Vector, change: Vector, m: Vector, most: Doubles) -> None:
     """Leave the largest violation of ``p >= 0`` inside and of ``p = 0`` elsewhere by ``p = base + change``."""
-    totals = Totals(code, 0, 1, least=0.0)
-    for i in groups.cells(code):
+    totals = Totals(code, most, 0, 1, least=0.0)
+    for i in groups.cells(code, totals):
         p = rounded_sum(code, base[i], change[i])
         totals.add(maximum(p - p * m[i], -p))
-    totals.store(most)
 
 
 @kernel
@@ -168,8 +163,8 @@ def project_step(
     Cells that it would take below zero go to zero, and leave the mask. Leave how many these are, the sum of what all
     cells were taken to zero by, the sum of what the projection added to t, and the sum of c over cells that left.
     """
-    totals = Totals(code, 4)
-    for i in groups.cells(code):
+    totals = Totals(code, sums, 4)
+    for i in groups.cells(code, totals):
         was, p = m[i], base[i] + change[i]
         new = (t[i] * beta + z[i] - c[i] * shift) * (was * step)
         t[i] = new
@@ -184,23 +179,21 @@ def project_step(
             t[i] = projected
             gone = was - stays
             totals.add(gone, abs(lifted), projected - new, c[i] * gone)
-    totals.store(sums)
 
 
 @kernel
-def mask_above(code: Code, n: Index, m: Vector, r: Vector, least: Scalar, most: Doubles) -> None:
+def mask_above(code: Code, cells: Cells, m: Vector, r: Vector, least: Scalar, most: Doubles) -> None:
     """``m := 1`` where r is above `least`, and above zero; leave the largest r of those that were 0 before, or 0."""
-    totals = Totals(code, 0, 1, least=0.0)
-    for i in code.each(n):
+    totals = Totals(code, most, 0, 1, least=0.0)
+    for i in cells.each(code, totals):
         outside = r[i] - r[i] * m[i]
         above = where(~(r[i] <= least), outside, 0.0)
         m[i] = maximum(m[i], above.heaviside())
         totals.add(above)
-    totals.store(most)
 
 
 @kernel
-def subtract_shifted(code: Code, n: Index, r: Vector, v: Vector, a: Scalar, mean: Scalar) -> None:
+def subtract_shifted(code: Code, cells: Cells, r: Vector, v: Vector, a: Scalar, mean: Scalar) -> None:
     """``r := r - a (v - mean)`` on a whole field."""
-    for i in code.each(n):
+    for i in cells.each(code):
         r[i] = r[i] - (v[i] - mean) * a

@@ -30,7 +30,7 @@ STALE_CONSTRAINT_DIRECTION = 0.03  # of the cells of F: lost ones after which M^
 
 # --- direct, inner_operator: which way to solve, timed ---
 DIRECT_CELLS = 2000  # cells: a matrix of 32 MB; time grows with the third power beyond
-DIRECT_BESIDE_TILES = 1200  # cells, where some thirty products on few tiles compete
+DIRECT_BESIDE_TILES = 700  # cells, where some thirty products on few tiles or by shared transforms compete
 DIRECT_ROUGHLY = 300  # cells, where the answer is but the start of another, against a few products
 ROUGH_TOLERANCE = 1e-5  # tolerance of such an answer
 # Of the unknowns: to deactivate one costs two triangular solves, a new factorisation a sixth of the cells as many.

@@ -10,9 +10,8 @@ import numpy.typing as npt
 
 from roughcontact.halfspace.influence.tables import Tables
 from roughcontact.halfspace.sums.tiles import Tiles, list_loaded
-from roughcontact.kernels.constants import APART
 from roughcontact.kernels.loader import functions
-from roughcontact.threads import join_in, threads
+from roughcontact.threads import threads
 
 __all__ = ["DirectSum"]
 
@@ -51,12 +50,11 @@ class DirectSum:
         precision, size = self.kernel.dtype.name, len(self.rows)
         given = np.ascontiguousarray(pressure, dtype=precision)
         starts, shifts, loaded = list_loaded(given)
-        sums, counters = np.empty(given.shape, precision), np.zeros(2 * APART, np.int64)
-        sum_pairs = functions("tile_kernels", precision)["sum_pairs"]
+        sums, workers = (
+            np.empty(given.shape, precision),
+            threads() if starts[-1] * size >= PAIRS_FOR_THREADS else 1,
+        )
         where, sources = (self.rows, self.columns), (starts, shifts, loaded)
-
-        def join(_: int) -> None:
-            sum_pairs(counters, size, *where, *sources, self.kernel, self.kernel.shape[1], sums)
-
-        join_in(join, threads() if starts[-1] * size >= PAIRS_FOR_THREADS else 1)
+        sum_pairs = functions("tile_kernels", precision)["sum_pairs"]
+        sum_pairs(size, *where, *sources, self.kernel, self.kernel.shape[1], sums, workers=workers)
         return sums

@@ -28,7 +28,7 @@ from roughcontact.halfspace.sums.tile_inverse import TileInverse
 from roughcontact.halfspace.sums.tiles import SIDE, TileMap, Tiles, count, list_loaded
 from roughcontact.kernels import loader
 from roughcontact.kernels.loader import functions
-from roughcontact.threads import spread
+from roughcontact.threads import threads
 from roughcontact.transforms import Convolution, padded_length
 from roughcontact.validation import Mask
 
@@ -42,7 +42,7 @@ LEAST_PLANE = 60_000  # cells of a plane from which on tiles may cost less (benc
 # Tiles up to which a direct sum over their cells costs less than one by nodes (benchmarks/pairs.py --tuning MOST).
 MOST_DIRECT_TILES = 120
 SHORT_RANGE = 3  # tiles to which the short-range part of the influence goes
-TILES_PER_TASK = 512  # tiles whose sums one thread adds up at a time
+TILES_FOR_THREADS = 64  # tiles from which on a second thread comes in time
 WIDEST_STEP = 2 / 3  # of the screening length, between nodes at most
 STEPS = (1, 2, 4)  # cells from node to node that may be taken
 
@@ -91,15 +91,9 @@ class MeshSum:
         given = np.ascontiguousarray(values, dtype=np.float32)
         waves: Single = self.parts.long_range.apply(self.mesh.assign(given))
         sums = np.ascontiguousarray(self.mesh.interpolate(waves))
-        sources, add_near_sources = list_loaded(given), code["add_near_sources"]
-        numbers, places = self.map.numbers, self.map.places
-
-        def add_near(start: int) -> None:
-            end = min(start + TILES_PER_TASK, size)
-            some = start, end, numbers, numbers.shape[1], places, size, SHORT_RANGE
-            add_near_sources(*some, *sources, self.parts.short_range, sums)
-
-        spread(add_near, range(0, size, TILES_PER_TASK))
+        numbers, workers = self.map.numbers, threads() if size >= TILES_FOR_THREADS else 1
+        given_ = size, numbers, numbers.shape[1], self.map.places, SHORT_RANGE, *list_loaded(given)
+        code["add_near_sources"](*given_, self.parts.short_range, sums, workers=workers)
         return sums
 
 

@@ -10,16 +10,16 @@ import numpy.typing as npt
 
 from roughcontact.halfspace.sums.local_inverse import BLOCK, LocalInverse
 from roughcontact.halfspace.sums.tiles import SIDE, TileMap, Tiles, count
-from roughcontact.kernels.constants import WIDTH
+from roughcontact.kernels.constants import NEAR_ROWS
 from roughcontact.kernels.loader import functions
-from roughcontact.threads import spread
+from roughcontact.threads import threads
 
 __all__ = ["TileInverse"]
 
 Single = npt.NDArray[Any]  # of single precision
 Indices = npt.NDArray[np.int64]
 
-TILES_PER_TASK = 2048  # tiles that one thread takes at a time
+TILES_FOR_THREADS = 256  # tiles from which on a second thread comes in time
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,18 +59,14 @@ class TileInverse:
         pressure = np.empty(displacement.shape, dtype=np.float32)
         weights = self.local.near.astype(np.float32)
         numbers, places = self.map.numbers, self.map.places
-        sum_near = code["sum_stencil_on_tiles"]
-
-        def near(start: int) -> None:
-            scratch = np.empty(3 * SIDE * (SIDE + 2 * len(weights)) + WIDTH, dtype=np.float32)
-            some = start, min(start + TILES_PER_TASK, size), numbers, numbers.shape[1], places
-            sum_near(*some, field, pressure, weights, scratch)
-
-        spread(near, range(0, size, TILES_PER_TASK))
+        workers = threads() if size >= TILES_FOR_THREADS else 1
+        scratch = np.empty((workers, NEAR_ROWS), dtype=np.float32)
+        map_ = numbers, numbers.shape[1], places
+        code["sum_stencil_on_tiles"](size, *map_, field, pressure, weights, scratch, workers=workers)
         if self.local.far is not None:
             blocks: Single = np.zeros(self.shape, dtype=np.float32)
             all_ = size, self.places, self.shape[1], BLOCK
-            code["sum_blocks_of_tiles"](*all_, field, blocks)
+            code["sum_blocks_of_tiles"](*all_, field, blocks, workers=workers)
             far = np.ascontiguousarray(self.local.far.apply(blocks))
-            code["add_blocks_to_tiles"](*all_, pressure, far)
+            code["add_blocks_to_tiles"](*all_, pressure, far, workers=workers)
         return pressure
