@@ -524,3 +524,29 @@ def test_processes_forked_while_others_press_all_finish():
         assert codes == [0] * 50, codes
         """
     )
+
+
+@forks
+def test_a_forked_process_shares_kernels_with_threads_of_its_own():
+    """Whoever forks while another leads: nobody is there to be waited for, and the bits are those of the parent."""
+    run_forking(
+        """
+        import numpy as np
+        import roughcontact as rc
+        from roughcontact.threads import limit_threads
+        def press():
+            with limit_threads(3):
+                return rc.press(rough, 1.0, force=0.05).pressure.tobytes()
+        def go_on():
+            while not done:
+                press()
+        rough = rc.self_affine(rc.Grid((192, 192), 1 / 192, True), 0.8, 0.01, np.random.default_rng(0))
+        done, known = [], press()
+        beside = threading.Thread(target=go_on, daemon=True)
+        beside.start()
+        codes = [ended(fork(lambda: press() == known)) for _ in range(10)]
+        done.append(True)
+        beside.join()
+        assert codes == [0] * 10, codes
+        """
+    )

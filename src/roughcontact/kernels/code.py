@@ -6,14 +6,13 @@ lanes, as many as a processor takes in one instruction. README.md beside this fi
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any, Generic, TypeVar
 
-from llvmlite import ir
+from llvmlite import binding, ir
 
 from roughcontact.kernels.constants import APART, PHASES, WIDTH
 from roughcontact.kernels.signature import KernelDefinition, Parameter, Vector
@@ -35,9 +34,8 @@ T = TypeVar("T", Number, Index)
 # What a kernel is given that is called from Python: its arguments in eight bytes each, counters, and the thread.
 PACKED = (INDEX.as_pointer(), INDEX.as_pointer(), INDEX)
 # What tells a processor that a thread but waits for memory to change: LLVM's names, and their arguments.
-PAUSES = dict.fromkeys(("x86_64", "amd64"), ("llvm.x86.sse2.pause", ())) | dict.fromkeys(
-    ("aarch64", "arm64"), ("llvm.aarch64.isb", (ir.Constant(ir.IntType(32), 15),))
-)
+ISB = "llvm.aarch64.isb", (ir.Constant(ir.IntType(32), 15),)
+PAUSES = {"x86_64": ("llvm.x86.sse2.pause", ()), "aarch64": ISB, "arm64": ISB}
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +173,7 @@ class Code:
 
     def pause(self) -> None:
         """Wait a moment, where another thread is waited for."""
-        name, given = PAUSES.get(platform.machine().lower(), ("", ()))
+        name, given = PAUSES.get(binding.get_default_triple().partition("-")[0], ("", ()))
         if name:
             kind, module = ir.FunctionType(ir.VoidType(), [x.type for x in given]), self.function.module
             self.builder.call(module.globals.get(name) or ir.Function(module, kind, name), given)

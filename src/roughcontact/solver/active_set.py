@@ -41,7 +41,7 @@ __all__ = ["ActiveSet"]
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    Free sets of up to `dense_limit` cells (of a half-space that has tiles 1200 at most, 300 where the tolerance is
+    Free sets of up to `dense_limit` cells (of a half-space that has tiles 700 at most, 300 where the tolerance is
     loose) are solved by a factorisation, larger ones by bound-constrained conjugate gradients in single precision, on
     the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. The
     influence matrix of the half-space is close to an inverse M-matrix, for which the method is finite at given depth;
