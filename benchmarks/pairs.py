@@ -43,7 +43,7 @@ TUNED = {
         *("LIST_FILLING", "LARGE_BOX", "KEPT_BOX", "SMALLER_BOX", "COARSEST", "FACTOR_FOUR"),
         *("COARSE_TOLERANCE", "SUMMITS", "SLAB"),
     ),
-    active_cells: ("FEW",),
+    active_cells: ("FEW", "SEVERAL"),
     compiled_convolution: ("LARGE",),
     particle_mesh: ("LEAST_PLANE", "MOST_DIRECT_TILES"),
     tables: ("SMALL_TABLE",),
