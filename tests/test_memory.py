@@ -11,7 +11,7 @@ import roughcontact as rc
 from roughcontact import memory
 from roughcontact.contact.problem import LEAST_BYTES
 
-SIDE = 1024  # the fewest cells of which it is asked
+SIDE = 1536  # of so many cells it is asked
 
 
 @pytest.fixture
@@ -41,19 +41,21 @@ def spike():
 
 
 def test_a_press_that_cannot_fit_is_refused(spike, machine):
+    """With an operator of the caller's, of which no more is known than what every press takes."""
     machine(free=LEAST_BYTES * SIDE**2 - 1)
     told = (
-        "pressing 1024 x 1024 cells needs 0.0178 GB of memory at least, and 0.0178 GB are there: press a part"
+        "pressing 1536 x 1536 cells needs 0.0212 GB of memory at least, and 0.0212 GB are there: press a part"
     )
     for verb in (rc.press, rc.loading_path, rc.loading_curve):
         loads = {"force": 1e-9} if verb is rc.press else {"forces": [1e-9]}
         with pytest.raises(ValueError, match=told):
-            verb(spike, 1e9, **loads)
+            verb(spike, 1e9, operator=rc.half_space(spike.grid, 1e9), **loads)
 
 
 def test_a_press_within_the_bound_is_tried(spike, machine):
     machine(free=LEAST_BYTES * SIDE**2)
-    assert rc.press(spike, 1e9, force=1e-9).contact.sum() == 1
+    body = rc.half_space(spike.grid, 1e9)
+    assert rc.press(spike, 1e9, force=1e-9, operator=body).contact.sum() == 1
 
 
 @pytest.mark.parametrize("verb", [rc.press, rc.loading_curve])

@@ -147,7 +147,7 @@ class TestMemory:
 
     def test_a_surface_that_was_read_may_be_too_large_to_press(self, invoke, rough, monkeypatch):
         monkeypatch.setattr(memory, "SMALL", 0)
-        monkeypatch.setattr(memory, "most_memory", lambda: 1e4)
+        monkeypatch.setattr(memory, "most_memory", lambda: 6e3)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("press", rough, "--force", "1mN", "--modulus", "1GPa")
         assert answer.exit_code == BAD_INPUT

@@ -13,7 +13,10 @@ from roughcontact.kernels.planes import (
     Extremes,
     add_scaled,
     extremes,
+    fit,
     level_range,
+    positive_part,
+    positive_total,
     predict_active,
     scale_down,
 )
@@ -149,6 +152,30 @@ def test_level_range(sized, share):
     found, level = level_range(s, u, region), (s + u)[region]
     assert (found.highest, found.lowest) == (level.max(), level.min())
     close(found.mean * level.size, level)
+
+
+@many
+@given(shapes(), st.sampled_from([0.0, 0.05, 1.0]), st.sampled_from([0.0, 0.2, 1.0]))
+def test_the_positive_part(sized, share, missing):
+    shape, rng = sized
+    p, u, s = given_to(rng, shape, share, missing)
+    p += np.where(np.isinf(s), 5.0, 0.0) + np.minimum(u, 0.0)  # some on missing cells, and some that pull
+    read_only(p, s)
+    wanted = np.where((p > 0) & np.isfinite(s), p, 0.0)
+    close(positive_total(p, s), wanted)
+    found = positive_part(p, s, 0.7)
+    assert (found.dtype, found.shape) == (np.float64, shape)
+    np.testing.assert_array_equal(found, wanted * 0.7)
+
+
+def test_fields_that_fit_are_of_double_precision_and_one_shape_and_lie_row_by_row():
+    field = np.zeros((4, 6))
+    assert fit(field)
+    assert fit(field, field.copy())
+    for other in (field.astype(np.float32), field.astype(">f8"), field[:, ::2], field.T, field[:3], field[0]):
+        assert not fit(field, other)
+        assert not fit(other, field)
+    assert not fit("field")
 
 
 @many

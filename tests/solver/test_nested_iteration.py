@@ -8,6 +8,7 @@ import pytest
 import roughcontact as rc
 from libraries import Strict
 from roughcontact.arrays import namespace
+from roughcontact.kernels import loader
 from roughcontact.solver import nested_iteration, tuning
 from roughcontact.solver.control import Depth, State, Status
 from roughcontact.solver.nested_iteration import (
@@ -16,6 +17,7 @@ from roughcontact.solver.nested_iteration import (
     coarse_operator,
     nested_start,
 )
+from roughcontact.threads import limit_threads
 
 SHAPES = [(8, 6), (7, 6), (8, 5), (9, 7), (1, 8), (2, 2)]
 
@@ -51,12 +53,32 @@ def test_a_plane_has_its_mean():
 
 @pytest.mark.parametrize("rows", [1, 2, 7, 20, 21, 45])
 def test_rows_are_worked_on_in_slabs(rows, monkeypatch):
-    """Of 20 here: none of them, some, whole ones, and an odd row at last."""
+    """Of 20 here: none of them, some, whole ones, and an odd row at last; machine code needs none."""
     field = np.random.default_rng(5).random((rows, 10))
     field[rows // 2, 3] = np.inf
+    monkeypatch.setattr(nested_iteration.planes, "fit", lambda field: False)
     whole = block_separation(field, (2, 2))
     monkeypatch.setattr(tuning, "SLAB", 20)
     np.testing.assert_array_equal(block_separation(field, (2, 2)), whole)
+
+
+@pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
+@pytest.mark.parametrize("shape", [(2, 2), (6, 10), (260, 130), (512, 512)])
+@pytest.mark.parametrize("missing", [0.0, 0.2, 1.0])
+def test_machine_code_raises_blocks_as_arrays_do(shape, missing, monkeypatch):
+    """Up to rounding: it takes a product and a sum at once."""
+    rng = np.random.default_rng(6)
+    field = rng.standard_normal(shape)
+    field[rng.random(shape) < missing] = np.inf
+    with limit_threads(2):
+        found = block_separation(field, (2, 2))
+    monkeypatch.setattr(nested_iteration.planes, "fit", lambda field: False)
+    wanted = block_separation(field, (2, 2))
+    np.testing.assert_array_equal(np.isinf(found), np.isinf(wanted))
+    there = np.isfinite(wanted)
+    size = np.abs(field).reshape(shape[0] // 2, 2, shape[1] // 2, 2).sum(axis=(1, 3))
+    # The sum and what stands out of it: no number is larger than three times the sum of the sizes.
+    assert (np.abs(found[there] - wanted[there]) <= 6 * np.finfo(float).eps * size[there]).all()
 
 
 @pytest.mark.parametrize("out", [1.0, -1.0])

@@ -267,6 +267,7 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     p, u, s = np.random.default_rng(4).random((3, 5, 7))
     asked = []
     seen = SimpleNamespace(
+        fit=planes.fit,
         extremes=lambda *given: asked.append("extremes") or planes.extremes(*given),
         predict_active=lambda *given, **named: (
             asked.append("predict_active") or planes.predict_active(*given, **named)

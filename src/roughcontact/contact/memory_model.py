@@ -85,11 +85,12 @@ class MemoryModel:
         least = 2 * PLANE + 2  # separation, pressure and two masks
         if touch.overlap > tuning.LIST_FILLING * touch.box:
             return max(least * self._cells, self._peak(plane=PLANE + 1, box=PLANE, touch=touch, less=0))
-        table = 3 * PLANE  # of the box, and the same to both sides
+        table, kept = 3 * PLANE, self._separations(self._cells)  # of the box, and the same to both sides
         count, padded = touch.overlap * self._cells, 4 * touch.box * self._cells
         if (count / MARGIN) ** 2 / 4 > tuning.LOOKUPS * padded:
             table += 4 * PLANE  # products on the box: kernel, spectrum, answer
-        return round(self._cells * (least + touch.box * table) + self._factor(touch))
+            kept += self._pooled(touch.box * self._cells, 0, PLANE)
+        return round(self._cells * (least + touch.box * table) + kept + self._factor(touch))
 
     def _curve(self, touch: Touch) -> int:
         """Return the peak with the last tangent, the next, and its region."""
@@ -129,8 +130,8 @@ class MemoryModel:
         kernels = (PLANE + 4) * along * across / 4
         held = plane * self._cells + (box + table + kernels) * boxed
         single, double = SINGLE_SUM * (1 + across), DOUBLE_SUM * (1 + across) + less
-        own, coarser = self._pooled(boxed, 29 + single, 2 * PLANE + double), 0.0
-        cells = boxed
+        own = self._pooled(boxed, 29 + single, 2 * PLANE + double)
+        coarser, cells = self._separations(boxed) if levels else 0.0, boxed
         while levels and cells > tuning.COARSEST**2:
             cells /= 16 if cells <= tuning.FACTOR_FOUR**2 else 4
             coarser += self._pooled(cells, 29 + single, 2 * PLANE + double)
@@ -141,6 +142,7 @@ class MemoryModel:
             tiles = min(TILES_AT_MOST, TILES * touch.contact) * (VECTORS + 4 * single) * boxed
             factor = self._factor(touch, lighter=lighter)
             kept = coarser / 2 + (lent if factor or not self._whole else 0.0)
+            kept += self._pooled(boxed, 0, PLANE)  # of the pressure that the load began with
             return round(exact + tiles + min(MOST, kept) + factor)
         inner = held + (VECTORS + single) * boxed + min(MOST, coarser)
         return round(max(inner, exact + min(MOST, shapes * own + coarser - lent)))
@@ -149,6 +151,11 @@ class MemoryModel:
         """Return what is kept for the next time of planes of so many cells [bytes], see `kernels.buffers`."""
         kept = single * cells if SMALL <= 4 * cells < LARGE else 0.0
         return kept + (double * cells if SMALL <= PLANE * cells < LARGE else 0.0)
+
+    def _separations(self, cells: float) -> float:
+        """Return what is kept of the separations of all coarser grids of so many cells [bytes]."""
+        halvings = range(1, max(round(math.log2(max(cells, 1) / tuning.COARSEST**2) / 2), 0) + 1)
+        return sum(self._pooled(cells / 4**k, 0, PLANE) for k in halvings)
 
     def _factor(self, touch: Touch, *, lighter: bool = False) -> float:
         """Return what the factorised matrix of a small contact takes, or the largest of lighter loads [bytes]."""

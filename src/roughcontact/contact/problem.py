@@ -7,12 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
+import numpy as np
+
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.flow import Flow
 from roughcontact.contact.size_law import SizeLaw
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
+from roughcontact.kernels import buffers
 from roughcontact.memory import require_memory
 from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
 from roughcontact.solver.inner_product import Measure
@@ -35,8 +38,8 @@ Body = Surface | RadialProfile
 
 
 # A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
-# `separation_of` two fields of eight bytes are alive, and the mask of missing cells; all three are written throughout.
-LEAST_BYTES = 17
+# `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
+LEAST_BYTES = 9
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -337,9 +340,12 @@ def separation_of(surface: Body) -> Array:
     xp = namespace(surface.heights)
     # In single precision no certificate could be met.
     heights = xp.astype(surface.heights, xp.float64, copy=False)
+    if is_numpy(heights):  # planes are large: no more than the answer and a mask are made
+        apart = buffers.empty(heights.shape, np.float64)
+        np.subtract(np.fmax.reduce(heights, axis=None), heights, out=apart)
+        np.copyto(apart, math.inf, where=np.isnan(apart))
+        apart.flags.writeable = False
+        return apart
     missing = xp.isnan(heights)
     separation: Array = xp.max(xp.where(missing, -math.inf, heights)) - heights
-    separation = xp.where(missing, math.inf, separation)
-    if is_numpy(separation):
-        separation.flags.writeable = False
-    return separation
+    return xp.where(missing, math.inf, separation)  # type: ignore[no-any-return]

@@ -1,4 +1,4 @@
-"""Sums over square blocks of a plane, and what adds to each cell what its block has."""
+"""Sums over square blocks of a plane, their separations, and what adds to each cell what its block has."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from roughcontact.kernels.code import Code
-from roughcontact.kernels.signature import Indices, Vector, kernel
-from roughcontact.kernels.values import Index
+from roughcontact.kernels.signature import Double, Doubles, Indices, Vector, kernel
+from roughcontact.kernels.values import Index, maximum, where
 
 
 class Plane(NamedTuple):
@@ -85,6 +85,23 @@ def add_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
         for y in code.range(block * side, (block * side + side).min(ny)):
             for k in code.each(nx):
                 x[y * nx + k] = x[y * nx + k] + row[k]
+
+
+@kernel
+def raise_blocks(code: Code, ny: Index, nx: Index, share: Double, s: Doubles, blocks: Doubles) -> None:
+    """Write the mean of each block of 2 x 2 cells of s, less a share of how far they stand out of their plane.
+
+    It is no less than the lowest of them, and the lowest where one is infinite. Both sides are even.
+    """
+    across = nx // 2
+    for row in code.shared(0, ny // 2):
+        for k in code.range(0, across):
+            at = row * nx * 2 + k * 2
+            a, b, c, d = (s[at + nx * down + right] for down in (0, 1) for right in (0, 1))
+            out_of_it = abs((a - c) - (b - d))
+            wanted = (((a + c) + (b + d)) - out_of_it * share) * 0.25
+            upper, lower = (where(x < y, x, y) for x, y in ((a, b), (c, d)))
+            blocks[row * across + k] = maximum(wanted, where(upper < lower, upper, lower))
 
 
 @kernel

@@ -30,7 +30,7 @@ Block = tuple[dict[str, Any], Memory]
 
 LINE = 64  # bytes of a line of the cache, with one of which all that is kept begins
 SMALL = 2**16  # bytes up to which the allocator keeps memory itself
-LARGE = 2**23  # bytes from which on it is kept within a loop alone
+LARGE = 2**24  # bytes from which on it is kept within a loop alone
 MOST = 2**26  # bytes that are kept in all, beside those
 FITTING = 1.25  # times as large as an array, up to which it takes a piece that another has left in a loop
 _kept: dict[Kind, list[Block]] = {}

@@ -116,3 +116,18 @@ def add_scaled(
     for i in cells.each(code):
         new = p[i] + change[i].double() * unit
         answer[i] = where(new > 0.0, new, 0.0) * m[i].double()
+
+
+@kernel
+def positive_total(code: Code, cells: Cells, p: Doubles, s: Doubles, totals: Doubles) -> None:
+    """Leave the sum of p where it is positive and s is finite."""
+    found = Totals(code, totals, 1, compensated=True)
+    for i in cells.each(code, found):
+        found.add(where((p[i] > 0.0) & (s[i] < math.inf), p[i], 0.0))
+
+
+@kernel
+def positive_part(code: Code, cells: Cells, p: Doubles, s: Doubles, a: Double, answer: Doubles) -> None:
+    """``answer := a max(p, 0)`` where s is finite, else 0."""
+    for i in cells.each(code):
+        answer[i] = where((p[i] > 0.0) & (s[i] < math.inf), p[i] * a, 0.0)

@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from roughcontact.kernels.buffers import empty_like
 from roughcontact.kernels.constants import WIDTH
-from roughcontact.kernels.distributed import Distributed, local, of_all
-from roughcontact.kernels.loader import code_for
+from roughcontact.kernels.distributed import Distributed, agreed, local, of_all
+from roughcontact.kernels.loader import code_for, takes
 from roughcontact.threads import threads
 from roughcontact.validation import Array, Mask
 
@@ -21,7 +21,10 @@ __all__ = [
     "LevelRange",
     "add_scaled",
     "extremes",
+    "fit",
     "level_range",
+    "positive_part",
+    "positive_total",
     "predict_active",
     "run_on_plane",
     "scale_down",
@@ -72,6 +75,17 @@ class LevelRange(NamedTuple):
     highest: float
     lowest: float
     mean: float
+
+
+def fit(*fields: Any) -> bool:
+    """Whether machine code takes some fields of one shape as they lie in memory, in double precision."""
+    if not takes(fields[0]):
+        return False
+    here, wanted = map(local, fields), (np.dtype(np.float64), local(fields[0]).shape, True)
+    alike = all(
+        isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in here
+    )
+    return agreed(fields[0], alike)
 
 
 def extremes(pressure: Array, displacement: Array, separation: Array) -> Extremes | None:
@@ -128,6 +142,20 @@ def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Ar
     answer: Array = empty_like(pressure, np.float64)
     run = code_for("plane_kernels", inside)["add_scaled"]
     run_on_plane(run, 0, 0, pressure, change, inside, unit, answer)
+    return answer
+
+
+def positive_total(pressure: Array, separation: Array) -> float:
+    """Return the sum of a pressure where it is positive and no cell is missing."""
+    run = code_for("plane_kernels", pressure)["positive_total"]
+    return run_on_plane(run, 0, 1, pressure, separation)[0]
+
+
+def positive_part(pressure: Array, separation: Array, scale: float) -> Array:
+    """Return a scaled pressure, zero where it would be negative or a cell is missing."""
+    answer: Array = empty_like(pressure, np.float64)
+    run = code_for("plane_kernels", pressure)["positive_part"]
+    run_on_plane(run, 0, 0, pressure, separation, scale, answer)
     return answer
 
 

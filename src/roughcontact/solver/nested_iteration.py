@@ -10,7 +10,9 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.kernels import buffers
+from roughcontact.kernels import buffers, planes
+from roughcontact.kernels.active_cells import raise_blocks
+from roughcontact.kernels.distributed import agreed, local
 from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
@@ -133,6 +135,10 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 
 
 def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
+    even = not any(n % 2 for n in local(separation).shape)
+    if factors == (2, 2) and planes.fit(separation) and agreed(separation, even):
+        raised: Array = raise_blocks(separation, tuning.SUMMITS)
+        return raised
     low = block_minimum(separation, factors)
     if factors != (2, 2):
         return low

@@ -14,8 +14,7 @@ import numpy as np
 
 from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.operator import Operator, self_influence
-from roughcontact.kernels import loader, planes
-from roughcontact.kernels.distributed import agreed, local
+from roughcontact.kernels import planes
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
@@ -49,13 +48,7 @@ class Iterate(NamedTuple):
 
     def fits_machine_code(self, plastic: bool = False) -> bool:
         """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
-        if plastic or not loader.takes(self.pressure):
-            return False
-        here, wanted = map(local, self), (np.dtype(np.float64), local(self.pressure).shape, True)
-        fit = all(
-            isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in here
-        )
-        return agreed(self.pressure, fit)
+        return not plastic and planes.fit(*self)
 
 
 class Evaluation(NamedTuple):

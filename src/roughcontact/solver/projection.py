@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
+from roughcontact.kernels import planes
 from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
@@ -60,6 +61,11 @@ def feasible_start(
     them alone by the depth.
     """
     xp = measure.xp
+    if not measure.varies and planes.fit(initial, separation):
+        total = float(measure.weights) * planes.positive_total(initial, separation)
+        if total > 0:
+            scale = control.value / total if isinstance(control, Force) else 1.0
+            return planes.positive_part(initial, separation, scale)
     p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
     if not bool(xp.any(p > 0)):
         lowest = separation == xp.min(separation)

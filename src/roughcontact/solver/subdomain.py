@@ -98,7 +98,9 @@ class SubdomainSolver:
             part = self.operator_on(subdomain)
             limits = replace(terms, hardness=restrict_hardness(terms.hardness, subdomain))
             inside = Start(restrict(start.take(), subdomain), start.depth)
-            state = resolve_contact(solver, part, restrict(separation, subdomain), limits, inside)
+            # Machine code takes fields whose numbers lie one after the other.
+            below = np.ascontiguousarray(restrict(separation, subdomain))
+            state = resolve_contact(solver, part, below, limits, inside)
             steps += state.steps
             overlap = separation < state.depth
             if np.count_nonzero(overlap) == np.count_nonzero(restrict(overlap, subdomain)):
