@@ -1,5 +1,7 @@
 """One surface in slabs: the same answers as in one process, on any number of them."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,9 @@ from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
 from roughcontact.kernels import buffers
 from roughcontact.slabs import exchange, levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
+from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.solver import complementarity
+from roughcontact.solver.complementarity import added_stiffness
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface import waves_in_slabs
 from slabs.together import together
@@ -188,6 +193,29 @@ def test_spots_are_those_of_one_process(size, shape, filled):
         # Sums of at most 1600 numbers of one sign: each addition rounds once.
         np.testing.assert_allclose(areas, whole.areas, rtol=1600 * 2.3e-16)
         np.testing.assert_allclose(loads, whole.loads, rtol=1600 * 2.3e-16)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", [(12, 9), (3, 8), (40, 40)], ids=str)
+@pytest.mark.parametrize("many", [10**6, 3])
+def test_what_cells_would_add_is_that_of_one_process(size, shape, many, monkeypatch):
+    """Cells near them lie on several processes; none has all."""
+    monkeypatch.setattr(complementarity, "MANY", many)
+    rng = np.random.default_rng(8)
+    pressed, weak = rng.random(shape) < 0.3, rng.random(shape) < 0.2
+    weak &= ~pressed
+    body = rc.half_space(rc.Grid(shape, 1e-6, periodic=True), 1.0)
+    whole = added_stiffness(body, pressed, weak)
+    assert math.isinf(whole) == (many == 3)
+
+    def work(communicator):
+        slabs = rc.Slabs(communicator)
+        rows = slabs.rows(shape[0])
+        return added_stiffness(body, slabs.array(pressed[rows]), slabs.array(weak[rows]))
+
+    monkeypatch.setattr(SlabArray, "gathered", lambda _: pytest.fail("no process has room for all"))
+    # A sum of positive numbers in another order.
+    assert together(size, work) == [pytest.approx(whole, rel=weak.sum() * 2.3e-16)] * size
 
 
 @pytest.mark.parametrize("hardness", [None, 3e7])

@@ -29,7 +29,7 @@ LIGHT, HEAVY = 0.003, 0.05
 MARGIN = 1.3  # of a number of cells that is not known better
 # In slabs, measured (benchmarks/slabs.py): for each cell of a process's share beside its heights, of a load, a curve,
 # and either without machine code; and while levels are solved that every process has as a whole.
-SHARE, CURVE_SHARE, PLAIN_SHARE = 65, 86, 109
+SHARE, CURVE_SHARE, PLAIN_SHARE = 60, 88, 109
 LEVELS, BESIDE_LEVELS = 22e6, 34
 
 

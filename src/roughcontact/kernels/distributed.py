@@ -6,12 +6,13 @@ them make the same calls in the same order.
 
 from __future__ import annotations
 
+import math
 from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Distributed", "agreed", "contiguous", "local", "of_all"]
+__all__ = ["Distributed", "agreed", "contiguous", "local", "of_all", "with_rows_beside"]
 
 Held = npt.NDArray[Any]
 
@@ -27,6 +28,11 @@ class Distributed(Protocol):
     @property
     def functions(self) -> Any:
         """What its processes do together."""
+        ...
+
+    @property
+    def edges(self) -> tuple[int, ...]:
+        """Where the rows of each process begin, and where the last ones end."""
         ...
 
     def like(self, local: Held) -> Any:
@@ -57,3 +63,17 @@ def of_all(field: Any, totals: list[float], largest: int) -> list[float]:
 def agreed(field: Any, verdict: bool) -> bool:
     """Whether all who hold a field find so."""
     return verdict if isinstance(field, np.ndarray) else bool(field.functions.agreed(verdict))
+
+
+def with_rows_beside(field: Any, count: int) -> tuple[Held, int, int]:
+    """Return the rows here with so many of those before and behind; which row is the first of these, and of those here.
+
+    They are fewer where the whole begins or ends.
+    """
+    if isinstance(field, np.ndarray):
+        return field, 0, 0
+    here, first = field.local, field.edges[field.functions.rank]
+    entries = math.prod(here.shape[1:])
+    before, behind = field.functions.beyond(field, count * entries)
+    rows = np.concatenate([before, here.reshape(-1), behind]).reshape(-1, *here.shape[1:])
+    return rows, first - before.size // max(entries, 1), first

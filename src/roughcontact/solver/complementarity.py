@@ -22,6 +22,7 @@ import numpy.typing as npt
 from roughcontact.arrays import beside, largest, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
 from roughcontact.kernels import planes
+from roughcontact.kernels.distributed import local, of_all, with_rows_beside
 from roughcontact.solver.control import Force, Solver, Start, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
@@ -58,17 +59,21 @@ def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
     The stiffness of a region is a capacity, which is submodular: a cell adds no more to the whole than to those pressed
     cells that are near it. Infinite for many cells.
     """
-    pressed, weak = on_host(pressed) > 0, on_host(weak) > 0
-    places, total = np.argwhere(weak), 0.0
-    if len(places) > MANY:
+    if int(namespace(weak).count_nonzero(weak)) > MANY:
         return math.inf
-    for place in places:
+    # In slabs each process sees to its own cells: no other has room for all.
+    pressed, weak = (f if local(f) is not f else on_host(f) > 0 for f in (pressed, weak))
+    rows, begin, own = with_rows_beside(pressed, NEAR)
+    total = 0.0
+    for place in np.argwhere(local(weak)):
+        place[0] += own
         start = np.maximum(place - NEAR, 0)
-        box = tuple(slice(first, at + NEAR + 1) for first, at in zip(start, place, strict=True))
-        near = np.ravel_multi_index(tuple((np.argwhere(pressed[box]) + start).T), pressed.shape)
+        box = [slice(first, at + NEAR + 1) for first, at in zip(start, place, strict=True)]
+        box[0] = slice(start[0] - begin, place[0] + NEAR + 1 - begin)
+        near = np.ravel_multi_index(tuple((np.argwhere(rows[tuple(box)]) + start).T), pressed.shape)
         cells = np.append(near, np.ravel_multi_index(tuple(place), pressed.shape))
         total += _stiffness(operator, cells) - (_stiffness(operator, near) if len(near) else 0.0)
-    return total
+    return of_all(pressed, [total], 0)[0]
 
 
 def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
