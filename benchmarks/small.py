@@ -10,7 +10,6 @@ import statistics
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from functools import partial
 
 import numpy as np
 
@@ -36,16 +35,20 @@ def milliseconds(n: int, periodic: bool) -> dict[float, float]:
     return {load: float(np.mean([least[load, k] for k in SEEDS])) for load in FORCES}
 
 
+def depth(surface: rc.Surface) -> float:
+    """Return a number of a load: a process that returned the solution would copy its maps."""
+    return rc.press(surface, 1.0, force=0.01 * 0.046).depth
+
+
 def throughputs() -> dict[str, float]:
     """Return how many surfaces are pressed a second, in three ways."""
     grid, rngs = rc.Grid((64, 64), 1 / 64), (np.random.default_rng(k) for k in range(MANY))
     surfaces = [rc.self_affine(grid, 0.8, 0.01, rng) for rng in rngs]
-    load = partial(rc.press, modulus=1.0, force=0.01 * 0.046)
 
     def by(pool: Executor) -> float:
         with pool:
-            list(pool.map(load, surfaces[: CHUNK * workers], chunksize=CHUNK))  # all have begun
-            return seconds(lambda: list(pool.map(load, surfaces, chunksize=CHUNK)))
+            list(pool.map(depth, surfaces[: CHUNK * workers], chunksize=CHUNK))  # all have begun
+            return seconds(lambda: list(pool.map(depth, surfaces, chunksize=CHUNK)))
 
     def seconds(work: Callable[[], object]) -> float:
         start = time.perf_counter()
@@ -54,7 +57,7 @@ def throughputs() -> dict[str, float]:
 
     workers = os.cpu_count() or 1
     ways: dict[str, Callable[[], float]] = {
-        "one after the other": lambda: seconds(lambda: list(map(load, surfaces))),
+        "one after the other": lambda: seconds(lambda: list(map(depth, surfaces))),
         f"{workers} threads": lambda: by(ThreadPoolExecutor(workers)),
         f"{workers} processes": lambda: by(ProcessPoolExecutor(workers)),
     }

@@ -142,7 +142,8 @@ class MemoryModel:
             tiles = min(TILES_AT_MOST, TILES * touch.contact) * (VECTORS + 4 * single) * boxed
             factor = self._factor(touch, lighter=lighter)
             kept = coarser / 2 + (lent if factor or not self._whole else 0.0)
-            kept += self._pooled(boxed, 0, PLANE)  # of the pressure that the load began with
+            if not factor:  # of the pressure that the load began with
+                kept += self._pooled(boxed, 0, PLANE)
             return round(exact + tiles + min(MOST, kept) + factor)
         inner = held + (VECTORS + single) * boxed + min(MOST, coarser)
         return round(max(inner, exact + min(MOST, shapes * own + coarser - lent)))
