@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty, empty_like, zeros
+from roughcontact.kernels.buffers import empty_like, zeros
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
 from roughcontact.kernels.distributed import contiguous, local, of_all
@@ -19,7 +19,6 @@ __all__ = [
     "ActiveCells",
     "add_blocks",
     "mask_above",
-    "raise_blocks",
     "subtract_shifted",
     "sum_blocks",
     "sum_stencil",
@@ -168,21 +167,6 @@ def add_blocks(region: ActiveCells, field: Any, blocks: Any, side: int) -> None:
         region.run_on_blocks("add_listed_blocks", field, blocks, side)
     else:
         _blocks("add_blocks", field, blocks, side)
-
-
-def raise_blocks(field: Any, share: float) -> Any:
-    """Return the mean of each block of 2 x 2 cells, less a share of how far they stand out of their plane.
-
-    It is no less than the lowest of them. Both sides of a process's part are even.
-    """
-    here = local(field)
-    if field is not here:
-        return field.in_blocks(raise_blocks(here, share), 2)
-    ny, nx = field.shape
-    blocks = empty((ny // 2, nx // 2), np.float64)
-    workers = threads() if field.size >= SEVERAL * CELLS else 1
-    code_for("block_kernels", field)["raise_blocks"](ny, nx, share, field, blocks, workers=workers)
-    return blocks
 
 
 def _blocks(name: str, field: Field, blocks: Field, side: int) -> None:

@@ -76,4 +76,4 @@ def with_rows_beside(field: Any, count: int) -> tuple[Held, int, int]:
     entries = math.prod(here.shape[1:])
     before, behind = field.functions.beyond(field, count * entries)
     rows = np.concatenate([before, here.reshape(-1), behind]).reshape(-1, *here.shape[1:])
-    return rows, first - before.size // max(entries, 1), first
+    return rows, first - before.size // entries, first

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty_like
+from roughcontact.kernels.buffers import empty, empty_like
 from roughcontact.kernels.constants import WIDTH
 from roughcontact.kernels.distributed import Distributed, agreed, local, of_all
 from roughcontact.kernels.loader import code_for, takes
@@ -26,6 +26,7 @@ __all__ = [
     "positive_part",
     "positive_total",
     "predict_active",
+    "raise_blocks",
     "run_on_plane",
     "scale_down",
 ]
@@ -82,10 +83,10 @@ def fit(*fields: Any) -> bool:
     if not takes(fields[0]):
         return False
     here, wanted = map(local, fields), (np.dtype(np.float64), local(fields[0]).shape, True)
-    alike = all(
+    fitting = all(
         isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in here
     )
-    return agreed(fields[0], alike)
+    return agreed(fields[0], fitting)
 
 
 def extremes(pressure: Array, displacement: Array, separation: Array) -> Extremes | None:
@@ -157,6 +158,22 @@ def positive_part(pressure: Array, separation: Array, scale: float) -> Array:
     run = code_for("plane_kernels", pressure)["positive_part"]
     run_on_plane(run, 0, 0, pressure, separation, scale, answer)
     return answer
+
+
+def raise_blocks(separation: Any, share: float) -> Array:
+    """Return the mean of each block of 2 x 2 cells [m], less a share of how far they stand out of their plane.
+
+    It is no less than the lowest of them. Shape (ny/2, nx/2): both sides of a process's part are even.
+    """
+    field = local(separation)
+    if separation is not field:
+        whole: Array = separation.in_blocks(raise_blocks(field, share), 2)
+        return whole
+    ny, nx = field.shape
+    blocks = empty((ny // 2, nx // 2), np.float64)
+    workers = threads() if field.size >= SEVERAL * CELLS else 1
+    code_for("block_kernels", field)["raise_blocks"](ny, nx, share, field, blocks, workers=workers)
+    return blocks
 
 
 def run_on_plane(

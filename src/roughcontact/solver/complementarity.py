@@ -64,13 +64,13 @@ def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
     # In slabs each process sees to its own cells: no other has room for all.
     pressed, weak = (f if local(f) is not f else on_host(f) > 0 for f in (pressed, weak))
     rows, begin, own = with_rows_beside(pressed, NEAR)
-    total = 0.0
+    total, shift = 0.0, np.zeros(rows.ndim, np.intp)
+    shift[0] = begin
     for place in np.argwhere(local(weak)):
         place[0] += own
         start = np.maximum(place - NEAR, 0)
-        box = [slice(first, at + NEAR + 1) for first, at in zip(start, place, strict=True)]
-        box[0] = slice(start[0] - begin, place[0] + NEAR + 1 - begin)
-        near = np.ravel_multi_index(tuple((np.argwhere(rows[tuple(box)]) + start).T), pressed.shape)
+        box = tuple(map(slice, start - shift, place + NEAR + 1 - shift))
+        near = np.ravel_multi_index(tuple((np.argwhere(rows[box]) + start).T), pressed.shape)
         cells = np.append(near, np.ravel_multi_index(tuple(place), pressed.shape))
         total += _stiffness(operator, cells) - (_stiffness(operator, near) if len(near) else 0.0)
     return of_all(pressed, [total], 0)[0]

@@ -11,7 +11,6 @@ from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.kernels import buffers, planes
-from roughcontact.kernels.active_cells import raise_blocks
 from roughcontact.kernels.distributed import agreed, local
 from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
 from roughcontact.solver import tuning
@@ -137,8 +136,7 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
     even = not any(n % 2 for n in local(separation).shape)
     if factors == (2, 2) and planes.fit(separation) and agreed(separation, even):
-        raised: Array = raise_blocks(separation, tuning.SUMMITS)
-        return raised
+        return planes.raise_blocks(separation, tuning.SUMMITS)
     low = block_minimum(separation, factors)
     if factors != (2, 2):
         return low
