@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.units import in_si
 from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
@@ -61,7 +62,7 @@ class Grid:
             raise ValueError(f"shape must have one or two axes, not {len(sizes)}: {sizes}")
         if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
             raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
-        steps = _per_axis(spacing, len(sizes), "spacing")
+        steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
             raise ValueError(f"spacing must be positive and finite [m], not {steps}")
         # Of a line the spacing may be the area of cells of which it is a list.
@@ -190,7 +191,7 @@ class RadialGrid:
     edges: Array
 
     def __post_init__(self) -> None:
-        given = np.asarray(self.edges)
+        given = np.asarray(in_si(self.edges, "m", "edges"))
         if given.dtype.kind not in "fiu":
             raise ValueError(f"edges must be radii [m], real numbers, not of type {given.dtype}")
         edges = np.array(given, dtype=np.float64)
@@ -230,6 +231,7 @@ class RadialGrid:
         >>> rc.RadialGrid.uniform(4, 1e-3).radii.tolist()
         [0.000125, 0.000375, 0.000625, 0.000875]
         """
+        radius = in_si(radius, "m", "radius")
         numbers = _is_real(rings) and _is_real(radius)
         if not (numbers and rings >= 1 and rings % 1 == 0 and 0 < radius < math.inf):
             raise ValueError(

@@ -33,7 +33,7 @@ class Solid:
     poisson_ratio: float
 
     def __post_init__(self) -> None:
-        require_numbers(self)
+        require_numbers(self, young_modulus="Pa")
         if not self.young_modulus > 0:
             raise ValueError(f"young_modulus must be positive [Pa], not {self.young_modulus}")
         if self.young_modulus < math.inf:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from roughcontact.material import Solid
-from roughcontact.validation import require
+from roughcontact.validation import require, require_numbers
 
 __all__ = ["MATERIALS", "Material", "handbook"]
 
@@ -54,6 +54,9 @@ class Material:
     conductivity: float
     resistivity: float
     sources: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        require_numbers(self, hardness="Pa", conductivity="W/m/K", resistivity="ohm*m")
 
 
 def _alloy(

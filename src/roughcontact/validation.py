@@ -5,11 +5,13 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from functools import partial, wraps
+from typing import Any, ParamSpec, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
+
+from roughcontact.units import PLAIN, in_si
 
 __all__ = [
     "Array",
@@ -212,21 +214,41 @@ def exactly_one(**given: Any) -> tuple[str, Any]:
     return stated.popitem()
 
 
-def numeric(function: Callable[P, R]) -> Callable[P, R]:
+@overload
+def numeric(function: Callable[P, R], /) -> Callable[P, R]: ...
+
+
+@overload
+def numeric(
+    **units: str | Callable[[Mapping[str, Any]], str],
+) -> Callable[[Callable[P, R]], Callable[P, R]]: ...
+
+
+def numeric(function: Any = None, /, **units: Any) -> Any:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
     ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
     be broadcast; none takes NaN. With ``| None`` they may be None. ``Surface``, ``Solution`` and the others of `BODIES`
     want one. Whatever else is annotated is passed on, as are all values as given: their range is the function's own
-    affair.
+    affair. Only a value that carries a unit is converted: `units` gives the SI unit of each parameter that has a
+    dimension, or how it follows from the other arguments.
 
     Raises
     ------
     ValueError
         From the decorated function: the parameter, what it is to be and what it is; or the shapes that do not fit.
     """
+    if function is None:
+        return partial(_checked, units=units)
+    return _checked(function, units)
+
+
+def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, R]:
     parameters = inspect.signature(function).parameters
     names = tuple(parameters)
+    unknown = units.keys() - parameters.keys()
+    if unknown:
+        raise TypeError(f"{function.__qualname__} has no parameter {', '.join(sorted(unknown))}")
     kinds = {name: str(parameter.annotation) for name, parameter in parameters.items()}
     wanted = {
         name: kind for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) in ARRAYS | NUMBERS | WHOLE
@@ -235,20 +257,31 @@ def numeric(function: Callable[P, R]) -> Callable[P, R]:
     @wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> R:
         given = dict(zip(names, args, strict=False)) | kwargs
-        shapes = {}
+        shapes, converted = {}, {}
         for name, value in given.items():
             if not _is_a(kinds.get(name), value):
                 raise ValueError(f"{name} must be {BODIES[kinds[name]]}, not {shown(value)}")
+            if type(value) not in PLAIN and (name in units or name in wanted):
+                unit = units.get(name)
+                plain = in_si(value, unit(given) if callable(unit) else unit, name)
+                if plain is not value:
+                    value = converted[name] = plain
             if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
                 shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
         fitting(shapes)
+        if converted:
+            placed: Any = (converted.get(name, value) for name, value in zip(names, args, strict=False))
+            named: Any = {name: converted.get(name, value) for name, value in kwargs.items()}
+            return function(*placed, **named)
         return function(*args, **kwargs)
 
     return checked
 
 
-def require_numbers(body: Any) -> None:
+def require_numbers(body: Any, **units: str) -> None:
     """Refuse a dataclass one of whose fields of type ``float`` or ``int`` holds anything else than one such number.
+
+    A field that carries a unit becomes a plain number; `units` gives the SI unit of each field that has a dimension.
 
     Raises
     ------
@@ -257,8 +290,13 @@ def require_numbers(body: Any) -> None:
     """
     for field in fields(body):
         value, kind = getattr(body, field.name), str(field.type)
-        if kind.removesuffix(OPTIONAL) in NUMBERS | WHOLE and not (value is None and kind.endswith(OPTIONAL)):
-            _shape(value, field.name, kind.removesuffix(OPTIONAL))
+        of_numbers = kind.removesuffix(OPTIONAL) in NUMBERS | WHOLE
+        if of_numbers or field.name in units:
+            plain = in_si(value, units.get(field.name), field.name)
+            if plain is not value:
+                object.__setattr__(body, field.name, plain)
+            if of_numbers and not (plain is None and kind.endswith(OPTIONAL)):
+                _shape(plain, field.name, kind.removesuffix(OPTIONAL))
 
 
 def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
@@ -292,6 +330,7 @@ def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
 
 def _floats(value: Any, what: str, wanted: str) -> Array:
     """Return `value` as float64, or say that `what` must be what is `wanted`."""
+    value = in_si(value, None, what)
     given = np.asarray(value) if value is None or isinstance(value, str | bytes) else value
     try:
         if isinstance(given, np.ndarray) and given.dtype.kind not in "biuf":

@@ -166,7 +166,7 @@ def test_histograms_are_densities():
     [
         ({"force": 0.0}, "force must be positive"),
         ({"force": -1.0}, "force must be positive"),
-        ({"force": np.nan}, "force must be positive"),
+        ({"force": np.nan}, "force must be a number"),
         ({"force": np.inf}, "force must be positive"),
         ({"depth": -1e-9}, "depth counts from first touch"),
         ({"pressure": 0.0}, "pressure must be positive"),
@@ -182,7 +182,7 @@ def test_histograms_are_densities():
         ({"force": 1.0, "operator": "fft"}, "an operator is wanted"),
         ({"force": 1.0, "solver": "active set"}, "a solver is wanted"),
         ({"force": 1.0, "solver": rc.PolonskyKeer}, "a solver is wanted"),
-        ({"force": 1.0, "surface": np.zeros((4, 4))}, "a Surface is wanted"),
+        ({"force": 1.0, "surface": np.zeros((4, 4))}, "surface must be a Surface"),
         ({"force": 1.0, "operator": rc.half_space(rc.Grid((4, 4), 1.0), 1.0)}, "is not the surface's"),
     ],
 )
@@ -203,7 +203,8 @@ def test_masks_that_make_no_sense():
         (np.zeros((4, 4), bool), 1.0, "no cell"),
         (np.ones((4, 4), bool), 1.0, "leave a cell free"),
         (some, 0.0, "not zero"),
-        (some, np.nan, "finite"),
+        (some, np.nan, "must be a number"),
+        (some, np.inf, "finite"),
         (np.ones((2, 2), bool), 1.0, "does not fit"),
         (some, np.ones(3), "does not fit"),
         (some.tolist(), np.zeros((4, 4)), "not zero"),

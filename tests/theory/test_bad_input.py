@@ -4,6 +4,7 @@ import functools
 import inspect
 
 import numpy as np
+import pint
 import pytest
 
 import roughcontact as rc
@@ -240,6 +241,18 @@ def test_what_is_no_number_is_refused(name):
                 isinstance(wrong, list) and argument in arguments(name)[1]
             ):
                 refused(name, **{argument: wrong})
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_value_with_a_dimension_is_refused_with_the_number_to_give(name):
+    metres = pint.UnitRegistry().Quantity(1.0, "mm")
+    for argument, value in arguments(name)[0].items():
+        if isinstance(value, float | np.ndarray):
+            assert "plain number" in refused(name, **{argument: value * metres})
+        if isinstance(value, float):
+            assert f"give {value * 1e-3:.12g}" in refused(name, **{argument: value * metres})
+        if isinstance(value, tuple):
+            assert "plain number" in refused(name, **{argument: tuple(one * metres for one in value)})
 
 
 @pytest.mark.parametrize("name", [name for name in FUNCTIONS if numbers(name)])

@@ -8,7 +8,7 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from roughcontact.validation import Array, positive, positive_scalar, require, shown
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require, require_numbers, shown
 
 __all__ = ["Adhesion", "Attraction", "Law"]
 
@@ -56,6 +56,7 @@ class Adhesion:
     allow_unresolved: bool = False
 
     def __post_init__(self) -> None:
+        require_numbers(self, work="J/m^2", range="m")
         work = positive(self.work, "work of adhesion [J/m^2]", zero=True)
         if not np.any(work > 0):
             raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
@@ -73,6 +74,7 @@ class Adhesion:
         """Largest attraction of the law [Pa]; infinite where it is sharp."""
         return math.inf if self.law == "sharp" else float(np.max(self.work)) / self.range
 
+    @numeric(modulus="Pa")
     def process_zone(self, modulus: float) -> float:
         """Return Irwin's length ``E* w/(pi s^2)`` [m], on which the attraction varies beside a contact.
 
@@ -88,6 +90,7 @@ class Adhesion:
         """
         return modulus * float(np.max(self.work)) / (math.pi * self.strength**2)
 
+    @numeric(radius="m", modulus="Pa")
     def tabor(self, radius: float, modulus: float) -> float:
         """Return Tabor's number ``(R w^2/(E*^2 range^3))^(1/3)`` of a sphere.
 

@@ -22,7 +22,7 @@ NEAR = 10.0  # ranges of the attraction, from which an approach is recorded
 MOST = 100  # as many points as on the approach, after which a retreat ends
 
 
-@numeric
+@numeric(modulus="Pa", depth="m")
 def adhesive_loop(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

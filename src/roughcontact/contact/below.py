@@ -66,7 +66,7 @@ class StressPeak:
     resolved: bool
 
 
-@numeric
+@numeric(depth="m")
 def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Stress:
     """Return the stresses at a depth, or at several, below a solved contact.
 
@@ -102,7 +102,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
-@numeric
+@numeric(depth="m")
 def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
     """Return the displacements at a depth, or at several, below a solved contact.
 

@@ -15,7 +15,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import variable
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 from roughcontact.theory import conductance as theory
-from roughcontact.validation import Array, number
+from roughcontact.validation import Array, number, numeric
 
 if TYPE_CHECKING:
     import xarray
@@ -91,6 +91,7 @@ def conductance(
     conductivities: tuple[float, float] | None = None,
     of: Literal["interface", "total"] = "interface",
 ) -> xarray.Dataset: ...
+@numeric(resistivities="ohm*m", conductivities="W/m/K")
 def conductance(
     contact: Curve | Solution | xarray.Dataset,
     *,

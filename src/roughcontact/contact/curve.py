@@ -18,14 +18,14 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import CURVE_POINTS, unit_of
+from roughcontact.labels.variables import CURVE_POINTS, force_unit, unit_of
 from roughcontact.pictures import curve_html, plot_curve
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, Mask, number
+from roughcontact.validation import Array, Mask, number, numeric
 
 if TYPE_CHECKING:
     from roughcontact.theory.law import Basis
@@ -175,6 +175,7 @@ class Curve:
         moves = (depth > 0) | ((depth < 0) & (force < 0))
         return np.asarray(np.divide(force, depth, out=np.full(len(force), np.inf), where=moves))
 
+    @numeric(window=force_unit)
     def fit(self, window: tuple[float, float] | None = None) -> PowerLaw:
         """Return the power law k ~ F^alpha through the points of a window of force (thesis, eq. 4.53).
 

@@ -36,7 +36,7 @@ NUMBERS = (
 )
 
 
-@numeric
+@numeric(short_cutoff="m")
 def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None) -> ErrorBudget:
     """Return the errors of the numbers of a pressed map, or of the means of several patches.
 

@@ -123,7 +123,7 @@ class InterfaceTable:
         return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})
 
 
-@numeric
+@numeric(resistivities="ohm*m", conductivities="W/m/K", area="m^2")
 def interface_table(
     curve: Curve,
     *,

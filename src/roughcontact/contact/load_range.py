@@ -70,7 +70,7 @@ class LoadRange:
         return int(np.count_nonzero(self.forces < self.lowest * (1 - 10.0 ** (1 - DIGITS))))
 
 
-@numeric
+@numeric(modulus="Pa", hardness="Pa")
 def load_range(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

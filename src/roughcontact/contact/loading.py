@@ -23,6 +23,7 @@ from roughcontact.contact.sticking import refuse_gaps, sticking_states
 from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Solver
@@ -65,7 +66,7 @@ def loading_path(
 ) -> Iterator[AdhesiveState]: ...
 
 
-@numeric
+@numeric(modulus="Pa", forces=force_unit, depths="m", pressures="Pa", hardness="Pa", mean_gaps="m")
 def loading_path(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -197,6 +198,7 @@ def loading_curve(
 ) -> AdhesiveLoop: ...
 
 
+@numeric(modulus="Pa", forces=force_unit, depths="m", pressures="Pa", hardness="Pa", mean_gaps="m")
 def loading_curve(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -17,7 +17,7 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.labels.variables import unit_of
+from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.material import Solid
 from roughcontact.pictures import loop_html, plot_loop
 from roughcontact.solver.control import Solver
@@ -145,7 +145,7 @@ class Loop:
     _repr_html_ = loop_html
 
 
-@numeric
+@numeric(modulus="Pa", forces=force_unit, pressures="Pa", hardness="Pa")
 def loading_loop(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -9,13 +9,16 @@ from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
 from roughcontact.contact.press import control_of
 from roughcontact.contact.touch import touch_of
 from roughcontact.grid import Grid
+from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import numeric
 
 __all__ = ["memory_needed"]
 
 
+@numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa")
 def memory_needed(
     surface: Surface | Grid,
     modulus: float | Solid | tuple[Solid, Solid] | None = None,

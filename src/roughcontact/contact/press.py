@@ -19,6 +19,7 @@ from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Depth, Force, Solver, Start, State, Status
@@ -27,7 +28,7 @@ from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, exactly_one, scalar
+from roughcontact.validation import Array, exactly_one, numeric, scalar
 
 __all__ = ["lock", "press", "solve", "solve_state"]
 
@@ -66,6 +67,7 @@ def press(
 ) -> AdhesiveState: ...
 
 
+@numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa", hardness="Pa", mean_gap="m")
 def press(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

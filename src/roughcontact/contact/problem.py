@@ -22,7 +22,8 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, Mask, scalar
+from roughcontact.units import in_si
+from roughcontact.validation import Array, Mask, numeric, scalar
 
 __all__ = [
     "Body",
@@ -40,6 +41,7 @@ Body = Surface | RadialProfile
 # A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
 # `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
 LEAST_BYTES = 9
+_UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m"}
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -101,6 +103,8 @@ class ContactProblem:
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
+        for name, unit in _UNITS.items():
+            object.__setattr__(self, name, in_si(getattr(self, name), unit, name))
         if tuple(self.separation.shape) != self.grid.shape:
             raise ValueError(
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
@@ -212,6 +216,7 @@ class ContactProblem:
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
         return other
 
+    @numeric(rise="m")
     def raised(self, rise: float) -> ContactProblem:
         """Return the same bodies with the surface raised as a whole; depths count as before.
 

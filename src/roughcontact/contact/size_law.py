@@ -51,7 +51,7 @@ class NixGao:
     radius: float
 
     def __post_init__(self) -> None:
-        require_numbers(self)
+        require_numbers(self, hardness="Pa", radius="m")
         positive_scalar(self.hardness, "the hardness of large spots [Pa]")
         positive_scalar(self.radius, "the radius [m]")
 

@@ -75,7 +75,7 @@ def frozen_contact(
     return FrozenContact(answer.work, answer.residual, answer.pressure)  # work per square of displacement
 
 
-@numeric
+@numeric(modulus="Pa")
 def contact_stiffness(
     mask: Mask,
     grid: AnyGrid,

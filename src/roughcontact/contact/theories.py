@@ -26,7 +26,7 @@ from roughcontact.validation import Array, numeric
 __all__ = ["facts_for", "loading_laws", "persson_pressures"]
 
 
-@numeric
+@numeric(modulus="Pa")
 def loading_laws(
     surface: Surface,
     modulus: float | Solid | tuple[Solid, Solid],

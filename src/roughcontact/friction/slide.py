@@ -28,7 +28,7 @@ Loads = Sequence[Load] | Array
 """Loads in the order of time: numbers along one direction, or pairs (x, y), one a row."""
 
 
-@numeric
+@numeric(force="N", displacement="m")
 def slide(
     solution: Solution,
     bodies: Bodies,
@@ -106,7 +106,7 @@ def slide(
     return answer
 
 
-@numeric
+@numeric(forces="N", displacements="m")
 def slide_path(
     solution: Solution,
     bodies: Bodies,

@@ -108,7 +108,7 @@ class SlipCurve:
         return slip_curve_record(self)
 
 
-@numeric
+@numeric(forces="N", displacements="m")
 def slide_curve(
     solution: Solution,
     bodies: Bodies,

@@ -8,12 +8,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import Any
 
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import geometry_of
 
 __all__ = [
     *("CONDUCTION", "CONDUCTION_PER_AREA", "CURVE_POINTS", "CURVE_SCALES", "FLOW_POINTS"),
-    *("VARIABLES", "Variable", "unit_of"),
+    *("VARIABLES", "Variable", "force_unit", "unit_of"),
 ]
 
 # What a curve takes over from each state, and what it is measured by.
@@ -216,3 +218,10 @@ def unit_of(name: str, geometry: Geometry = Geometry.SURFACE) -> str:
     if geometry is Geometry.FOUNDATION and name != "modulus":
         return _ON_SPRINGS.get(unit, unit)
     return unit
+
+
+def force_unit(arguments: Mapping[str, Any]) -> str:
+    """Return the unit of the forces among the arguments of a function or method: per length along a line."""
+    operator = arguments.get("operator")
+    geometry = Geometry.SURFACE if operator is None else geometry_of(operator)
+    return unit_of("force", getattr(arguments.get("self"), "geometry", geometry))

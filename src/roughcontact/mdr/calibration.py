@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.validation import Array, moderate, positive_scalar, scalar
+from roughcontact.validation import Array, moderate, number, positive_scalar, scalar
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]
 
@@ -159,7 +159,7 @@ def force_ratio(
 
 def _inside(curve: tuple[Array, Array], window: tuple[float, float], name: str) -> tuple[Array, Array]:
     """Return ln k and ln F of the points of a curve in a window and of those next to it."""
-    force, stiffness = (np.asarray(values, dtype=np.float64) for values in curve)
+    force, stiffness = (np.asarray(number(values, name)) for values in curve)
     if force.ndim != 1 or force.shape != stiffness.shape:
         raise ValueError(
             f"the {name} must have a stiffness for each force, in a row, not {stiffness.shape} for {force.shape}"

@@ -18,7 +18,7 @@ import numpy as np
 
 from roughcontact.mdr.viscoelastic import Viscoelastic, checked_history, checked_material
 from roughcontact.theory.tools.computed import LogCubic
-from roughcontact.validation import Array, exactly_one, require, shown
+from roughcontact.validation import Array, exactly_one, number, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -133,7 +133,8 @@ def transfer(
     >>> round(float(creep.elastic_force[1] / creep.elastic_force[0]), 4)  # ten times softer in the end
     9.9996
     """
-    _, loads = exactly_one(forces=forces, depths=depths)
+    name, given = exactly_one(forces=forces, depths=depths)
+    loads = number(given, name)
     checked_material(material)
     if missing := [
         name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)

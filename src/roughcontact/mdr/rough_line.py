@@ -193,7 +193,7 @@ def checked_lines(heights: Array) -> Array:
         raise ValueError(
             f"heights must be an array, not a {type(heights).__name__}: join the curves of batches by LineCurves.joined"
         )
-    lines = np.atleast_2d(np.asarray(heights, dtype=np.float64))
+    lines = np.atleast_2d(number(heights, "heights"))
     if lines.ndim != 2 or lines.size == 0:
         raise ValueError(f"heights must be one line or a row a line, not of shape {np.shape(heights)}")
     if not np.isfinite(lines).all():

@@ -9,7 +9,7 @@ from roughcontact.mdr.axisymmetric_profile import Profile
 from roughcontact.mdr.chebyshev import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.terms import TableTerm
 from roughcontact.mdr.transform import FUNCTION, height_of, transform_of
-from roughcontact.validation import Array, require, scalar, shown
+from roughcontact.validation import Array, number, require, scalar, shown
 
 __all__ = ["from_function", "from_samples", "from_two_functions"]
 
@@ -37,7 +37,7 @@ def from_function(function: Function, radius: float, *, transformed: bool) -> Pr
 
 def from_samples(places: Array, values: Array, *, sharp: bool, transformed: bool) -> Profile:
     """Return the body whose height, or whose transform, is a cubic spline through samples."""
-    x, y = np.asarray(places, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    x, y = np.asarray(number(places, "places")), np.asarray(number(values, "values"))
     if x.ndim != 1 or x.shape != y.shape or len(x) < 4:
         raise ValueError(f"at least four radii and as many heights are wanted, not {x.shape} and {y.shape}")
     if not (np.isfinite(x).all() and np.isfinite(y).all()):

@@ -20,7 +20,7 @@ __all__ = ["von_mises_section"]
 DEPTHS = 40
 
 
-@numeric
+@numeric(deepest="m")
 def von_mises_section(
     solution: Solution,
     solid: Solid | float,

@@ -8,7 +8,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.arrays import largest
-from roughcontact.validation import Array, scalar
+from roughcontact.validation import Array, require_numbers, scalar
 
 if TYPE_CHECKING:
     from roughcontact.halfspace.operators.operator import Operator
@@ -44,7 +44,8 @@ class Force:
     value: float
 
     def __post_init__(self) -> None:
-        if not 0 < scalar(self.value, "force") < math.inf:
+        require_numbers(self, value="N")
+        if not 0 < self.value < math.inf:
             raise ValueError(f"the force must be positive and finite [N], not {self.value}")
 
 
@@ -72,7 +73,8 @@ class Depth:
     value: float
 
     def __post_init__(self) -> None:
-        if not 0 <= scalar(self.value, "depth") < math.inf:
+        require_numbers(self, value="m")
+        if not 0 <= self.value < math.inf:
             raise ValueError(
                 f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
             )

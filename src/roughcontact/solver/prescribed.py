@@ -26,7 +26,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, Mask, scalar
+from roughcontact.validation import Array, Mask, numeric, scalar
 
 __all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
 
@@ -57,6 +57,7 @@ class Prescribed:
     steps: int
 
 
+@numeric(displacement="m", initial="Pa")
 def prescribed_displacement(
     mask: Mask,
     displacement: float | Array,

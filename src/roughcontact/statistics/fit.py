@@ -17,7 +17,7 @@ from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.statistics.fit_window import Window, window_of
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.statistics.samples import dimensions
-from roughcontact.validation import Array, Mask, require
+from roughcontact.validation import Array, Mask, number, require
 
 if TYPE_CHECKING:
     import xarray
@@ -174,7 +174,7 @@ def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset
     """
     import xarray
 
-    values = np.asarray(force, dtype=np.float64)
+    values = np.asarray(number(force, "force"))
     at = xarray.DataArray(values, dims=("dimensionless_force",)[: values.ndim], name="dimensionless_force")
     at = at.assign_coords(dimensionless_force=at)
     stiffness = fits["prefactor"] * at ** fits["exponent"]

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.statistics.power_law import FORCE_LIMIT
+from roughcontact.validation import numeric, scalar
 
 if TYPE_CHECKING:
     import xarray
@@ -63,6 +64,7 @@ class Window:
             raise ValueError(f"a window goes from a dimensionless force to a larger one, not {self.force}")
 
 
+@numeric
 def force_window(lowest: float, highest: float) -> Window:
     """Return the window between two dimensionless forces, whatever the stiffness.
 
@@ -90,6 +92,7 @@ def force_window(lowest: float, highest: float) -> Window:
     return Window((lowest, highest), (0.0, np.inf), f"force from {lowest:g} to {highest:g}")
 
 
+@numeric
 def resolved_window(
     cell: float | xarray.DataArray,
     full_contact_stiffness: float | xarray.DataArray,
@@ -116,6 +119,9 @@ def resolved_window(
     >>> rc.statistics.resolved_window(1 / 512, 1.0).stiffness  # of 512 springs
     (0.0390625, 0.9)
     """
+    for name, value in {"cell": cell, "full_contact_stiffness": full_contact_stiffness}.items():
+        if not hasattr(value, "dims"):  # along the ensembles of a dataset
+            scalar(value, name)
     rule = (
         f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "
         f"force up to {highest:g}"

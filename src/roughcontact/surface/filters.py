@@ -24,7 +24,7 @@ _REACH = math.sqrt(53 * math.log(2) / math.pi)
 _CELLS = 4
 
 
-@numeric
+@numeric(short_cutoff="m", long_cutoff="m")
 def filtered(
     surface: Surface, *, short_cutoff: float | None = None, long_cutoff: float | None = None
 ) -> Surface:

@@ -14,7 +14,7 @@ from roughcontact.validation import numeric
 __all__ = ["flat_disc", "flat_ring", "flat_square", "flat_triangle"]
 
 
-@numeric
+@numeric(radius="m", centre="m")
 def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return a flat round punch: 0 in the cells whose centre lies in the disc, absent elsewhere.
 
@@ -47,7 +47,7 @@ def flat_disc(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return flat_ring(grid, 0.0, radius, centre)
 
 
-@numeric
+@numeric(inner="m", outer="m", centre="m")
 def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> Surface:
     """Return a flat ring punch: 0 in the cells whose centre lies between two radii, absent elsewhere.
 
@@ -86,7 +86,7 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
     return placed(np.where(inside, 0.0, np.nan), grid, name)
 
 
-@numeric
+@numeric(side="m", centre="m")
 def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     """Return a flat square punch with sides along x and y: 0 in the cells whose centre lies in it, absent elsewhere.
 
@@ -122,7 +122,7 @@ def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     return placed(np.where(inside, 0.0, np.nan), grid, f"flat square, side {side:g} m")
 
 
-@numeric
+@numeric(side="m", centre="m")
 def flat_triangle(grid: Grid, side: float, centre: Centre = None) -> Surface:
     """Return a flat equilateral punch: 0 in the cells whose centre lies in the triangle, absent elsewhere.
 

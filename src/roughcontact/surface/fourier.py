@@ -22,7 +22,7 @@ from roughcontact.surface.wave_grid import (
     wavenumbers,
 )
 from roughcontact.surface.waves_in_slabs import SizedSpectrum, heights_in_slabs
-from roughcontact.validation import Array, number, numeric, require_generator
+from roughcontact.validation import Array, numeric, require_generator
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
@@ -30,7 +30,7 @@ __all__ = ["self_affine", "synthesise", "wavenumbers"]
 BLOCK = 2**15  # waves made at once: a megabyte or two of words and angles
 
 
-@numeric
+@numeric(rms="m", rms_band="m", rolloff="m", long_cutoff="m", short_cutoff="m")
 def self_affine(
     grid: Grid,
     hurst: float,
@@ -122,14 +122,14 @@ def self_affine(
     law = SelfAffineSpectrum(hurst, rolloff, long_cutoff, short_cutoff, grid.ndim)
     spectrum: Spectrum = law
     if anisotropy is not None:
-        if np.shape(number(anisotropy, "anisotropy")) != (2,):
+        if not isinstance(anisotropy, list | tuple) or len(anisotropy) != 2:
             raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
     heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal, slabs)
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}{_size(rms, rms_band)}, inverse FFT",))
 
 
-@numeric
+@numeric(rms="m", rms_band="m")
 def synthesise(
     grid: Grid,
     spectrum: Spectrum,

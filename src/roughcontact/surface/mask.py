@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["masked"]
 
 
-@numeric
+@numeric(below="m", above="m")
 def masked(
     surface: Surface,
     *,

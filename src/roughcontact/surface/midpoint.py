@@ -16,7 +16,7 @@ __all__ = ["midpoint_line", "midpoint_surface"]
 Distribution: TypeAlias = Literal["uniform", "gaussian"]
 
 
-@numeric
+@numeric(displacement="m", rms="m")
 def midpoint_line(
     grid: Grid,
     hurst: float,
@@ -82,7 +82,7 @@ def midpoint_line(
     return _finished(heights, grid, rms, f"random midpoint line, H = {hurst:g}, {distribution}")
 
 
-@numeric
+@numeric(displacement="m", rms="m")
 def midpoint_surface(
     grid: Grid,
     hurst: float,

@@ -61,7 +61,7 @@ class Moments:
     dimension: int = 2
 
     def __post_init__(self) -> None:
-        require_numbers(self)
+        require_numbers(self, m0="m^2", m4="1/m^2")
         for name in ("m0", "m2", "m4"):
             require(getattr(self, name) >= 0, f"{name} must not be negative, not {getattr(self, name)}")
         if self.dimension not in (1, 2):

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import RadialGrid
 from roughcontact.surface.height_range import is_elsewhere, own_heights
+from roughcontact.units import in_si
 from roughcontact.validation import Array
 
 __all__ = ["RadialProfile"]
@@ -54,7 +55,7 @@ class RadialProfile:
             raise ValueError(f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}")
         if is_elsewhere(self.heights):
             raise ValueError("the heights of a radial profile must be NumPy's: bring them to the host")
-        object.__setattr__(self, "heights", own_heights(self.heights, self.grid.shape))
+        object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     @property

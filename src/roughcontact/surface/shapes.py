@@ -34,7 +34,7 @@ __all__ = [
 ]
 
 
-@numeric
+@numeric(radius="m", centre="m")
 def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return ``z = -r^2 / (2 R)``.
 
@@ -66,7 +66,7 @@ def paraboloid(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return Surface(-squared(grid, centre) / (2 * radius), grid, (f"paraboloid, radius {radius:g} m",))
 
 
-@numeric
+@numeric(radius="m", centre="m")
 def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     """Return ``z = sqrt(R^2 - r^2) - R``, absent beyond the equator.
 
@@ -98,7 +98,7 @@ def sphere(grid: Grid, radius: float, centre: Centre = None) -> Surface:
     return placed(_round(squared(grid, centre), radius), grid, f"sphere, radius {radius:g} m")
 
 
-@numeric
+@numeric(radius="m", centre="m")
 def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: Centre = None) -> Surface:
     """Return a lying circular cylinder, ``z = sqrt(R^2 - s^2) - R`` at the distance s from its crest.
 
@@ -138,7 +138,7 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     return placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
 
 
-@numeric
+@numeric(centre="m")
 def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     """Return ``z = -slope * r``.
 
@@ -169,7 +169,7 @@ def cone(grid: Grid, slope: float, centre: Centre = None) -> Surface:
     return Surface(-slope * np.sqrt(squared(grid, centre)), grid, (f"cone, slope {slope:g}",))
 
 
-@numeric
+@numeric(centre="m")
 def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = None) -> Surface:
     """Return ``z = -Q r^n`` (thesis, section 5.1).
 
@@ -205,7 +205,7 @@ def power_law(grid: Grid, exponent: float, coefficient: float, centre: Centre = 
     return Surface(heights, grid, (line,))
 
 
-@numeric
+@numeric(amplitude="m", wavelength="m", centre="m")
 def wave(
     grid: Grid,
     amplitude: float,

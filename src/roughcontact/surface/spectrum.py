@@ -59,7 +59,7 @@ class SelfAffineSpectrum:
     scale: float = 1.0
 
     def __post_init__(self) -> None:
-        require_numbers(self)
+        require_numbers(self, rolloff="m", long_cutoff="m", short_cutoff="m")
         if not -1 <= self.hurst <= 3:
             raise ValueError(f"hurst must lie between -1 and 3, not {self.hurst}")
         for name in ("rolloff", "long_cutoff", "short_cutoff"):
@@ -125,7 +125,7 @@ class SelfAffineSpectrum:
         m0, m2, m4 = (factor * self._integral(n) for n, factor in zip((0, 2, 4), factors, strict=True))
         return Moments(m0, m2, m4, self.dimension)
 
-    @numeric
+    @numeric(rms="m")
     def scaled(self, rms: float, grid: Grid | None = None, support: Support = "square") -> SelfAffineSpectrum:
         """Return the spectrum with the scale that belongs to an rms height.
 
@@ -216,7 +216,7 @@ class StretchedSpectrum:
     angle: float = 0.0
 
     def __post_init__(self) -> None:
-        require_numbers(self)
+        require_numbers(self, angle="rad")
         if not (math.isfinite(self.ratio) and self.ratio > 0):
             raise ValueError(f"the ratio of an anisotropy must be positive and finite, not {self.ratio}")
         if not math.isfinite(self.angle):
@@ -224,6 +224,7 @@ class StretchedSpectrum:
         if getattr(self.spectrum, "dimension", 2) != 2:
             raise ValueError("a line has no direction: stretch the spectrum of a surface, dimension=2")
 
+    @numeric(qy="rad/m", qx="rad/m")
     def at(self, qy: Array, qx: Array) -> Array:
         """Return C2D at wave vectors.
 
@@ -275,6 +276,7 @@ class DirectionalSpectrum:
 
     function: Callable[[Array, Array], Array]
 
+    @numeric(qy="rad/m", qx="rad/m")
     def at(self, qy: Array, qx: Array) -> Array:
         """Return C2D at wave vectors.
 

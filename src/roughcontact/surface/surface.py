@@ -25,6 +25,7 @@ from roughcontact.surface.sampling import averaged, cropped, downsampled
 from roughcontact.surface.spikes import despiked
 from roughcontact.surface.tip import scanned
 from roughcontact.surface.windows import tapered
+from roughcontact.units import in_si
 from roughcontact.validation import Array, require
 
 __all__ = ["Surface"]
@@ -92,7 +93,7 @@ class Surface:
     __array_ufunc__: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "heights", own_heights(self.heights, self.grid.shape))
+        object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
     def __add__(self, other: Surface) -> Surface:

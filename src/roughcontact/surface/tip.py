@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["scanned"]
 
 
-@numeric
+@numeric(tip_radius="m")
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
     """Return the surface as a tip records it that follows without force: the heights of its lowest point.
 

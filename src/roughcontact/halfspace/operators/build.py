@@ -18,6 +18,7 @@ from roughcontact.validation import numeric
 __all__ = ["body_on", "half_space", "ring", "singly_periodic"]
 
 
+@numeric(modulus="Pa")
 def half_space(
     grid: Grid,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -79,7 +80,7 @@ def half_space(
     return operator.summed(method)
 
 
-@numeric
+@numeric(modulus="Pa", reference_length="m")
 def singly_periodic(
     grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
 ) -> InfluenceOperator:
@@ -138,6 +139,7 @@ def singly_periodic(
     return InfluenceOperator(grid, Tables(SinglyPeriodicLove(grid, value, reference), grid.shape))
 
 
+@numeric(modulus="Pa")
 def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> DenseOperator:
     """Return the half-space under constant pressures on rings, wide or narrow, to twelve digits.
 

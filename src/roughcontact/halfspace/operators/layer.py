@@ -20,7 +20,7 @@ __all__ = ["layer"]
 ROUNDING = 1e-9  # of a half-space's answer: a layer's that is smaller may have either sign
 
 
-@numeric
+@numeric(modulus="Pa", thickness="m")
 def layer(
     grid: Grid,
     modulus: float | Solid,

@@ -86,7 +86,7 @@ class LineOperator:
         return self.plane.approximate_inverse(displacement[None, ...])[0, ...]
 
 
-@numeric
+@numeric(modulus="Pa", reference_length="m")
 def line(
     grid: Grid,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -64,7 +64,7 @@ class HeightHistogram:
         return np.asarray(np.exp(-(z**2) / 2) / (np.sqrt(2 * np.pi) * self.rms))
 
 
-@numeric
+@numeric(ends="m")
 def height_histogram(
     surface: Surface, *, bins: int = 100, ends: tuple[float, float] | None = None
 ) -> HeightHistogram:

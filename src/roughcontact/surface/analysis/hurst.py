@@ -115,7 +115,7 @@ class HurstFit:
         return np.asarray(law)
 
 
-@numeric
+@numeric(q_min="rad/m", q_max="rad/m")
 def hurst_exponent(
     surface: Surface,
     *,
@@ -162,7 +162,7 @@ def hurst_exponent(
     return fit_spectrum(spectrum, limit=limit, q_min=q_min, q_max=q_max)
 
 
-@numeric
+@numeric(q_min="rad/m", q_max="rad/m")
 def fit_spectrum(
     spectrum: PowerSpectrum,
     *,

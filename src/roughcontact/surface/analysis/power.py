@@ -65,7 +65,14 @@ class PowerSpectrum:
 
     def __post_init__(self) -> None:
         require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
-        require_numbers(self)
+        require_numbers(
+            self,
+            wavenumber="rad/m",
+            density="m^4" if self.kind == "C2D" else "m^3",
+            q_min="rad/m",
+            q_max="rad/m",
+            smear="rad^2/m^2",
+        )
         for name in _ARRAYS:
             value = np.array(number(getattr(self, name), name))
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
@@ -88,7 +95,7 @@ class PowerSpectrum:
         """Standard error of each density, for a Gaussian surface."""
         return self.density / np.sqrt(self.freedom)
 
-    @numeric
+    @numeric(q_min="rad/m", q_max="rad/m")
     def within(self, q_min: float | None = None, q_max: float | None = None) -> PowerSpectrum:
         """Return the spectrum in a narrower band.
 

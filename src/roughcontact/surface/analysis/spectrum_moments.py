@@ -13,7 +13,7 @@ from roughcontact.validation import numeric, require
 __all__ = ["spectrum_moments"]
 
 
-@numeric
+@numeric(q_min="rad/m", q_max="rad/m")
 def spectrum_moments(
     spectrum: PowerSpectrum, *, q_min: float | None = None, q_max: float | None = None
 ) -> Moments:

@@ -63,7 +63,7 @@ class ProfileParameters:
     evaluation_length: float
 
 
-@numeric
+@numeric(section_length="m")
 def profile_parameters(line: Surface, *, section_length: float | None = None) -> ProfileParameters:
     """Return the height and gradient parameters of ISO 21920-2:2021 of a profile.
 

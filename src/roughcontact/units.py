@@ -1,0 +1,104 @@
+"""Values that carry a unit, of pint, astropy, xarray and others: converted to SI numbers at the border."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from types import NoneType
+from typing import Any
+
+import numpy as np
+
+__all__ = ["PLAIN", "in_si", "registry"]
+
+# The types of almost all arguments, which carry no unit: they pay one look into this set.
+PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float64, np.int64, slice})
+# CF and UDUNITS write exponents behind the names: "N m-1", "m2".
+_EXPONENT = re.compile(r"(?<![\d.][eE])(?<=[^\W\d])(?=-?\d)")
+
+
+def in_si(value: Any, unit: str | None, what: str) -> Any:
+    """Return a value that carries a unit as plain numbers in an SI `unit`, and any other value as it is.
+
+    A unit is carried in ``.units`` (pint, netCDF4), in ``.unit`` (astropy) or in ``.attrs["units"]`` (xarray, pandas,
+    h5py). Lists and tuples are searched.
+
+    Parameters
+    ----------
+    value : object
+        What the user gave.
+    unit : str, optional
+        SI unit of the parameter, such as ``"N/m"``. Without it the parameter is a pure number.
+    what : str
+        Name of the parameter, for the message.
+
+    Raises
+    ------
+    ValueError
+        If the unit is not known, is one of another dimension, or stands beside numbers without a unit in a list.
+    """
+    if type(value) in PLAIN:
+        return value
+    if isinstance(value, list | tuple):
+        return _parts_in_si(value, unit, what)
+    carried = _unit_of(value)
+    if carried is not None:
+        return _converted(value, carried, unit, what)
+    if hasattr(value, "attrs") and type(getattr(value, "data", None)) not in PLAIN:
+        return in_si(value.data, unit, what)  # an array of xarray around one of pint
+    return value
+
+
+@cache
+def registry() -> Any:
+    """Return the units of pint, with which text is read: ``"kN"``, ``"N m-1"``, ``"µm"``."""
+    import pint  # late: it takes longer to import than the rest of the command line
+
+    return pint.UnitRegistry(preprocessors=[lambda text: _EXPONENT.sub("**", text)])
+
+
+def _parts_in_si(values: Any, unit: str | None, what: str) -> Any:
+    parts = [in_si(value, unit, what) for value in values]
+    changed = [part is not value for part, value in zip(parts, values, strict=True)]
+    if not any(changed):
+        return values
+    bare = [value for value, other in zip(values, changed, strict=True) if not other and value != 0]
+    if bare:
+        raise ValueError(f"{what} holds numbers with a unit and {bare[0]!r} without: give each a unit")
+    return tuple(parts) if isinstance(values, tuple) else parts
+
+
+def _unit_of(value: Any) -> Any:
+    """Return the unit that a value carries, an object or a text, or None."""
+    for name in ("units", "unit"):
+        carried = getattr(value, name, None)
+        if carried is not None and not callable(carried):
+            return carried
+    attributes: Any = getattr(value, "attrs", None)
+    return attributes.get("units") if hasattr(attributes, "get") else None
+
+
+def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
+    """Return plain numbers in `unit`; a value of pint or astropy goes to the base units of its own library first."""
+    stated = words = carried.decode("utf-8", "replace") if isinstance(carried, bytes) else str(carried)
+    if hasattr(value, "to_base_units"):
+        value = value.to_base_units()
+        words = str(value.units)
+    elif hasattr(value, "si"):
+        value = value.si
+        words = str(value.unit)
+    numbers = next((getattr(value, name) for name in ("magnitude", "value") if hasattr(value, name)), value)
+    try:
+        given = registry().Quantity(
+            float(numbers) if np.ndim(numbers) == 0 else np.asarray(numbers), "" if words == "1" else words
+        )
+    except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
+        wanted = f"plain numbers in {unit}" if unit else "plain numbers"
+        raise ValueError(f"{what} carries the unit {stated!r}, which is not known: give {wanted}") from error
+    if given.is_compatible_with(unit or ""):
+        return given.m_as(unit or "")
+    if unit is not None:
+        raise ValueError(f"{what} must be in {unit}, or in a unit of the same dimension, not in {stated}")
+    plain = given.to_base_units().magnitude
+    number = f"{plain:.12g}" if np.ndim(plain) == 0 else "their numbers in SI units"
+    raise ValueError(f"{what} is read as plain numbers, not in {stated}: give {number}")
