@@ -81,7 +81,7 @@ def _mi(heights, dy, dx):
 @writes("wyko.opd", missing=True)
 def _opd(heights, dy, dx):
     ny, nx = heights.shape
-    waves = filled(heights, 1e39, 1 / 500e-9).clip(max=3e38)  # beyond 1e38 is missing
+    waves = filled(heights, 1e38, 1 / 500e-9)
     raster = struct.pack("<3H", nx, ny, 4) + waves[::-1].T.astype("<f4").tobytes()
     blocks = [
         ("RAW_DATA", 3, raster),
@@ -363,7 +363,7 @@ def _os3d(heights, dy, dx):
     ny, nx = heights.shape
     head = b"OmniSurf3D" + struct.pack("<2i", 1, 0) + struct.pack("<I4sI4s", 4, b"part", 4, b"2020")
     head += struct.pack("<2i4d", nx, ny, dx * 1e6, dy * 1e6, 0, 0)
-    return head + filled(heights, np.finfo("f4").min, 1e6).astype("<f4").tobytes()
+    return head + filled(heights, np.finfo("f4").min, 1e6).astype("<f4").tobytes() + b"\0"  # no picture
 
 
 @writes("zeta.zmg", positive=True)

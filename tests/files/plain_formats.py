@@ -141,6 +141,7 @@ def _sur(heights, dy, dx, *, packed=False, kind=2, bits=32):
     if packed:
         stream = zlib.compress(body)
         body = struct.pack("<III", 1, len(body), len(stream)) + stream
+        struct.pack_into("<I", head, 324, len(body))
     return bytes(head) + body
 
 
