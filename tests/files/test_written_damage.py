@@ -12,16 +12,15 @@ from files.written import FILES
 
 # Any bytes are heights here, and nothing else than other heights comes of them.
 ANY_BYTES = {
-    *(
-        "bare.mat",
-        "bare.npy",
-        "binary.sdf",
-        "omnisurf.os3d",
-        "park.tiff",
-        "truemap.tmd",
-        "wyko.opd",
-        "zeta.zmg",
-    ),
+    "bare.mat",
+    "bare.npy",
+    "binary.sdf",
+    "gwyddion.gwy",
+    "omnisurf.os3d",
+    "park.tiff",
+    "truemap.tmd",
+    "wyko.opd",
+    "zeta.zmg",
 }
 REPLACED = {name for name in MUTATIONS if name.startswith(("flipped", "garbage after"))}
 # Its number of points is stated nowhere.
