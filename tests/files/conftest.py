@@ -1,24 +1,13 @@
-"""Files to read: the measured ones beside the repository, and a writer of small ones."""
+"""Writers of small files to read."""
 
 import hashlib
 import io
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 X3P_TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
-
-
-@pytest.fixture(scope="session")
-def surfaces():
-    """The folder of measured surfaces; tests that need it are skipped without it."""
-    for folder in Path(__file__).resolve().parents:
-        found = folder.parent / "shared" / "data" / "surfaces"
-        if found.is_dir():
-            return found
-    pytest.skip("the folder of measured surfaces is not here")
 
 
 def x3p_bytes(

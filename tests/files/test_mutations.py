@@ -1,14 +1,15 @@
 """Every measured file, spoilt in every way: an error of ours, the right data, or a word of warning."""
 
 import time
-import warnings
 
-import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.read import read_line
+from files.spoiling import GUARDED, LOST, MUTATIONS, attempt, is_right
+from measured import NOT_HERE, SURFACES
+
+if SURFACES is None:
+    pytest.skip(NOT_HERE, allow_module_level=True)
 
 LINES = {"dektak-1.csv"}
 GIVEN = {
@@ -43,82 +44,36 @@ NAMES = [
     "valid_zygo_dat_file.dat",
 ]
 OWN = (".x3p", ".csv", ".xyz", ".npy", ".nc", ".txt", ".sur")
-# A checksum guards the heights and what they mean.
-GUARDED = (".x3p",)
 SLOWEST = 30.0  # seconds
 
 
-def flip(data, seed):
-    spoilt = bytearray(data)
-    for place in np.random.default_rng(seed).integers(0, min(2000, len(data)), 20):
-        spoilt[place] ^= 1 << int(place) % 8
-    return bytes(spoilt)
-
-
-def garbage(count, seed=0):
-    return np.random.default_rng(seed).bytes(max(0, count))
-
-
-MUTATIONS = {
-    "empty": lambda data: b"",
-    "one byte": lambda data: data[:1],
-    "cut at half": lambda data: data[: len(data) // 2],
-    "cut at 97 %": lambda data: data[: int(0.97 * len(data))],
-    "256 bytes": lambda data: data[:256],
-    "garbage": lambda data: garbage(len(data)),
-    "garbage after 128 bytes": lambda data: data[:128] + garbage(len(data) - 128, 1),
-    "garbage after a tenth": lambda data: data[: len(data) // 10] + garbage(len(data) - len(data) // 10, 2),
-    "zeros": lambda data: bytes(len(data)),
-    **{f"flipped bytes {seed}": (lambda data, seed=seed: flip(data, seed)) for seed in range(5)},
-    "0xFF over the header": lambda data: b"\xff" * 64 + data[64:],
-}
-
-
-def attempt(path):
-    """Return the surface or the ReadError, and whether a warning was spoken; anything else goes through."""
-    reader = read_line if path.name in LINES else rc.read
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always")
-        try:
-            outcome = reader(path, **GIVEN.get(path.name, {}))
-        except rc.ReadError as error:
-            outcome = error
-    said = [one for one in said if "dateutil" not in one.filename]  # it warns of an unknown time zone
-    assert all(one.category is SurfaceWarning for one in said)
-    return outcome, bool(said)
+def tried(path):
+    return attempt(path, path.name in LINES, GIVEN.get(path.name))
 
 
 @pytest.fixture(scope="module", params=NAMES)
-def whole(request, surfaces):
+def whole(request):
     """The path of a measured file, its bytes and its surface."""
-    path = surfaces / request.param
+    path = SURFACES / request.param
     if path.suffix not in OWN:
         pytest.importorskip("SurfaceTopography")
-    return path, path.read_bytes(), attempt(path)[0]
+    return path, path.read_bytes(), tried(path)[0]
 
 
 @pytest.mark.parametrize("mutation", MUTATIONS)
 def test_a_spoilt_file(whole, put, caplog, capfd, mutation):
     path, data, truth = whole
     started = time.monotonic()
-    outcome, warned = attempt(put(path.name, MUTATIONS[mutation](data)))
+    outcome, warned = tried(put(path.name, MUTATIONS[mutation](data)))
     assert time.monotonic() - started < SLOWEST
     assert not caplog.records
     assert capfd.readouterr() == ("", "")
     if isinstance(outcome, rc.ReadError):
         assert str(outcome).startswith(f"{path.name}: ")
         return
-    assert mutation not in {"empty", "one byte", "256 bytes", "garbage", "zeros"} or len(data) <= 256
+    assert mutation not in LOST or len(data) <= 256
     right = is_right(outcome, truth)
     assert right or (warned and path.suffix not in GUARDED)
-
-
-def is_right(outcome, truth):
-    """Whether heights and cells are those of the whole file, but for the last digits of what a header prints."""
-    return outcome.grid.shape == truth.grid.shape and (
-        np.allclose(outcome.grid.spacing, truth.grid.spacing, rtol=1e-6, atol=0)
-        and np.allclose(outcome.heights, truth.heights, rtol=1e-6, atol=1e-9 * truth.rms, equal_nan=True)
-    )
 
 
 def test_the_whole_files_are_read(whole):

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from measured import SURFACES
+
 
 @pytest.fixture(scope="module")  # its event loop must be gone before others are begun
 def chromium():
@@ -28,8 +30,4 @@ def chromium():
 @pytest.fixture(scope="session")
 def measured():
     """Paths of the measured surfaces beside the repository; none where they are not."""
-    for folder in Path(__file__).resolve().parents:
-        found = folder.parent / "shared" / "data" / "surfaces"
-        if found.is_dir():
-            return sorted(path for path in found.iterdir() if path.name != "MANIFEST.csv")
-    return []
+    return sorted(path for path in SURFACES.iterdir() if path.name != "MANIFEST.csv") if SURFACES else []

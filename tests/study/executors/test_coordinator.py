@@ -26,6 +26,7 @@ for outcome in Processes(2).outcomes(perform, given):
 print("finished")
 """
 PATIENCE = 30  # [s], of a busy machine
+groups = pytest.mark.skipif(not hasattr(os, "killpg"), reason="no groups of processes here")
 
 
 @pytest.fixture
@@ -62,8 +63,10 @@ def test_a_script_needs_no_guard(script):
     assert err == ""
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_no_worker_outlives_it(script, number):
+@groups
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGKILL"])
+def test_no_worker_outlives_it(script, name):
+    number = getattr(signal, name)
     process = script([0, 0, 60, 60])
     assert {process.stdout.readline().strip() for _ in range(3)} == {"started", "key0", "key1"}
     workers = psutil.Process(process.pid).children(recursive=True)
@@ -80,6 +83,7 @@ def test_no_worker_outlives_it(script, number):
     assert alive == []
 
 
+@groups
 def test_ctrl_c_while_the_workers_start_is_as_quiet(script):
     process = script([60, 60])
     assert process.stdout.readline() == "started\n"
