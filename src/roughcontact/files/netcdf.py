@@ -24,7 +24,7 @@ from roughcontact.files.heightmap import (
 )
 from roughcontact.files.length_units import is_length, length_factor
 
-__all__ = ["StoredVariable", "list_netcdf", "opened", "read_netcdf"]
+__all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
 # Coordinates and lengths are often computed in single precision.
@@ -73,26 +73,36 @@ def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
     from the attribute ``length`` of the coordinates, or from coordinates with even steps.
     """
     with opened(data) as (variables, attributes):
-        found = _channels(variables)
-        if channel is None and "heights" in variables:
-            channel = "heights"
-        name = found[pick(found, channel)].name
-        chosen = variables[name]
-        heights = as_heights(_checked(chosen, name))
-        if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
-            heights = np.where(variables["mask"].load() != 0, np.nan, heights)
-        axes = chosen.dimensions
-        if axes == ("x", "y"):
-            heights, axes = heights.T, ("y", "x")
-        return HeightMap(
-            heights,
-            "NetCDF",
-            channel=name,
-            unit=chosen.word("unit", "units"),
-            spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units")),
-            periodic=_periodic(variables, axes),
-            history=_history(attributes),
-        )
+        return height_map_of(variables, attributes, channel, "NetCDF")
+
+
+def height_map_of(
+    variables: Mapping[str, StoredVariable],
+    attributes: Mapping[str, Any],
+    channel: str | int | None,
+    format: str,
+) -> HeightMap:
+    """Return what variables, such as those of an open file, state about a map or a profile of heights."""
+    found = _channels(variables)
+    if channel is None and "heights" in variables:
+        channel = "heights"
+    name = found[pick(found, channel)].name
+    chosen = variables[name]
+    heights = as_heights(_checked(chosen, name))
+    if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
+        heights = np.where(variables["mask"].load() != 0, np.nan, heights)
+    axes = chosen.dimensions
+    if axes == ("x", "y"):
+        heights, axes = heights.T, ("y", "x")
+    return HeightMap(
+        heights,
+        format,
+        channel=name,
+        unit=chosen.word("unit", "units"),
+        spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units")),
+        periodic=_periodic(variables, axes),
+        history=_history(attributes),
+    )
 
 
 def list_netcdf(data: bytes) -> tuple[Channel, ...]:

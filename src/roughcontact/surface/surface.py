@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.datasets import surface_from_dataarray, surface_to_dataset
 from roughcontact.grid import Grid
 from roughcontact.pictures import plot_surface, surface_html
 from roughcontact.slabs.exchange import is_in_slabs
@@ -199,4 +200,6 @@ class Surface:
     rotated = on_host_only(rotated)
 
     plot = on_host_only(plot_surface)
+    to_dataset = on_host_only(surface_to_dataset)
+    from_dataarray = staticmethod(surface_from_dataarray)
     _repr_html_ = surface_html
