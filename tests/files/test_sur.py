@@ -98,7 +98,6 @@ def test_arbitrary_units_are_named(put):
         ((12, "<h", 256), "byte order 256"),
         ((14, "<h", 3), "3 objects"),
         ((18, "<h", 12), "type 12"),
-        ((18, "<h", 1), "series of 3 profiles"),
         ((98, "<h", 24), "of 24 bits"),
         ((108, "<i", 5), "3 x 5 points"),
         ((108, "<i", -4), "3 x -4 points"),
