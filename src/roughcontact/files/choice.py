@@ -10,7 +10,7 @@ from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, describe, names_a_height, names_something_else, pick
 from roughcontact.files.length_units import is_length
 
-__all__ = ["AS_TEXT", "choose", "marked"]
+__all__ = ["AS_TEXT", "choose", "holds_a_profile", "marked"]
 
 AS_TEXT = "give a map of heights, or export the profile as a text of two columns, places and heights"
 
@@ -63,6 +63,11 @@ def choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, 
     return heights[0], (
         f"{len(heights)} channels are heights ({names}); took {chosen!r}, pass channel= for another",
     )
+
+
+def holds_a_profile(channels: Sequence[Channel]) -> bool:
+    """Whether the only channel has a single row."""
+    return len(channels) == 1 and channels[0].shape[0] == 1
 
 
 def _doubts(channel: Channel) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.files.choice import choose, marked
+from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, line_if_one_row
 from roughcontact.files.length_units import is_length, length_factor
@@ -39,7 +39,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
     """Return the height channel of the file; points under its mask are missing, as Gwyddion leaves them out."""
     fields = _fields(data)
     channels = marked([field.channel for field in fields])
-    index, doubts = choose(channels, channel)
+    index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
     chosen, field = channels[index], fields[index]
     heights = field.heights
     notes: tuple[str, ...] = ()

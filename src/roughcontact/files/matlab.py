@@ -60,7 +60,7 @@ def _require_packed(packed: bytes, order: str) -> None:
     while left > 0 and (part := unpacker.decompress(unpacker.unconsumed_tail, min(left, _LOOK))):
         left -= len(part)
     # One more byte would be one too many; asking for it lets the checksum be compared.
-    if left > 0 or unpacker.decompress(unpacker.unconsumed_tail, 1) or not unpacker.eof:
+    if left != 0 or unpacker.decompress(unpacker.unconsumed_tail, 1) or not unpacker.eof:
         raise ValueError("a compressed array holds more or less than it announces")
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.choice import choose, marked
+from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.foreign import lacking, list_foreign, read_foreign, unlogged
@@ -57,7 +57,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
         if pages is None:
             return read_foreign(".tiff", data, channel)
         channels = _channels(pages)
-        index, doubts = choose(channels, channel)
+        index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
         page = pages[index]
         heights = _numbers(page, len(data))
         missing, notes = _not_measured(page, heights)
