@@ -26,9 +26,17 @@ def test_heights_and_cells(put, title, shape):
 @pytest.mark.parametrize(
     ("units", "problem", "given"),
     [
-        ((None, None), "no unit of its heights and sides of .* in no unit", {"unit": "m", "size": "18 um"}),
-        (("", ""), "no unit of its heights and sides of .* in no unit", {"unit": "m", "size": "18 um"}),
-        (("", "m"), "states sides of .* in no unit", {"size": ("16 um", "18 um")}),
+        (
+            (None, None),
+            "no unit of its heights and no size that is understood .*in no unit",
+            {"unit": "m", "size": "18 um"},
+        ),
+        (
+            ("", ""),
+            "no unit of its heights and no size that is understood .*in no unit",
+            {"unit": "m", "size": "18 um"},
+        ),
+        (("", "m"), "no size that is understood .sides of .* in no unit", {"size": ("16 um", "18 um")}),
         (("m", ""), "states no unit of its heights;", {"unit": "m"}),
         (("deg", "m"), "in 'deg'", {"size": 18e-6}),
     ],

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.files.block_ends import left_behind_blocks
 from roughcontact.files.choice import AS_TEXT, choose, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ContentError
@@ -73,7 +74,7 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
         index, doubts = choose(channels, channel)
         found = _map(reader, index, channels[index])
         if isinstance(factor := _factor(reader, stream, index), str):
-            found = replace(found, no_size=factor)
+            found = replace(found, unclear=factor)
         return replace(found, doubts=(*doubts, *_left_over(reader, stream)))
 
 
@@ -179,9 +180,9 @@ def _channels(reader: Any, stream: BoundedStream) -> tuple[Channel, ...]:
 
 
 def _factor(reader: Any, stream: BoundedStream, index: int) -> float | str:
-    """Return what the height of a map that the library states is multiplied by, or what the file states instead."""
+    """Return what the height of a map that the library states is multiplied by, or why it is not known."""
     if reader.format() in _SIZE_UNRELIABLE:
-        return "no size"
+        return "a size that its reader takes for a million times another"
     return height_factors(stream.getvalue())[index] if reader.format() == "di" else 1.0
 
 
@@ -197,6 +198,9 @@ def _units(info: Any) -> tuple[str | None, str | None]:
 
 def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
     """Return a doubt where the channels that the header announces do not end where the file ends."""
+    if left := left_behind_blocks(reader.format(), stream.getvalue()):
+        where = f"{left} bytes before" if left > 0 else "beyond"
+        return (f"its blocks end {where} the end of the file: it may be damaged",)
     if reader.format() not in _FILLED:
         return ()
     stream.forget()

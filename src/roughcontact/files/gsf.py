@@ -37,9 +37,9 @@ def read_gsf(data: bytes) -> HeightMap:
     heights = as_heights(np.frombuffer(data, "<f4", offset=start).reshape(shape))
     sides = _side(fields, "YReal"), _side(fields, "XReal")
     unit = fields.get("XYUnits", "")
-    spacing, no_size = None, "no size"
+    spacing, unclear = None, None
     if sides[0] is not None and sides[1] is not None:
-        no_size = f"sides of {sides[1]:g} x {sides[0]:g} (x, y) in {repr(unit) if unit else 'no unit'}"
+        unclear = f"sides of {sides[1]:g} x {sides[0]:g} (x, y) in {repr(unit) if unit else 'no unit'}"
         if is_length(unit):
             factor = length_factor(unit)
             spacing = (sides[0] * factor / shape[0], sides[1] * factor / shape[1])
@@ -50,7 +50,7 @@ def read_gsf(data: bytes) -> HeightMap:
             channel=fields.get("Title") or None,
             unit=fields.get("ZUnits") or None,
             spacing=spacing,
-            no_size=no_size,
+            unclear=unclear,
         )
     )
 

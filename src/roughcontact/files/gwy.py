@@ -56,7 +56,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
             channel=chosen.name,
             unit=chosen.unit,
             spacing=spacing,
-            no_size=field.sides,
+            unclear=field.sides,
             notes=notes,
             doubts=doubts,
         )

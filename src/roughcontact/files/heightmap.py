@@ -15,13 +15,10 @@ from roughcontact.validation import Array
 
 __all__ = [
     *("Array", "Channel", "HeightMap", "as_heights", "describe", "names_a_height", "names_something_else"),
-    *("is_extreme", "line_if_one_row", "pick", "require_line", "require_map"),
+    *("line_if_one_row", "pick", "require_line", "require_map"),
 ]
 
 
-# The numbers by which floating-point files mark what was not measured, and how far print may round them.
-_SINGLE, _DOUBLE = float(np.finfo(np.float32).max), float(np.finfo(np.float64).max)
-_PRINTED = 1e-6
 _MAP = "give a two-dimensional map of heights, rows by columns"
 _HEIGHT = re.compile(r"height|topograph|z.?axis|z.?sensor", re.IGNORECASE)
 _OTHER = re.compile(
@@ -75,8 +72,8 @@ class HeightMap:
         Size of a cell (dy, dx) or (dx,) [m]; None where the file is silent.
     steps : tuple of float, optional
         Size of a cell in the unit of the heights, where the file gives numbers without a unit.
-    no_size : str
-        What the file states in place of a size, for the question that is asked where `spacing` is None.
+    unclear : str, optional
+        What the file states about its size in words that are not understood.
     periodic : bool or tuple of bool
         Whether the file says that the surface repeats itself.
     history : tuple of str
@@ -91,7 +88,7 @@ class HeightMap:
     unit: str | float | None = None
     spacing: tuple[float, ...] | None = None
     steps: tuple[float, ...] | None = None
-    no_size: str = "no size"
+    unclear: str | None = None
     periodic: bool | tuple[bool, ...] = False
     history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -114,16 +111,7 @@ def as_heights(values: npt.NDArray[Any]) -> Array:
         raise ContentError(f"it is {values.ndim}-dimensional ({shape})", _MAP)
     # A damaged file may hold signalling NaN or numbers beyond double precision.
     with np.errstate(all="ignore"):
-        heights = values.astype(np.float64)
-        if values.dtype.kind == "f":
-            heights[is_extreme(heights)] = np.nan
-    return heights
-
-
-def is_extreme(values: Array) -> npt.NDArray[np.bool_]:
-    """Whether numbers are the largest or lowest of single or double precision, also as printed: no height is."""
-    size = np.abs(values)
-    return (np.abs(size - _SINGLE) < _PRINTED * _SINGLE) | (size > (1 - _PRINTED) * _DOUBLE)
+        return values.astype(np.float64)
 
 
 def line_if_one_row(found: HeightMap) -> HeightMap:

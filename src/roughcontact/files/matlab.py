@@ -12,7 +12,8 @@ from roughcontact.files.file_errors import ContentError
 __all__ = ["require_whole"]
 
 _HEADER, _TAG = 128, 8  # bytes
-_ORDERS = {b"IM": "<", b"MI": ">"}
+# The version, 1.0, and the order of bytes, behind a text that may be any.
+_ORDERS = {b"\0\1IM": "<", b"\1\0MI": ">"}
 _MATRIX, _COMPRESSED = 14, 15
 # Bytes of a number by the class of its array, and by the type in which it is stored.
 _CLASSES = {6: 8, 7: 4, 8: 1, 9: 1, 10: 2, 11: 2, 12: 4, 13: 4, 14: 8, 15: 8}
@@ -28,8 +29,8 @@ def require_whole(data: bytes) -> None:
     A compressed array is unpacked no further than its dimensions allow, and its checksum is compared. What is no
     array of numbers, and files of other versions, are left to their reader.
     """
-    order = _ORDERS.get(data[126:128])
-    if not data.startswith(b"MATLAB 5.0") or order is None:
+    order = _ORDERS.get(data[124:128])
+    if order is None:
         return
     place = _HEADER
     try:

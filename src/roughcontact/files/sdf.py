@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import HeightMap, as_heights, is_extreme, line_if_one_row
+from roughcontact.files.heightmap import HeightMap, as_heights, line_if_one_row
 from roughcontact.files.numbers import decode, unended
 from roughcontact.validation import Array
 
@@ -157,7 +157,8 @@ def _not_measured(
     """
     missing = np.isnan(values)
     if dtype.kind == "f":
-        return missing | is_extreme(values), ()
+        # As text its lowest and highest numbers are rounded.
+        return missing | (np.abs(values) > (1 - 1e-6) * float(np.finfo(dtype.name).max)), ()
     limits = np.iinfo(dtype.name)
     lowest, highest = values == limits.min, values == limits.max
     if dtype.itemsize == 1:

@@ -68,7 +68,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
                 _TURNED[turn](values),
                 "TIFF",
                 channel=channels[index].name,
-                no_size="no size (its resolution is that of a print)" if 282 in page.tags else "no size",
+                unclear="a resolution, which is that of a print" if 282 in page.tags else None,
                 notes=(*notes, *((f"turned upright from orientation {turn}",) if turn != 1 else ())),
                 doubts=(*doubts, *_doubts(page)),
             )
