@@ -182,7 +182,7 @@ def _channels(reader: Any, stream: BoundedStream) -> tuple[Channel, ...]:
 def _factor(reader: Any, stream: BoundedStream, index: int) -> float | str:
     """Return what the height of a map that the library states is multiplied by, or why it is not known."""
     if reader.format() in _SIZE_UNRELIABLE:
-        return "a size that its reader takes for a million times another"
+        return "a size whose unit its reader mistakes"
     return height_factors(stream.getvalue())[index] if reader.format() == "di" else 1.0
 
 
