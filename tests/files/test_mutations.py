@@ -42,7 +42,7 @@ NAMES = [
     "top-1.top",
     "valid_zygo_dat_file.dat",
 ]
-OWN = (".x3p", ".csv", ".xyz", ".npy", ".nc", ".txt", ".sur")
+OWN = (".x3p", ".csv", ".xyz", ".npy", ".nc", ".txt", ".sur", ".gwy", ".tmd")
 # A checksum guards the heights and what they mean.
 GUARDED = (".x3p",)
 SLOWEST = 30.0  # seconds
