@@ -158,3 +158,11 @@ def _sur_packed(heights, dy, dx):
 @writes("line.pro", line=True)
 def _pro(heights, dy, dx):
     return _sur(heights[:1], dy, dx, kind=1)
+
+
+@writes("field.gsf", missing=True)
+def _gsf(heights, dy, dx):
+    ny, nx = heights.shape
+    head = f"Gwyddion Simple Field 1.0\nXRes = {nx}\nYRes = {ny}\nXReal = {nx * dx}\nYReal = {ny * dy}\n"
+    head = (head + "XYUnits = m\nZUnits = m\nTitle = Height\n").encode()
+    return head + b"\0" * (4 - len(head) % 4) + heights.astype("<f4").tobytes()

@@ -93,7 +93,8 @@ def _require(found: HeightMap, unit: Length | None, size: object) -> None:
         )
         hints.append(_UNIT_HINT)
     if size is None and found.spacing is None and found.steps is None:
-        problems.append("no size")
+        unclear = "" if found.unclear is None else f" that is understood ({found.unclear})"
+        problems.append(f"no size{unclear}")
         hints.append(_size_hint(found))
     if problems:
         raise ContentError(f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")

@@ -33,9 +33,9 @@ def read(
 ) -> Surface:
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
-    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc`` and ``.sur`` are read
-    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a
-    profile is refused: see `read_line`.
+    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc``, ``.sur``, ``.sdf``,
+    ``.tmd``, ``.gsf`` and ``.gwy`` are read strictly; ``.tif`` and every other format need SurfaceTopography,
+    ``pip install roughcontact[formats]``. A file that holds a profile is refused: see `read_line`.
 
     Parameters
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.files.noisy_rows import noisy_rows
 from roughcontact.surface.spikes import spikes_in
 from roughcontact.validation import Array
 
@@ -76,6 +77,11 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     if (share := _noise(heights)) > _NOISY:
         found.append(
             f"in {share:.0%} of the rows neighbouring heights are unrelated, as random numbers are; check the file"
+        )
+    elif (rows := noisy_rows(heights)) > 0:
+        found.append(
+            f"in {rows} rows or columns neighbouring heights are unrelated and far apart, as random numbers are; "
+            "check the file"
         )
     return found
 
