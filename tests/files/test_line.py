@@ -98,7 +98,7 @@ def test_places_printed_short_are_even_all_the_same(put):
         ("words\n1 2\n", "holds 1 rows"),
         ("words\n", "holds 0 rows"),
         ("0 1\n1 1_0\n", "interrupts"),
-        ("0 nan\n1 nan\n", "all heights are NaN"),
+        ("0.5 nan\n1 nan\n", "all heights are NaN"),
         ("nan 1\nnan 2\n", "places run from nan"),
     ],
 )

@@ -72,6 +72,8 @@ class HeightMap:
         Size of a cell (dy, dx) or (dx,) [m]; None where the file is silent.
     steps : tuple of float, optional
         Size of a cell in the unit of the heights, where the file gives numbers without a unit.
+    unclear : str, optional
+        What the file states about its size in words that are not understood.
     periodic : bool or tuple of bool
         Whether the file says that the surface repeats itself.
     history : tuple of str
@@ -86,6 +88,7 @@ class HeightMap:
     unit: str | float | None = None
     spacing: tuple[float, ...] | None = None
     steps: tuple[float, ...] | None = None
+    unclear: str | None = None
     periodic: bool | tuple[bool, ...] = False
     history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

@@ -20,6 +20,11 @@ _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
 _CHOSEN = 100_000  # points that a quantile is taken of
 _ENOUGH_IN_A_ROW = 32
+_RUN, _LONGER = (
+    24,
+    4,
+)  # equal neighbours, and by how much more than in any other run: a plateau has as many in each row
+_MOSTLY = 0.5  # share of missing points
 _DEVIATIONS = 3.0  # standard deviations within which a correlation counts as none
 _NOISY = 0.2  # share of rows without correlation
 
@@ -50,6 +55,9 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
         found.append(
             f"an rms height of {rms:.3g} m on {min(lengths):.3g} m is unusual; check unit= and size="
         )
+    missing = float(np.isnan(heights).mean())
+    if missing > _MOSTLY:
+        found.append(f"{missing:.0%} of its points are missing")
     if np.count_nonzero(~np.isnan(heights)) < _ENOUGH:
         return tuple(found)
     if flat:
@@ -59,7 +67,7 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
 
 def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     """Return doubts that need many points: rows without heights, spikes, slopes, noise."""
-    found = _broken_off(heights)
+    found = _broken_off(heights) or _long_runs(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
         found.append(
@@ -93,6 +101,23 @@ def _broken_off(heights: Array) -> list[str]:
                 f"its {edge} {count} of {len(rows)} rows all hold {rows[0, 0]:g} m, as of a scan that was broken off"
             )
     return found
+
+
+def _long_runs(heights: Array) -> list[str]:
+    """Return a doubt where one number is repeated along a line far more often than any other: what damage leaves."""
+    for lines in (heights, heights.T) if heights.ndim == 2 else (heights,):
+        values = lines.reshape(-1)
+        ends = np.flatnonzero(np.append(values[1:] != values[:-1], True))  # of runs; NaN is unlike itself
+        lengths = np.diff(ends, prepend=-1)
+        longest = int(np.argmax(lengths))
+        second = int(np.delete(lengths, longest).max(initial=1))
+        if lengths[longest] >= max(_RUN, _LONGER * second):
+            value = values[ends[longest]]
+            return [
+                f"{lengths[longest]} neighbouring points hold {value:g} m, as damage leaves them; "
+                "take them out by masked()"
+            ]
+    return []
 
 
 def _far_points(heights: Array) -> int:

@@ -1,0 +1,113 @@
+"""Places in the first row and column of a table, which are no heights: numbers of columns and rows, or axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.validation import Array
+
+__all__ = ["Axes", "axes_of", "counts", "even_step"]
+
+# Measured heights do not lie on a line: of a table that is no slope, a row that does holds places.
+_EVEN, _UNEVEN = (
+    0.1,
+    0.5,
+)  # of a step: so far off are printed places at most, and the row beside them at least
+_EXACT = 0.01  # where there are only a few
+_NAMED, _BOTH, _ALONE = (
+    3,
+    5,
+    8,
+)  # numbers that are enough beside a corner without one, of both, and of one alone
+_TELLING = 3  # heights in a row that can be off a line
+_COUNTED = 4  # and of those that count 0, 1, 2, ...
+_KEEP = "to keep them as heights, save the table as .npz under the key 'heights'"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axes:
+    """The heights of a table without its first row, or its first column, or both.
+
+    Parameters
+    ----------
+    heights : array, shape (ny, nx)
+        What is left.
+    x, y : array, optional
+        What stood in the first row and in the first column.
+    """
+
+    heights: Array
+    x: Array | None
+    y: Array | None
+
+    @property
+    def doubt(self) -> str:
+        """What was left out, and how to keep it."""
+        rows = (("row", self.x), ("column", self.y))
+        parts = [f"its first {name} ({_shown(places)})" for name, places in rows if places is not None]
+        verb = "holds places" if len(parts) == 1 else "hold places"
+        return f"{' and '.join(parts)} {verb}, no heights, and {'is' if len(parts) == 1 else 'are'} left out; {_KEEP}"
+
+    def steps(self) -> tuple[float, float] | None:
+        """Return the steps (dy, dx) of two axes; None where one is missing or only numbers the points."""
+        if self.x is None or self.y is None or counts(self.x) or counts(self.y):
+            return None
+        return abs(even_step(self.y)), abs(even_step(self.x))
+
+
+def axes_of(values: Array) -> Axes | None:
+    """Return a table (rows, columns) without places in its first row and column; None where it holds heights only.
+
+    Places are even; the row or column beside them is not, or the table is a slope.
+    """
+    if values.ndim != 2 or min(values.shape) < 3:
+        return None
+    body, x, y = values[1:, 1:], values[0, 1:], values[1:, 0]
+    fewest = _NAMED if np.isnan(values[0, 0]) else _BOTH  # a corner without a number, as data frames have
+    if _are_places(x, fewest) and _are_places(y, fewest):
+        return Axes(body, x, y) if _is_uneven(body) or _is_uneven(body.T) else None
+    if _are_places(values[0], _ALONE) and _is_uneven(values[1:]):
+        return Axes(values[1:], values[0], None)
+    if _are_places(values[:, 0], _ALONE) and _is_uneven(values.T[1:]):
+        return Axes(values[:, 1:], None, values[:, 0])
+    return None
+
+
+def counts(places: Array) -> bool:
+    """Whether places are 0, 1, 2, ... or 1, 2, 3, ..., as points are numbered."""
+    return len(places) > 1 and any(np.array_equal(places, np.arange(len(places)) + first) for first in (0, 1))
+
+
+def even_step(places: Array) -> float:
+    """Return the mean step of places."""
+    return float((places[-1] - places[0]) / (len(places) - 1))
+
+
+def _are_places(places: Array, fewest: int) -> bool:
+    enough = min(fewest, _COUNTED) if counts(places) else fewest
+    return len(places) >= enough and _off(places) <= (_EVEN if len(places) >= _BOTH else _EXACT)
+
+
+def _is_uneven(rows: Array) -> bool:
+    """Whether the first row with enough heights to tell is no slope."""
+    for row in rows:
+        if np.count_nonzero(np.isfinite(row)) >= _TELLING:
+            return _off(row[np.isfinite(row)], np.flatnonzero(np.isfinite(row))) > _UNEVEN
+    return False
+
+
+def _off(places: Array, at: npt.NDArray[np.intp] | None = None) -> float:
+    """Return how far places lie off a line through their ends, in steps; infinite where none is or has a step."""
+    at = np.arange(len(places)) if at is None else at
+    with np.errstate(all="ignore"):  # of what a damaged file holds
+        step = (places[-1] - places[0]) / (at[-1] - at[0])
+        off = float(np.abs(places - places[0] - step * (at - at[0])).max() / abs(step))
+    return off if np.isfinite(off) else np.inf
+
+
+def _shown(places: Array) -> str:
+    first = ", ".join(f"{place:g}" for place in places[:3])
+    return f"{first}, ..., {places[-1]:g}" if len(places) > 3 else first
