@@ -29,9 +29,12 @@ _POINT = re.compile(r"\d\.|\.\d")
 _NEEDS_POINTS = "write decimal points, and no commas between thousands"
 
 
-def fields_of(line: str) -> list[str]:
-    """Return the fields of a line as they are printed, without blanks and quotes around them."""
-    separator = separator_of(line)
+def fields_of(line: str, like: str | None = None) -> list[str]:
+    """Return the fields of a line as they are printed, without blanks and quotes around them.
+
+    A line of words is separated `like` another line.
+    """
+    separator = separator_of(line if like is None else like)
     if separator is None:
         return line.replace('"', "").split()
     if '"' in line:
@@ -78,8 +81,9 @@ def with_points(rows: list[list[str]], where: Sequence[str]) -> list[list[str]]:
     """
     if not any("," in field for row in rows for field in row):
         if _halves(rows):
+            shown = ",".join(rows[0][:4])
             raise ContentError(
-                f"{where[0]}: {','.join(rows[0])!r} may be {len(rows[0])} numbers, or half as many with decimal commas",
+                f"{where[0]}: {shown!r} may be {len(rows[0][:4])} numbers, or half as many with decimal commas",
                 "write decimal points, or semicolons between the numbers",
             )
         return rows

@@ -16,6 +16,7 @@ __all__ = ["read_keyence"]
 _COLUMNS, _ROWS = (
     re.compile(words, re.IGNORECASE) for words in (r"horizont.*|水平.*", r"verti[ck].*|垂直.*")
 )
+_HEIGHT = re.compile(r"height|höhe|hauteur|altura|高", re.IGNORECASE)
 
 
 def read_keyence(text: str) -> HeightMap:
@@ -44,6 +45,8 @@ def read_keyence(text: str) -> HeightMap:
     side = None if cell is None else number_of(cell[1].replace(",", ".")) * length_factor(cell[2])
     titles = [row[0] for row in header if len(row) == 1 and row[0]]
     units = [row[1] for row in header if len(row) == 2 and is_length(row[1])]
+    if not units and titles and not _HEIGHT.search(titles[-1]):
+        raise ContentError(f"it holds {titles[-1]!r}, no heights", "export the data of its height image")
     return HeightMap(
         as_heights(values),
         "Keyence text",

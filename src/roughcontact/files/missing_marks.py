@@ -6,7 +6,7 @@ import numpy as np
 
 from roughcontact.validation import Array, Mask
 
-__all__ = ["holds_mark", "near_miss", "without_fills"]
+__all__ = ["holds_mark", "without_fills", "without_marks"]
 
 # No height in any unit is so large; beyond it a mark is compared by its first digits, of which few may be printed.
 _BEYOND = 1e30
@@ -31,8 +31,19 @@ def holds_mark(values: Array, marks: tuple[float, ...]) -> Mask:
     return found
 
 
-def near_miss(values: Array, marks: tuple[float, ...]) -> tuple[str, ...]:
-    """Return a doubt where a mark stands nowhere, and an extreme height, found more than once, is close to it."""
+def without_marks(values: Array, marks: tuple[float, ...]) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
+    """Return heights without the marks that a file states, a note, and doubts.
+
+    A mark that stands nowhere, while an extreme height that is found more than once is close to it, is doubtful.
+    """
+    found = holds_mark(values, marks)
+    if found.any():
+        stated = ", ".join(f"{mark:g}" for mark in marks)
+        return (
+            np.where(found, np.nan, values),
+            (f"not measured where it is {stated}, as its header states",),
+            (),
+        )
     doubts = []
     known = values[np.isfinite(values)]
     for mark in marks if known.size else ():
@@ -41,9 +52,9 @@ def near_miss(values: Array, marks: tuple[float, ...]) -> tuple[str, ...]:
             if count > 1 and 0 < abs(extreme - mark) <= _NEAR * abs(mark):
                 doubts.append(
                     f"it states that {mark:g} marks missing points, and {count} of its heights are {extreme:g}; "
-                    "take them out by masked()"
+                    f"state {extreme:g} if they are missing"
                 )
-    return tuple(doubts)
+    return values, (), tuple(doubts)
 
 
 def without_fills(values: Array) -> tuple[Array, tuple[str, ...]]:

@@ -58,7 +58,7 @@ class StoredVariable:
         # What is odd about damaged numbers shows later, in the heights.
         with np.errstate(all="ignore"):
             if str(self.word("_Unsigned")).casefold() == "true" and values.dtype.kind == "i":
-                values = values.view(f"u{values.dtype.itemsize}")
+                values = values.view(values.dtype.str.replace("i", "u"))
             result = values.astype(np.float64)
             marks = (*self._stated("_FillValue"), *self._stated("missing_value"))
             result[holds_mark(result, marks) | self._invalid(result)] = np.nan

@@ -18,7 +18,6 @@ from roughcontact.files.fields import (
     is_number,
     number_of,
     require_one_separator,
-    separator_of,
     with_points,
 )
 from roughcontact.files.file_errors import ContentError
@@ -40,6 +39,7 @@ _SIGNS = {"\r\n": "\n", "\r": "\n", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "
 _CORNER = re.compile(
     r"(?!nan|inf)[^\W\d_]|[\[(/\\]", re.IGNORECASE
 )  # what a word above a first column begins with
+_TELLING = 32  # bytes, every other one zero, from which a text has two bytes a letter
 _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 
 
@@ -60,10 +60,13 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """What stands above the first column and beside the first row, and what is wrong if those are no places."""
+    """What stands above the first column and beside the first row, and what is wrong if those are no places.
+
+    Where it is empty, a point of the map may be missing there: nothing is wrong.
+    """
 
     text: str
-    error: ContentError
+    error: ContentError | None
 
 
 @dataclass(slots=True)
@@ -117,7 +120,7 @@ def parse_table(text: str, *, points: bool = False) -> Table:
                 comments.append(bare[mark.end() :].lstrip("# ").strip())
             if rows and not interruption:
                 interruption = number
-        elif not rows and (_is_header(bare, statements) or (points and not _holds_a_number(bare))):
+        elif not rows and (_is_header(bare, statements) or (points and not _holds_a_point(bare))):
             comments.append(bare)
             statements = True
         elif interruption and not points:
@@ -149,8 +152,9 @@ def _is_header(line: str, among_statements: bool) -> bool:
     return bool(_STATEMENT.fullmatch(line) or (among_statements and _WORDS.fullmatch(line)))
 
 
-def _holds_a_number(line: str) -> bool:
-    return any(is_number(text.replace(",", ".")) for text in fields_of(line))
+def _holds_a_point(line: str) -> bool:
+    """Whether a line is that of a point, be one of its numbers damaged."""
+    return sum(is_number(text.replace(",", ".")) for text in fields_of(line)) > 1
 
 
 def require_rows(comments: Iterable[str], found: int) -> None:
@@ -179,9 +183,11 @@ def unended(text: str) -> tuple[str, ...]:
 
 def decode(data: bytes) -> str:
     """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
-    utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    if len(data) >= _TELLING and data[1:_TELLING:2] == bytes(_TELLING // 2):
+        encoding = "utf-16-le"  # without its mark
     try:
-        text = data.decode("utf-16" if utf16 else "utf-8-sig")
+        text = data.decode(encoding)
     except UnicodeDecodeError:
         text = data.decode("latin-1")  # older Western exports: only comments are concerned
     if "\0" in text:
@@ -202,11 +208,13 @@ def last_digit(number: str) -> float:
 def _numbers(rows: list[tuple[int, str]]) -> Table:
     where = [f"row {k} (line {number})" for k, (number, _) in enumerate(rows, start=1)]
     fields = [fields_of(line) for _, line in rows]
+    if len(rows) > 1 and not all(map(is_number, fields[0])):
+        fields[0] = fields_of(rows[0][1], like=rows[1][1])
     # A separator closing every row is a habit of some programs; one closing only some rows leaves holes.
     if all(len(row) > 1 and row[-1] == EMPTY for row in fields):
         fields = [row[:-1] for row in fields]
     names: tuple[str, ...] = ()
-    if _are_names(fields[:2]) and separator_of(rows[0][1]) == separator_of(rows[1][1]):
+    if _are_names(fields[:2]):
         names = (rows[0][1].strip(),)
         fields, where = fields[1:], where[1:]
     fields = with_points(fields, where)
@@ -220,7 +228,8 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
             raise _bad_field(row, place) from None
         if len(row) != len(table[0]):
             raise ContentError(f"{place} holds {len(row)} numbers, the first row {len(table[0])}", _HOLE)
-    require_one_separator([line for _, line in rows[bool(names) :]], where)
+    lines = [line for _, line in rows[bool(names) :]]
+    require_one_separator(lines[corner is not None :], where[corner is not None :])
     notes, doubts = marks.told()
     if names:
         notes = (f"its first line, {names[0][:60]!r}, names the columns", *notes)
@@ -245,8 +254,8 @@ def _corner(rows: list[list[str]], where: list[str]) -> Corner | None:
             "",
             ContentError(f"{where[1]} holds {len(rows[1])} numbers, the first row {len(first) - 1}", _HOLE),
         )
-    if len(first) > 1 and _CORNER.match(first[0]) and not is_mark(first[0]):
-        corner = Corner(first[0], _bad_field(first, where[0]))
+    if len(first) > 1 and (first[0] == EMPTY or (_CORNER.match(first[0]) and not is_mark(first[0]))):
+        corner = Corner(first[0], _bad_field(first, where[0]) if first[0] else None)
         first[0] = "nan"
         return corner
     return None

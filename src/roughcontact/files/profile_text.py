@@ -11,9 +11,10 @@ from roughcontact.files.fields import EMPTY, fields_of, is_mark, is_number, with
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor, stated_length
-from roughcontact.files.missing_marks import holds_mark, near_miss
+from roughcontact.files.missing_marks import without_marks
 from roughcontact.files.numbers import Marks, decode, last_digit, require_rows, unended
 from roughcontact.files.table_axes import counts
+from roughcontact.files.text_dialects import dialect_of
 from roughcontact.files.text_header import header_of
 from roughcontact.validation import Array
 
@@ -38,6 +39,8 @@ def read_profile(data: bytes) -> HeightMap:
     ``nodata = -9999`` states what stands where nothing was measured, as in a map.
     """
     text = decode(data)
+    if dialect_of(text) is not None:
+        raise ContentError("it is a text of a map, by its first line", "use read")
     words, rows, doubts = _without_name(*_split(text))
     require_rows(words, len(rows))
     columns = len(rows[0])
@@ -45,11 +48,10 @@ def read_profile(data: bytes) -> HeightMap:
     marks = Marks()
     values = np.array([[marks.number(field) for field in row] for row in rows])
     notes, of_marks = marks.told()
-    heights = values[:, min(columns - 1, 1)].copy()
-    doubts = (*unended(text), *doubts, *of_marks, *header.doubts, *near_miss(heights, header.missing))
+    heights, stated, near = without_marks(values[:, min(columns - 1, 1)], header.missing)
+    notes, doubts = (*notes, *stated), (*unended(text), *doubts, *of_marks, *header.doubts, *near)
     if columns == 3:
-        heights[values[:, 2] == 0] = np.nan
-    heights[holds_mark(heights, header.missing)] = np.nan
+        heights = np.where(values[:, 2] == 0, np.nan, heights)
     lateral, unit = (None, None, *column_units(words, min(columns, 2)))[-2:]
     lateral = lateral or header.lateral
     spacing, steps, unclear = None, None, header.unclear

@@ -24,6 +24,7 @@ _RUN, _LONGER = (
     24,
     4,
 )  # equal neighbours, and by how much more than in any other run: a plateau has as many in each row
+_REPEATED = 4  # equal numbers far from all others
 _MOSTLY = 0.5  # share of missing points
 _DEVIATIONS = 3.0  # standard deviations within which a correlation counts as none
 _NOISY = 0.2  # share of rows without correlation
@@ -78,6 +79,8 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
             f"{count} points lie more than {_FAR:g} interquartile ranges from the median height; "
             "take them out by masked()"
         )
+    elif (apart := _apart(heights)) is not None:
+        found.append(apart)
     slopes = [_quantile(step, 0.5) / width for step, width in zip(steps, spacing, strict=True)]
     if (slope := max(slopes)) > _STEEPEST:
         found.append(f"a typical slope of {slope:.3g} is unusual; check unit= and size=")
@@ -105,17 +108,19 @@ def _broken_off(heights: Array) -> list[str]:
 
 def _long_runs(heights: Array) -> list[str]:
     """Return a doubt where one number is repeated along a line far more often than any other: what damage leaves."""
-    for lines in (heights, heights.T) if heights.ndim == 2 else (heights,):
-        values = lines.reshape(-1)
+    for axis, values in enumerate((heights.reshape(-1), heights.T.reshape(-1))[: heights.ndim]):
         ends = np.flatnonzero(np.append(values[1:] != values[:-1], True))  # of runs; NaN is unlike itself
         lengths = np.diff(ends, prepend=-1)
         longest = int(np.argmax(lengths))
         second = int(np.delete(lengths, longest).max(initial=1))
         if lengths[longest] >= max(_RUN, _LONGER * second):
-            value = values[ends[longest]]
+            first = divmod(int(ends[longest]) - int(lengths[longest]) + 1, heights.shape[-1 - axis])
+            place = (
+                ", ".join(map(str, first[::-1] if axis else first)) if heights.ndim == 2 else str(first[1])
+            )
             return [
-                f"{lengths[longest]} neighbouring points hold {value:g} m, as damage leaves them; "
-                "take them out by masked()"
+                f"{lengths[longest]} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as damage "
+                "leaves them; write nan there if they were not measured"
             ]
     return []
 
@@ -124,6 +129,21 @@ def _far_points(heights: Array) -> int:
     """Count the points that lie far from all the heights."""
     low, middle, high = (_quantile(heights, q) for q in (0.25, 0.5, 0.75))
     return int(np.count_nonzero(np.abs(heights - middle) > _FAR * (high - low))) if high > low else 0
+
+
+def _apart(heights: Array) -> str | None:
+    """Return a doubt where the lowest or highest number is repeated, and further from the others than they reach."""
+    known = heights[~np.isnan(heights)]
+    for extreme in (known.min(), known.max()):
+        others = known[known != extreme]
+        count = known.size - others.size
+        low, high = others.min(), others.max()
+        if count >= _REPEATED and high > low and min(abs(extreme - low), abs(extreme - high)) > high - low:
+            return (
+                f"{count} points hold {extreme:g} m, as a mark of missing points does, and the others {low:g} to "
+                f"{high:g} m; take them out by masked()"
+            )
+    return None
 
 
 def _noise(heights: Array) -> float:

@@ -12,18 +12,13 @@ from roughcontact.validation import Array
 __all__ = ["Axes", "axes_of", "counts", "even_step"]
 
 # Measured heights do not lie on a line: of a table that is no slope, a row that does holds places.
-_EVEN, _UNEVEN = (
-    0.1,
-    0.5,
-)  # of a step: so far off are printed places at most, and the row beside them at least
-_EXACT = 0.01  # where there are only a few
-_NAMED, _BOTH, _ALONE = (
-    3,
-    5,
-    8,
-)  # numbers that are enough beside a corner without one, of both, and of one alone
+# Steps by which places are off a line at most, those of both sides, which may be printed short, and the row beside
+# them at least.
+_EVEN, _ROUNDED, _UNEVEN = 0.1, 0.25, 0.5
+_EXACT = 0.01  # the same of a few places
+# Numbers that are enough beside a corner without one, of both sides, and of one alone; and if they count 0, 1, 2, ...
+_NAMED, _BOTH, _ALONE, _COUNTED = 3, 5, 8, 4
 _TELLING = 3  # heights in a row that can be off a line
-_COUNTED = 4  # and of those that count 0, 1, 2, ...
 _KEEP = "to keep them as heights, save the table as .npz under the key 'heights'"
 
 
@@ -67,7 +62,7 @@ def axes_of(values: Array) -> Axes | None:
         return None
     body, x, y = values[1:, 1:], values[0, 1:], values[1:, 0]
     fewest = _NAMED if np.isnan(values[0, 0]) else _BOTH  # a corner without a number, as data frames have
-    if _are_places(x, fewest) and _are_places(y, fewest):
+    if _are_places(x, fewest, _ROUNDED) and _are_places(y, fewest, _ROUNDED):
         return Axes(body, x, y) if _is_uneven(body) or _is_uneven(body.T) else None
     if _are_places(values[0], _ALONE) and _is_uneven(values[1:]):
         return Axes(values[1:], values[0], None)
@@ -86,9 +81,9 @@ def even_step(places: Array) -> float:
     return float((places[-1] - places[0]) / (len(places) - 1))
 
 
-def _are_places(places: Array, fewest: int) -> bool:
+def _are_places(places: Array, fewest: int, most: float = _EVEN) -> bool:
     enough = min(fewest, _COUNTED) if counts(places) else fewest
-    return len(places) >= enough and _off(places) <= (_EVEN if len(places) >= _BOTH else _EXACT)
+    return len(places) >= enough and _off(places) <= (most if len(places) >= _BOTH else _EXACT)
 
 
 def _is_uneven(rows: Array) -> bool:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import numpy as np
-
 from roughcontact.files.column_units import column_units
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
-from roughcontact.files.missing_marks import holds_mark, near_miss
+from roughcontact.files.missing_marks import without_marks
 from roughcontact.files.numbers import Table, decode, parse_table, stated_rows
 from roughcontact.files.table_axes import Axes, axes_of
 from roughcontact.files.text_dialects import dialect_of
@@ -34,8 +32,11 @@ def read_text(data: bytes) -> HeightMap:
     table = parse_table(text)
     _require_no_points(table)
     axes = axes_of(table.values)
+    doubts = table.doubts
     if axes is None and table.corner is not None:
-        raise table.corner.error
+        if table.corner.error is not None:
+            raise table.corner.error
+        doubts = (*doubts, "its first field is empty, and is read as a missing point")
     heights = table.values if axes is None else axes.heights
     ny, nx = heights.shape
     header = header_of(table.comments, (ny, nx))
@@ -44,15 +45,10 @@ def read_text(data: bytes) -> HeightMap:
             f"its rows hold {nx} numbers where it states {header.columns}",
             "copy or export it again, or take out that line if it says something else",
         )
-    notes, doubts = table.notes, (*table.doubts, *header.doubts)
+    notes, doubts = table.notes, (*doubts, *header.doubts)
     if axes is not None:
         doubts = (*doubts, axes.doubt)
-    if header.missing:
-        doubts = (*doubts, *near_miss(heights, header.missing))
-        if (found := holds_mark(heights, header.missing)).any():
-            heights = np.where(found, np.nan, heights)
-            stated = ", ".join(f"{mark:g}" for mark in header.missing)
-            notes = (*notes, f"not measured where it is {stated}, as its header states")
+    heights, stated, near = without_marks(heights, header.missing)
     return HeightMap(
         as_heights(heights),
         "text" if header == TextHeader(doubts=header.doubts) else "text with a header",
@@ -60,8 +56,8 @@ def read_text(data: bytes) -> HeightMap:
         unit=header.unit or column_units(table.comments, 3)[2],
         spacing=header.spacing((ny, nx)) or _cell_of(axes, header.lateral or _lateral(table)),
         unclear=header.unclear,
-        notes=notes,
-        doubts=(*doubts, *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx)))),
+        notes=(*notes, *stated),
+        doubts=(*doubts, *near, *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx)))),
     )
 
 

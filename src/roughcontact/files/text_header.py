@@ -20,9 +20,9 @@ _LABELS = {
     "x": r"(scan )?x (length|range)|length x",
     "y": r"(scan )?y (length|range)|length y",
     "dx": r"pixel ?size( x)?|x ?pixel ?size|cell ?size( x)?|d ?x|x (step|spacing|increment)|scale x|pitch( x)?|spacing"
-    r"|(pixelgröße|schrittweite)( x)?",
+    r"|(pixelgrösse|schrittweite)( x)?",
     "dy": r"pixel ?size y|y ?pixel ?size|cell ?size y|d ?y|y (step|spacing|increment)|scale y|pitch y"
-    r"|(pixelgröße|schrittweite) y",
+    r"|(pixelgrösse|schrittweite) y",
     "columns": r"x pixels|x ?res|nx|n ?cols|columns|number of columns|points per line",
     "unit": r"(value|height|data|z) ?units?|unit (z|data)|(z ?)?einheit(en)?( der werte)?|werteeinheit(en)?"
     r"|unités|unità valore|unidades de valor|jednotky hodnot|единицы измерения|値の単位|값 단위",

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from roughcontact.files.column_units import column_units
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
-from roughcontact.files.missing_marks import holds_mark, near_miss
+from roughcontact.files.missing_marks import without_marks
 from roughcontact.files.numbers import decode, parse_table
 from roughcontact.files.point_grid import PointGrid, grid_of_points
 from roughcontact.files.table_axes import counts
@@ -29,9 +27,8 @@ def read_xyz(data: bytes) -> HeightMap:
     table = parse_table(decode(data), points=True)
     points, doubts = _three_columns(table.values)
     header = header_of(table.comments, (0, 0))
-    doubts = (*table.doubts, *header.doubts, *doubts, *near_miss(points[:, 2], header.missing))
     grid = grid_of_points(points)
-    heights = np.where(holds_mark(grid.heights, header.missing), np.nan, grid.heights)
+    heights, stated, near = without_marks(grid.heights, header.missing)
     *lateral, unit = column_units(table.comments, 3)
     if not any(lateral):
         lateral = [header.lateral, header.lateral]
@@ -43,8 +40,8 @@ def read_xyz(data: bytes) -> HeightMap:
         spacing=spacing,
         steps=steps,
         unclear=unclear,
-        notes=("the first row has the smallest y", *table.notes),
-        doubts=(*doubts, *grid.doubts),
+        notes=("the first row has the smallest y", *table.notes, *stated),
+        doubts=(*table.doubts, *header.doubts, *doubts, *grid.doubts, *near),
     )
 
 
