@@ -168,7 +168,7 @@ def test_either_refuses_what_is_neither(put, npy):
     for name, content, message in (
         ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a profile at most"),
         ("a.txt", "1 2 3\n4 5\n", "row 2"),
-        ("a.csv", "x [um], z [um]\n1, 2\n", "not a number"),
+        ("a.csv", "x [um], z [um]\n1, 2\n", "look like a list of coordinates"),
     ):
         with pytest.raises(rc.ReadError, match=message):
             read_either(put(name, content), unit="um", size=1e-3)

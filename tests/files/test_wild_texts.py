@@ -217,6 +217,11 @@ def test_labels_of_a_mark(put, label):
     is_right(rc.read(put("a.txt", HEADER + f"# {label} = -77.7\n" + table(HOLED, " ", hole="-77.7"))), HOLED)
 
 
+@pytest.mark.parametrize("line", ["NODATA_value -77.7", "nodata,-77.7", "missing value; -77.7"])
+def test_a_mark_without_a_sign_before_it(put, line):
+    is_right(rc.read(put("a.txt", HEADER + f"# {line}\n" + table(HOLED, " ", hole="-77.7"))), HOLED)
+
+
 def test_several_lines_may_state_marks(put):
     values = HOLED.copy()
     text = table(values, " ", hole="-55").replace("-55 ", "-66 ", 5)

@@ -37,6 +37,7 @@ _LABELS_OF = {name: re.compile(words) for name, words in _LABELS.items()}
 _SIDES = ("width", "height", "dx", "dy")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _THOUSANDS = re.compile(r"[1-9]\d{0,2}(,\d{3})+(?!\d)")  # or three decimals: who can say
+_LABELLED = re.compile(r"([^\d=:]+?)[\s,;]\s*([-+]?\.?\d[^=:]*)")
 _PIXELS = re.compile(r"\d+\s*(px|pix|pixels?|points?|pts|samples?|cells?)?\.?", re.IGNORECASE)
 # What changes heights and is no unit: a reader that does not know it must say so.
 _SCALES = re.compile(
@@ -160,8 +161,14 @@ def _unclear(stated: dict[str, str], lengths: dict[str, float | None]) -> str | 
 
 
 def _parts(line: str) -> tuple[str, str]:
-    """Return the label and the value of a line ``label = value`` or ``label: value``; ``label [unit]: value`` too."""
+    """Return the label and the value of a line ``label = value``, ``label: value`` or ``label [unit]: value``.
+
+    A number may follow a label as it is: ``NODATA_value -9999``.
+    """
+    bare = _LABELLED.fullmatch(line)
     label, _, value = re.sub(r"[=:]", "=", line, count=1).partition("=")
+    if bare is not None:
+        label, value = bare[1], bare[2]
     named = re.fullmatch(r"(.*?)\s*[\[(]([^\])]+)[\])]\s*", label)
     if named is not None and _NUMBER.fullmatch(value.strip().replace(",", ".")):
         label, value = named[1], f"{value} {named[2]}"
