@@ -113,6 +113,9 @@ def test_the_remedy_keeps_them(put, npz):
         0.5 * X + 0.25 * Y,
         np.where((X == 20) & (Y == 20), 5.0, X + Y),
         np.where((X == 1) & (Y == 1), np.nan, 0.25 * X - Y),
+        np.where((X == 0) | (Y == 0), np.nan, HILLS),
+        np.where((X == 0) & (Y == 0), np.nan, HILLS),
+        np.where((X < 2) | (Y < 2), np.nan, 0.25 * X - Y),
         HILLS,
     ],
 )
@@ -144,6 +147,18 @@ def test_axes_with_a_unit_state_the_size(put, above, corner, keywords):
 def test_axes_without_a_unit_leave_the_size_open(put, columns):
     with pytest.raises(rc.ReadError, match="no size; pass size="):
         rc.read(put("a.csv", framed(columns, columns[:NY])), unit="um")
+
+
+@pytest.mark.filterwarnings("ignore:.*interquartile")
+def test_uneven_axes_lead_somewhere(put, npz):
+    columns = [f"{k**1.5:.3f}" for k in range(NX)]
+    path = put("a.csv", framed(columns, columns[:NY], "0"))
+    with pytest.raises(
+        rc.ReadError, match=r"sorted and uneven, as places are .*interpolate .*save the table as \.npz"
+    ):
+        rc.read(path, **GIVEN)
+    table_of = np.loadtxt(path, delimiter=",")
+    assert rc.read(put("a.npz", npz(heights=table_of, unit="um")), size="18 um").grid.shape == table_of.shape
 
 
 def test_names_of_columns_are_left_out(put):

@@ -21,9 +21,8 @@ _MARK = re.compile(
     r"|undefined|masked|no ?data|[-*?.]+|",
     re.IGNORECASE,
 )
-_APART = re.compile(
-    r"[^,\s]\s+[^,\s]"
-)  # "1,5 2,5" holds blanks away from its commas; "1, 2" and "1,2" do not
+# "1,5 2,5" holds blanks away from its commas; "1, 2" and "1,2" do not.
+_APART = re.compile(r"[^,\s]\s+[^,\s]")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 _POINT = re.compile(r"\d\.|\.\d")
 _NEEDS_POINTS = "write decimal points, and no commas between thousands"

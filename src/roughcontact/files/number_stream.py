@@ -31,7 +31,7 @@ def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple
         )
     marks = Marks()
     try:
-        values = [marks.number(field) for field in with_points([list(fields)], ["among its heights"])[0]]
+        values = marks.numbers(with_points([list(fields)], ["among its heights"])[0])
     except ValueError as error:
         if isinstance(error, ContentError):
             raise

@@ -75,6 +75,15 @@ class Marks:
 
     counts: Counter[str] = field(default_factory=Counter)
 
+    def numbers(self, fields: list[str]) -> list[float]:
+        """Return the numbers in fields, NaN for marks; raise ValueError for anything else."""
+        try:
+            if not any("_" in text for text in fields):
+                return [float(text) for text in fields]
+        except ValueError:
+            pass
+        return [self.number(text) for text in fields]
+
     def number(self, text: str) -> float:
         """Return the number in a field, NaN for a mark; raise ValueError for anything else."""
         number = number_of(text)
@@ -223,7 +232,7 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
     table = []
     for row, place in zip(fields, where, strict=True):
         try:
-            table.append([marks.number(text) for text in row])
+            table.append(marks.numbers(row))
         except ValueError:
             raise _bad_field(row, place) from None
         if len(row) != len(table[0]):

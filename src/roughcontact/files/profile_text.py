@@ -46,7 +46,7 @@ def read_profile(data: bytes) -> HeightMap:
     columns = len(rows[0])
     header = header_of(words, (0, 0))
     marks = Marks()
-    values = np.array([[marks.number(field) for field in row] for row in rows])
+    values = np.array([marks.numbers(row) for row in rows])
     notes, of_marks = marks.told()
     heights, stated, near = without_marks(values[:, min(columns - 1, 1)], header.missing)
     notes, doubts = (*notes, *stated), (*unended(text), *doubts, *of_marks, *header.doubts, *near)

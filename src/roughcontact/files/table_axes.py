@@ -7,17 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.file_errors import ContentError
 from roughcontact.validation import Array
 
 __all__ = ["Axes", "axes_of", "counts", "even_step"]
 
-# Measured heights do not lie on a line: of a table that is no slope, a row that does holds places.
-# Steps by which places are off a line at most, those of both sides, which may be printed short, and the row beside
-# them at least.
+# Measured heights do not lie on a line: a row that does, beside one that does not, holds places. By how many steps
+# places are off a line at most, those of both sides, which may be printed short, and the row beside them at least:
 _EVEN, _ROUNDED, _UNEVEN = 0.1, 0.25, 0.5
-_EXACT = 0.01  # the same of a few places
+_EXACT = 0.01  # and a few places at most
 # Numbers that are enough beside a corner without one, of both sides, and of one alone; and if they count 0, 1, 2, ...
 _NAMED, _BOTH, _ALONE, _COUNTED = 3, 5, 8, 4
+_RISING = 12  # sorted numbers along both sides that are places, even or not
 _TELLING = 3  # heights in a row that can be off a line
 _KEEP = "to keep them as heights, save the table as .npz under the key 'heights'"
 
@@ -57,6 +58,11 @@ def axes_of(values: Array) -> Axes | None:
     """Return a table (rows, columns) without places in its first row and column; None where it holds heights only.
 
     Places are even; the row or column beside them is not, or the table is a slope.
+
+    Raises
+    ------
+    ContentError
+        If both a row and a column rise or fall all along as only uneven places do.
     """
     if values.ndim != 2 or min(values.shape) < 3:
         return None
@@ -68,6 +74,16 @@ def axes_of(values: Array) -> Axes | None:
         return Axes(values[1:], values[0], None)
     if _are_places(values[:, 0], _ALONE) and _is_uneven(values.T[1:]):
         return Axes(values[:, 1:], None, values[:, 0])
+    if (
+        min(x.size, y.size) >= _RISING
+        and _is_sorted(x)
+        and _is_sorted(y)
+        and not (_is_sorted(body[0]) or _is_sorted(body[:, 0]))
+    ):
+        raise ContentError(
+            "its first row and its first column are sorted and uneven, as places are and heights beside them are not",
+            f"interpolate to even steps first, or, {_KEEP}",
+        )
     return None
 
 
@@ -92,6 +108,12 @@ def _is_uneven(rows: Array) -> bool:
         if np.count_nonzero(np.isfinite(row)) >= _TELLING:
             return _off(row[np.isfinite(row)], np.flatnonzero(np.isfinite(row))) > _UNEVEN
     return False
+
+
+def _is_sorted(places: Array) -> bool:
+    with np.errstate(all="ignore"):  # as below
+        steps = np.diff(places)
+    return bool((steps > 0).all() or (steps < 0).all())  # a missing one is neither
 
 
 def _off(places: Array, at: npt.NDArray[np.intp] | None = None) -> float:
