@@ -11,7 +11,7 @@ from roughcontact.files.file_errors import ContentError
 
 __all__ = [
     *("EMPTY", "fields_of", "is_mark", "is_number", "number_of"),
-    *("require_one_separator", "separator_of", "with_points"),
+    *("put_points", "require_one_separator", "separator_of"),
 ]
 
 EMPTY = ""  # a field between two separators
@@ -70,8 +70,8 @@ def number_of(field: str) -> float:
         return math.nan
 
 
-def with_points(rows: list[list[str]], where: Sequence[str]) -> list[list[str]]:
-    """Return rows of fields with points for decimal commas.
+def put_points(rows: list[list[str]], where: Sequence[str]) -> None:
+    """Put points for decimal commas into rows of fields.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def with_points(rows: list[list[str]], where: Sequence[str]) -> list[list[str]]:
                 f"{where[0]}: {shown!r} may be {len(rows[0][:4])} numbers, or half as many with decimal commas",
                 "write decimal points, or semicolons between the numbers",
             )
-        return rows
+        return
     certain = False
     for row, place in zip(rows, where, strict=True):
         for field in row:
@@ -98,7 +98,8 @@ def with_points(rows: list[list[str]], where: Sequence[str]) -> list[list[str]]:
         raise ContentError(
             f"{place}: {field!r} may be {field.replace(',', '.')} or {field.replace(',', '')}", _NEEDS_POINTS
         )
-    return [[field.replace(",", ".") for field in row] for row in rows]
+    for row in rows:  # in place, since the fields take most of the memory
+        row[:] = [field.replace(",", ".") for field in row]
 
 
 def separator_of(line: str) -> str | None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from roughcontact.files.fields import with_points
+from roughcontact.files.fields import put_points
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.numbers import Marks
 from roughcontact.validation import Array
@@ -30,11 +30,11 @@ def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple
             "copy or export it again, or correct the numbers of rows and columns",
         )
     marks = Marks()
+    row = list(fields)
+    put_points([row], ["among its heights"])
     try:
-        values = marks.numbers(with_points([list(fields)], ["among its heights"])[0])
+        values = marks.numbers(row)
     except ValueError as error:
-        if isinstance(error, ContentError):
-            raise
         raise ContentError(
             f"{error.args[0]!r} is not a number", "write nan where a point was not measured"
         ) from None

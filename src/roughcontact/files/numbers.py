@@ -17,8 +17,8 @@ from roughcontact.files.fields import (
     is_mark,
     is_number,
     number_of,
+    put_points,
     require_one_separator,
-    with_points,
 )
 from roughcontact.files.file_errors import ContentError
 from roughcontact.validation import Array
@@ -226,11 +226,12 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
     if _are_names(fields[:2]):
         names = (rows[0][1].strip(),)
         fields, where = fields[1:], where[1:]
-    fields = with_points(fields, where)
+    put_points(fields, where)
     corner = _corner(fields, where)
     marks = Marks()
     table = []
-    for row, place in zip(fields, where, strict=True):
+    for index, (row, place) in enumerate(zip(fields, where, strict=True)):
+        fields[index] = []  # the row is no longer needed
         try:
             table.append(marks.numbers(row))
         except ValueError:

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from roughcontact.files.column_units import VALIDITY, column_units
-from roughcontact.files.fields import EMPTY, fields_of, is_mark, is_number, with_points
+from roughcontact.files.fields import EMPTY, fields_of, is_mark, is_number, put_points
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor, stated_length
@@ -118,7 +118,8 @@ def _split(text: str) -> tuple[list[str], list[list[str]]]:
             words.append(bare)
     if len(rows) < 2:
         raise ContentError(f"it holds {len(rows)} rows of numbers", _REMEDY)
-    return words, with_points(rows, where)
+    put_points(rows, where)
+    return words, rows
 
 
 def _trimmed(fields: list[str], fewest: int) -> list[str]:

@@ -58,12 +58,12 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
         found.append(
             f"an rms height of {rms:.3g} m on {min(lengths):.3g} m is unusual; check unit= and size="
         )
-    missing = float(np.isnan(heights).mean())
+    missing = np.count_nonzero(np.isnan(heights)) / heights.size
     if missing > _MOSTLY:
         found.append(f"{missing:.0%} of its points are missing")
-    known = heights[~np.isnan(heights)]
-    if known.size < _ENOUGH:
-        return (*found, *(_apart(known) if known.size >= _FEW and not flat else ()))
+    known = int(np.count_nonzero(~np.isnan(heights)))
+    if known < _ENOUGH:
+        return (*found, *(_apart(heights) if known >= _FEW and not flat else ()))
     if flat:
         return (*found, "all its heights are equal, as nothing measured is")
     return (*found, *_statistics(heights, spacing))
@@ -83,7 +83,7 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
             "take them out by masked()"
         )
     else:
-        found += _apart(heights[~np.isnan(heights)])
+        found += _apart(heights)
     slopes = [_quantile(step, 0.5) / width for step, width in zip(steps, spacing, strict=True)]
     if (slope := max(slopes)) > _STEEPEST:
         found.append(f"a typical slope of {slope:.3g} is unusual; check unit= and size=")
@@ -139,8 +139,9 @@ def _far_points(heights: Array) -> int:
     return int(np.count_nonzero(np.abs(heights - middle) > _FAR * (high - low))) if high > low else 0
 
 
-def _apart(known: Array) -> list[str]:
+def _apart(heights: Array) -> list[str]:
     """Return a doubt where the lowest or highest number is repeated, and further from the others than they reach."""
+    known = heights[~np.isnan(heights)]
     for extreme in (known.min(), known.max()):
         others = known[known != extreme]
         count = known.size - others.size
