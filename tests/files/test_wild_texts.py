@@ -292,6 +292,7 @@ def test_heights_beyond_any_body_lead_to_a_mark(put):
         "Šířka: 18 um\nVýška: 16 um\nJednotky hodnot: um",
         "幅：18 um\n高さ：16 um\n値の単位：um",  # noqa: RUF001
         "Pixelgröße: 0,5 µm\nEinheit: µm",
+        "Height: of sample 5\ndx: 0.5 um\nunit: um",
     ],
 )
 @pytest.mark.parametrize("mark", ["# ", "", "% ", "// "])

@@ -38,6 +38,7 @@ _SIDES = ("width", "height", "dx", "dy")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _THOUSANDS = re.compile(r"[1-9]\d{0,2}(,\d{3})+(?!\d)")  # or three decimals: who can say
 _LABELLED = re.compile(r"([^\d=:]+?)[\s,;]\s*([-+]?\.?\d[^=:]*)")
+_DIGIT = re.compile(r"[-+.]*\d")
 _PIXELS = re.compile(r"\d+\s*(px|pix|pixels?|points?|pts|samples?|cells?)?\.?", re.IGNORECASE)
 # What changes heights and is no unit: a reader that does not know it must say so.
 _SCALES = re.compile(
@@ -153,11 +154,10 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
 
 
 def _unclear(stated: dict[str, str], lengths: dict[str, float | None]) -> str | None:
-    """Return the first side that is stated, neither understood nor in pixels."""
-    names = (name for name in _SIDES if name in stated and lengths[name] is None)
-    return next(
-        (f"{name} = {stated[name][:40]}" for name in names if not _PIXELS.fullmatch(stated[name])), None
-    )
+    """Return the first side that is stated by a number, neither understood nor in pixels."""
+    sides = {name: stated[name] for name in _SIDES if name in stated and lengths[name] is None}
+    unclear = (name for name, text in sides.items() if _DIGIT.match(text) and not _PIXELS.fullmatch(text))
+    return next((f"{name} = {sides[name][:40]}" for name in unclear), None)
 
 
 def _parts(line: str) -> tuple[str, str]:
