@@ -8,6 +8,7 @@ from functools import partial
 
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.foreign import list_foreign, read_foreign
+from roughcontact.files.grd import read_grd
 from roughcontact.files.gsf import read_gsf
 from roughcontact.files.gwy import list_gwy, read_gwy
 from roughcontact.files.heightmap import Channel, HeightMap, pick, require_line, require_map
@@ -54,6 +55,7 @@ _PROFILE = _alone(read_profile)  # of a text that holds no map
 READERS = {
     ".npy": _alone(read_npy),
     **dict.fromkeys(_TEXTS, _alone(read_text)),
+    ".grd": _alone(read_grd),
     ".xyz": _alone(read_xyz),
     ".x3p": _alone(read_x3p),
     **dict.fromkeys((".sur", ".pro"), _alone(read_sur)),
@@ -98,7 +100,7 @@ def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     if kind not in READERS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        holding = (each for each in READERS if each != ".xyz")
+        holding = (each for each in READERS if each not in (".grd", ".xyz"))
         raise ContentError(
             problem, f"name a text .txt, or export it as one of {', '.join(holding)}; read a map by read"
         )
