@@ -9,7 +9,7 @@ from itertools import groupby
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.solver.control import Control, Depth, Solver
+from roughcontact.solver.control import Control, Depth, Solver, Status
 from roughcontact.solver.subdomain import SubdomainSolver
 
 __all__ = ["follow_history"]
@@ -19,6 +19,9 @@ def follow_history(
     problem: ContactProblem, controls: list[Control], solver: Solver, *, raises: bool = False
 ) -> Iterator[Solution]:
     """Yield the solution under one control after the other, up and down.
+
+    What flowed under a load that missed its tolerance is kept until a larger load follows: the states below it are those
+    of a surface that is not known to the tolerance, and their status says so.
 
     Parameters
     ----------
@@ -42,8 +45,8 @@ def follow_history(
         elastic = turn.problem
         for solution in follow(elastic, _reachable(elastic, run), solver, start=turn, subdomains=subdomains):
             # What flowed is known no better than the load that made it flow.
-            known = solution if turn.status.converged else replace(solution, status=turn.status)
-            yield known
+            doubtful = solution.status.converged and not turn.status.converged
+            yield replace(solution, status=Status.AFTER_MISSED) if doubtful else solution
 
 
 def _runs(controls: list[Control]) -> Iterator[tuple[bool, list[Control]]]:
