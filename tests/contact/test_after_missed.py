@@ -77,7 +77,7 @@ def test_loads_below_a_missed_one_say_that_their_surface_is_not_known():
 
 
 def test_a_missed_load_on_unloading_is_no_matter_of_those_after_it():
-    path, starts = found((0.02, MISSED, 0.005, 0.006), hardness=HARDNESS)
+    path, _ = found((0.02, MISSED, 0.005, 0.006), hardness=HARDNESS)
     assert [status.converged for status in statuses(path)] == [True, False, True, True]
     clean, _ = found((0.02, 0.005), hardness=HARDNESS)
     assert path[2].depth == pytest.approx(clean[1].depth, rel=1e-7)

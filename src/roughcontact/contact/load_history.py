@@ -20,8 +20,8 @@ def follow_history(
 ) -> Iterator[Solution]:
     """Yield the solution under one control after the other, up and down.
 
-    What flowed under a load that missed its tolerance is kept until a larger load follows: the states below it are those
-    of a surface that is not known to the tolerance, and their status says so.
+    What flowed under a load that missed its tolerance is kept until a larger load follows. The states below that load
+    are those of a surface that is not known to the tolerance; their status is ``AFTER_MISSED``.
 
     Parameters
     ----------
