@@ -9,6 +9,7 @@ import numpy as np
 from scipy.ndimage import map_coordinates, spline_filter
 
 from roughcontact.surface.analysis.correlation import autocorrelation
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -64,6 +65,7 @@ class ArealParameters:
 
 
 @numeric
+@analysed_on_host
 def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters:
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -64,6 +65,7 @@ class ProfileParameters:
 
 
 @numeric
+@analysed_on_host
 def profile_parameters(line: Surface, *, section_length: float | None = None) -> ProfileParameters:
     """Return the height and gradient parameters of ISO 21920-2:2021 of a profile.
 
