@@ -69,6 +69,8 @@ class ContactProblem:
         what it gives there.
     rise : float
         By how much the surface has been raised by what flowed [m]; it is in the separation already.
+    lifting : float
+        Work by which this rise lifted the force along the loads so far [J]; NaN if it is not known.
     flow : Flow, optional
         What flowed under larger loads; it is in the separation already.
 
@@ -97,6 +99,7 @@ class ContactProblem:
     hardness: float | Array = math.inf
     size_law: SizeLaw | None = None
     rise: float = 0.0
+    lifting: float = 0.0
     flow: Flow | None = None
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
@@ -212,13 +215,15 @@ class ContactProblem:
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
         return other
 
-    def raised(self, rise: float) -> ContactProblem:
+    def raised(self, rise: float, lifting: float = 0.0) -> ContactProblem:
         """Return the same bodies with the surface raised as a whole; depths count as before.
 
         Parameters
         ----------
         rise : float
             By how much [m].
+        lifting : float
+            Work by which the rise lifted the force [J].
 
         Returns
         -------
@@ -233,7 +238,7 @@ class ContactProblem:
         >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
         '10.0 nm nearer'
         """
-        return self._moved(self.separation - rise, rise=self.rise + rise)
+        return self._moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
 
     def after(self, flow: Flow) -> ContactProblem:
         """Return the elastic contact of the surface that a load has flattened; depths count as before.
