@@ -74,7 +74,8 @@ def on_host(array: Any) -> Array:
         return np.asarray(array.get(), dtype=np.float64)
     torch = array_api_compat.is_torch_array(array)
     host = "cpu" if torch else namespace(array).__array_namespace_info__().default_device()
-    here, xp = array_api_compat.to_device(array, host), namespace(array)
+    here = array_api_compat.to_device(array, host)
+    xp = namespace(here)
     return np.asarray(xp.astype(here, xp.float64, copy=False))  # some precisions NumPy has no name for
 
 
