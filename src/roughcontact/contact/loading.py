@@ -82,7 +82,7 @@ def loading_path(
     adhesion: Adhesion | None = None,
     mean_gaps: Loads | None = None,
 ) -> Iterator[Solution] | Iterator[AdhesiveState]:
-    """Yield the solution of every load, in order; each starts from the one before.
+    """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
 
     Parameters
     ----------
@@ -117,7 +117,8 @@ def loading_path(
     ------
     Solution or AdhesiveState
         With its stiffness computed; with adhesion an `AdhesiveState` with the jumps on the way to it. A load that
-        missed its tolerance says so in its `status`.
+        missed its tolerance says so in its `status`. Under a hardness so do the loads below it, by
+        ``Status.AFTER_MISSED``: what flowed is kept, and is not known to the tolerance until a larger load follows.
 
     Raises
     ------

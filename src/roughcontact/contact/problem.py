@@ -71,6 +71,8 @@ class ContactProblem:
         what it gives there.
     rise : float
         By how much the surface has been raised by what flowed [m]; it is in the separation already.
+    lifting : float
+        Work by which this rise lifted the force along the loads so far [J]; NaN if it is not known.
     flow : Flow, optional
         What flowed under larger loads; it is in the separation already.
 
@@ -99,6 +101,7 @@ class ContactProblem:
     hardness: float | Array = math.inf
     size_law: SizeLaw | None = None
     rise: float = 0.0
+    lifting: float = 0.0
     flow: Flow | None = None
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
@@ -217,13 +220,15 @@ class ContactProblem:
         return other
 
     @numeric(rise="m")
-    def raised(self, rise: float) -> ContactProblem:
+    def raised(self, rise: float, lifting: float = 0.0) -> ContactProblem:
         """Return the same bodies with the surface raised as a whole; depths count as before.
 
         Parameters
         ----------
         rise : float
             By how much [m].
+        lifting : float
+            Work by which the rise lifted the force [J].
 
         Returns
         -------
@@ -238,7 +243,7 @@ class ContactProblem:
         >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
         '10.0 nm nearer'
         """
-        return self._moved(self.separation - rise, rise=self.rise + rise)
+        return self._moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
 
     def after(self, flow: Flow) -> ContactProblem:
         """Return the elastic contact of the surface that a load has flattened; depths count as before.

@@ -89,7 +89,7 @@ _VARIABLES = {
     "plastic_area": Variable("m2", "area of the cells whose pressure is the hardness"),
     "flow_depth": Variable("m", "depth by which the surface has flowed", "depth of flow"),
     "flow_volume": Variable("m3", "volume that has flowed", "volume of flow"),
-    "flow_energy": Variable("J", "work of the pressure upon the cells that flow", "energy of flow"),
+    "flow_energy": Variable("J", "work that first loading spent on flow", "energy of flow"),
     "flow_rise": Variable("m", "rise of the whole surface by what has flowed", "rise"),
     "unloading_stiffness": Variable(
         "N m-1", "normal stiffness dF/dd as the load is reduced, contact region held fixed"

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.grid import Grid
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import (
     Spectrum,
@@ -135,6 +136,7 @@ def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square")
 
 
 @numeric
+@analysed_on_host
 def surface_moments(
     surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
 ) -> Moments:
