@@ -23,7 +23,7 @@ from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
-from roughcontact.validation import Array, Mask, numeric, scalar
+from roughcontact.validation import Array, Mask, scalar
 
 __all__ = [
     "Body",
@@ -41,7 +41,7 @@ Body = Surface | RadialProfile
 # A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
 # `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
 LEAST_BYTES = 9
-_UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m"}
+_UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m", "lifting": "J"}
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -219,7 +219,6 @@ class ContactProblem:
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
         return other
 
-    @numeric(rise="m")
     def raised(self, rise: float, lifting: float = 0.0) -> ContactProblem:
         """Return the same bodies with the surface raised as a whole; depths count as before.
 
@@ -243,6 +242,7 @@ class ContactProblem:
         >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
         '10.0 nm nearer'
         """
+        rise, lifting = in_si(rise, "m", "rise"), in_si(lifting, "J", "lifting")
         return self._moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
 
     def after(self, flow: Flow) -> ContactProblem:
