@@ -28,6 +28,7 @@ import roughcontact as rc
 from roughcontact.theory.maugis import DugdaleSphere
 
 POINTS = 24
+PRESSED = 4.0  # depth of a sphere before it is drawn back: a contact of radius 2, which at the pull-off is 1.52
 
 
 def ball(theory: DugdaleSphere, rings: int) -> tuple[rc.RadialProfile, float]:
@@ -141,11 +142,11 @@ def sharp() -> None:
     jkr, radius = 1.5 * math.pi, math.cbrt(9 * math.pi / 8)
     for rings in (50, 100, 200, 400):
         grid = rc.RadialGrid.uniform(rings, 3.2)
-        tension, _, _ = pulled(rc.RadialProfile(-(grid.radii**2) / 2, grid), 4.0)
+        tension, _, _ = pulled(rc.RadialProfile(-(grid.radii**2) / 2, grid), PRESSED)
         print(f"rings  {radius / grid.edges[1]:6.1f}  {tension / jkr - 1:+.2%}", flush=True)
     rng = np.random.default_rng(0)
     for cells in (24, 32, 40, 48, 64, 80):
-        errors = [pulled(sphere(cells, rng.random(2)), 1.5)[0] / jkr - 1 for _ in range(8)]
+        errors = [pulled(sphere(cells, rng.random(2)), PRESSED)[0] / jkr - 1 for _ in range(8)]
         print(f"plane  {radius * cells / 6:6.1f}  {np.mean(errors):+.2%}  {np.std(errors):.2%}", flush=True)
     print(
         "Kendall's disc: cells in the diameter, error of the largest tension and of that when the first cell lets go"

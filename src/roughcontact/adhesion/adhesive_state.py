@@ -98,6 +98,9 @@ class AdhesiveState:
         Instabilities on the way from the state before.
     products : int
         Products with the stiffness or the compliance of the body since the state before.
+    lowest_force : float
+        Lowest force since the body is drawn back [N], on the way and in jumps: minus its largest tension, to 1e-6 of it
+        (under given forces to the bracket of the last jump). After an approach, the force of the state.
     detachments : tuple of Detachment
         Of the sharp law: cells that let go on the way from the state before. Which are events of the lattice alone
         cannot be told on one grid; only that after which nothing is in contact is also among the jumps.
@@ -124,6 +127,7 @@ class AdhesiveState:
     residual: float
     jumps: tuple[Jump, ...]
     products: int
+    lowest_force: float
     detachments: tuple[Detachment, ...] = ()
 
     @property
@@ -305,7 +309,7 @@ class AdhesiveState:
 
     def _slope(self, curvature: Array) -> float:
         free = self._loose(self.contact)
-        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0))
+        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0), Counter())
 
     @property
     def _weights(self) -> float | Array:
@@ -320,7 +324,8 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     law = energy.attraction.on(inside)
     if released(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
-        return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products)
+        lowest = min(0.0, station.lowest_force)
+        return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest)
     depth = control.depth(value, point)
     gap = point.gap[inside]
     contact = gap <= 0
@@ -332,7 +337,9 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     reaction = pressure + law.traction(np.maximum(exact, 0.0))
     worst = float(np.abs(np.minimum(exact / energy.form.reference, reaction)).max())
     residual = worst / energy.scale(point)
+    weighted = pressure * blank.operator.weights
+    force = float(weighted.sum())
     if isinstance(control, ForceControl):
-        weighted = pressure * blank.operator.weights
-        residual = max(residual, abs(float(weighted.sum()) - value) / float(np.abs(weighted).sum()))
-    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products)
+        residual = max(residual, abs(force - value) / float(np.abs(weighted).sum()))
+    lowest = min(force, station.lowest_force)
+    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products, lowest)

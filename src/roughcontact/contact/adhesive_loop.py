@@ -71,7 +71,7 @@ def adhesive_loop(
     >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
     >>> loop = rc.adhesive_loop(ball, 1e8, adhesion, depth=10e-9)
     >>> f"pull-off {loop.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R"
-    'pull-off 1.62 pi w R'
+    'pull-off 1.63 pi w R'
     """
     require(isinstance(adhesion, Adhesion), f"an Adhesion is wanted, not {shown(adhesion)}")
     depths = loop_depths(adhesion, depth, points)
