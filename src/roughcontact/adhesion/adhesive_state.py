@@ -59,7 +59,7 @@ class Blank:
     tolerance : float
         Largest residual.
     resolved : bool
-        Whether the attraction varies over more than a cell and a half.
+        Whether the attraction varies over at least a cell and a half.
     """
 
     operator: Operator
@@ -93,7 +93,8 @@ class AdhesiveState:
     residual : float
         Largest violation of the conditions of equilibrium as a traction, relative to the law's largest attraction or
         the largest pressure if that is larger, on an exact product with the pressure. A gap in contact counts by the
-        pressure on its cell alone that would close it.
+        pressure on its cell alone that would close it. Under a given force also the error of the force, relative to the
+        sum of all tractions without their signs.
     jumps : tuple of Jump
         Instabilities on the way from the state before.
     products : int
@@ -225,19 +226,18 @@ class AdhesiveState:
 
     @property
     def stability(self) -> float:
-        """Smallest eigenvalue of the Hessian on the free cells, relative to the elastic one, as it is controlled.
+        """Smallest eigenvalue found of the Hessian on the free cells, relative to the elastic one, as it is controlled.
 
-        At given depth, or under a given force with the depth free. One without attraction, zero where the branch ends.
-        Cells whose reaction is as good as none count as free.
+        At given depth, or under a given force with the depth free: 1 without attraction, 0 where the branch ends. The
+        smallest eigenvalue is at most this; one that two searches from different starts missed is not excluded. Cells
+        whose reaction is as good as none count as free. With the sharp law it is 1: cells that let go are no end of
+        a branch that the Hessian shows.
         """
         return self._ritz[0]
 
     @property
-    def stability_bound(self) -> float:
-        """How far the next eigenvalue may be from `stability`, by the residual of its vector.
-
-        The smaller of two searches from different starts; a smaller eigenvalue that both missed is not excluded.
-        """
+    def stability_residual(self) -> float:
+        """Residual of the eigenvector of `stability`: some eigenvalue, not always the smallest, lies within it."""
         return self._ritz[1]
 
     @cached_property
@@ -325,7 +325,9 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     if released(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
         lowest = min(0.0, station.lowest_force)
-        return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest)
+        return AdhesiveState(
+            blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest
+        )
     depth = control.depth(value, point)
     gap = point.gap[inside]
     contact = gap <= 0

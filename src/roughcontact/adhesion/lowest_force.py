@@ -1,11 +1,11 @@
 """The lowest force along a retreat: the largest tension of a body that is drawn back.
 
 It lies where the slope of the force with the depth changes its sign: where it vanishes, or where a cell leaves the
-wall; or where a branch ends. On rough surfaces the sign may change at many cells, so the slope at two states does not
-tell what lies between them. But the slope is the least value of a quadratic form, ``(y + 1).K (y + 1) - y.D y`` over all
-changes y of the gap that vanish at the wall. It falls as the curvature D of the attraction grows, and as cells leave
-the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and with
-them the slope. Then the force is nowhere below the point where the steepest lines from both ends meet; states between
+wall; or where a branch ends. On rough surfaces the sign may change at many cells, so the slopes at two states do not
+bound the force between them. But the slope is the least value of a quadratic form, ``(y + 1).K (y + 1) - y.D y`` over
+all changes y of the gap that vanish at the wall. It falls as the curvature D of the attraction grows, and as cells
+leave the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and
+with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
 them are computed until this point is no lower than the lowest force that was found.
 """
 
@@ -22,7 +22,7 @@ from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.gap_energy import Point
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter, minimise
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
 __all__ = ["FORCE_TOLERANCE", "LowestForce"]
 
@@ -106,14 +106,16 @@ class _Pair:
     part: float
 
     @classmethod
-    def of(cls, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint, enough: float, counter: Counter) -> _Pair:
-        """Bound the force between two states by bounds of its slope; no tension is looked for between two pressures."""
+    def of(
+        cls, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint, enough: float, counter: Counter
+    ) -> _Pair:
+        """Bound the force between two states, so far as it may be below `enough` [N] and below zero."""
         if min(upper.force, lower.force) >= 0:
             return cls(upper, lower, 0.0, 0.0)
         law = control.attraction
         near, far = np.minimum(upper.gap, lower.gap), np.maximum(upper.gap, lower.gap)
 
-        def slope(free: Array, curvature: Array) -> float:
+        def slope(free: Mask, curvature: Array) -> float:
             return force_slope(control.form, free, np.where(free, curvature, 0.0), counter)
 
         least = slope(far > 0, law.curvature_between(near, far))

@@ -47,7 +47,8 @@ class Jump:
     approach : bool
         Whether the depth (or force) was growing.
     ambiguous : bool
-        Whether two integrations of the gradient flow ended in different states.
+        Whether two integrations of the gradient flow ended in different states, of which one may be that of a body
+        that is pulled off.
 
     Examples
     --------
@@ -207,7 +208,7 @@ class QuasiStatic:
             return station, None  # the branch goes on, too flat for the test of convexity
         off = released(energy, end.point)
         other = flow(energy, start, self._convex, self.counter, even=True).equilibrium
-        apart = float(np.abs(end.point.displacement - other.point.displacement).max())
+        apart = float(np.abs(end.point.displacement - other.point.displacement).max()) > SAME * scale
         jump = Jump(
             self.control.depth(here.value, here.point),
             math.nan if off else self.control.depth(value, end.point),
@@ -216,7 +217,7 @@ class QuasiStatic:
             abs(value - here.value),
             math.inf if off else landing.lost,
             value > here.value,
-            not off and apart > SAME * scale,
+            off != released(energy, other.point) or (apart and not off),
         )
         return station, jump
 

@@ -10,7 +10,7 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["force_slope"]
 
-ACCURACY = 1e-5  # of the conjugate gradients, in the energy norm; the slope, a least value, errs by its square
+ACCURACY = 1e-5  # of the conjugate gradients, in the energy norm: a least value errs by the square
 
 
 def force_slope(form: ElasticForm, free: Mask, curvature: Array, counter: Counter) -> float:

@@ -47,7 +47,8 @@ class AdhesiveLoop:
     residual : array, shape (n,)
         The certificate of each state.
     approach : array of bool, shape (n,)
-        Whether what is prescribed brought the bodies together: the depth or the force was growing.
+        Whether what is prescribed brought the bodies together: the depth or the force was growing. The first point
+        is of an approach; of equal loads the later goes the way of the earlier.
     jumps : tuple of Jump
         Every instability, in order.
     jumped : tuple of int
@@ -128,12 +129,15 @@ class AdhesiveLoop:
 
     @property
     def jump_in_force(self) -> float:
-        """Tension from which the body first jumped on the approach [N], positive; NaN if it never did."""
+        """Tension from which the body first jumped on the approach [N]; negative if it was pressed, NaN if none."""
         return next((-jump.force_before for jump in self.jumps if jump.approach), math.nan)
 
     @property
     def lost(self) -> float:
-        """Energy lost in all jumps [J]: the area of the loop, if it is closed."""
+        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed.
+
+        With the sharp law cells let go without a jump, and what they lose stands in the detachments of the states.
+        """
         return math.fsum(jump.lost for jump in self.jumps)
 
     @property

@@ -46,7 +46,8 @@ def adhesive_loop(
     depth : float
         Where the body turns back [m].
     points : int
-        Of the approach, from ten ranges of the attraction apart; the retreat has the same steps.
+        Steps of the approach, from ten ranges of the attraction apart to the depth, which is a point of its own; the
+        retreat has the same steps.
     operator : Operator, optional
         Another body than the half-space on the surface's grid, see `press`.
     tolerance : float
