@@ -266,7 +266,7 @@ def loading_curve(
     >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
     >>> curve = rc.loading_curve(soft, 1e8, depths=[0.0, 20e-9, 0.0, -5e-9], adhesion=adhesion)
     >>> curve.approach.tolist(), f"{curve.pull_off_force * 1e9:.0f} nN"
-    ([True, True, False, False], '507 nN')
+    ([True, True, False, False], '511 nN')
     """
     given: dict[str, Any] = {"forces": forces, "depths": depths, "pressures": pressures}
     given |= {"operator": operator, "solver": solver, "tolerance": tolerance, "hardness": hardness}

@@ -114,13 +114,20 @@ _VARIABLES = {
         "N m-1", "slope of the force with the depth, contact and attraction held fixed"
     ),
     "stability": Variable(
-        "1", "smallest eigenvalue of the Hessian over that without attraction, as it is controlled"
+        "1", "smallest eigenvalue found of the Hessian over that without attraction, as it is controlled"
     ),
-    "stability_bound": Variable("1", "distance within which an eigenvalue lies from the stability"),
+    "stability_residual": Variable(
+        "1", "residual of the eigenvector of the stability: some eigenvalue lies within it of the stability"
+    ),
     "attracted": Variable("", "whether the cell is apart from the wall by no more than the range"),
     "largest_tension": Variable("Pa", "largest tension of a cell"),
-    "pull_off_force": Variable("N", "largest tension of the retreat"),
-    "jump_in_force": Variable("N", "tension from which the body first jumped on the approach"),
+    "lowest_force": Variable(
+        "N", "lowest force since the body is drawn back, between the loads and in jumps"
+    ),
+    "pull_off_force": Variable("N", "largest tension of the retreat, between the loads and in jumps"),
+    "jump_in_force": Variable(
+        "N", "tension from which the body first jumped on the approach, negative where it was pressed"
+    ),
     "lost_energy": Variable("J", "energy lost in all jumps", "energy lost"),
     "jumped": Variable("1", "load, counted from 0, that the jump came on the way to"),
     "jump_depth": Variable("m", "last depth of the branch that ends"),
