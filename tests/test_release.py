@@ -33,6 +33,13 @@ def test_the_recipe_has_the_dependencies_of_the_package():
     assert found == {(CONDA_NAMES.get(name, name), bound) for name, bound in wanted}
 
 
+def test_what_a_cluster_needs_is_in_the_extra_that_messages_name():
+    extras = PROJECT["project"]["optional-dependencies"]
+    needed = {"distributed", "dask-jobqueue", "cryptography"}
+    assert {re.match(r"[\w-]+", text)[0] for text in extras["cluster"]} == needed
+    assert {*extras["cluster"]} <= {*extras["test"]}
+
+
 def test_each_dependency_says_what_it_weighs_and_what_it_is_for(monkeypatch):
     monkeypatch.syspath_prepend(HOME / "benchmarks")
     purposes = importlib.import_module("weights").PURPOSES
