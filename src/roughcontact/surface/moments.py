@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
@@ -183,6 +182,8 @@ def surface_moments(
             raise ValueError(
                 f"{surface.missing} points are missing: use derivative='difference' or fill them first"
             )
+        import scipy.fft
+
         transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
         return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
     require(derivative == "difference", f"derivative must be 'spectral' or 'difference', not {derivative!r}")
