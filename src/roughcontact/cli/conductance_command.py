@@ -122,7 +122,7 @@ def _read(path: Path) -> xarray.Dataset:
     """Return the dataset of a curve from its file."""
     import xarray
 
-    if (lack := lacking("h5netcdf", "h5py")) is not None:
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
         raise UsageError(f"{path} needs {lack[0]}; {lack[1]}")
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:

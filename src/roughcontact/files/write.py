@@ -76,7 +76,7 @@ def require_netcdf() -> None:
     WriteError
         If what writes it is not installed.
     """
-    if (lack := lacking("h5netcdf", "h5py")) is not None:
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
         raise WriteError(f"NetCDF needs {lack[0]}; {lack[1]}")
 
 

@@ -56,7 +56,7 @@ def read_fields(folder: Path, key: str) -> xarray.Dataset:
     """
     import xarray
 
-    if (lack := lacking("h5netcdf", "h5py")) is not None:
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
         raise StoreError(folder, f"its fields need {lack[0]}", lack[1])
     try:
         return xarray.load_dataset(_file(folder, key), engine="h5netcdf")
