@@ -98,10 +98,10 @@ $(ENV)/.ready: pyproject.toml
 	@$(call create,$(ENV))
 	@$(BIN)/python .ci/install.py $@ "Installing roughcontact into $(ENV) ..."
 
-$(ENV)/.ready-to-read: $(ENV)/.ready
+$(ENV)/.ready-to-read: $(ENV)/.ready pyproject.toml
 	@$(BIN)/python .ci/install.py $@ "Installing the readers of instrument formats ..." formats
 
-$(ENV)/.ready-to-test: $(ENV)/.ready
+$(ENV)/.ready-to-test: $(ENV)/.ready pyproject.toml
 	@$(BIN)/python .ci/install.py $@ "Installing what the tests need ..." formats page test lint
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
 
@@ -113,7 +113,7 @@ $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
-$(ENV)/.ready-to-write: $(ENV)/.ready-to-read
+$(ENV)/.ready-to-write: $(ENV)/.ready-to-read pyproject.toml
 	@$(BIN)/python .ci/install.py $@ "Installing what the site is built with ..." docs
 	@$(BIN)/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 

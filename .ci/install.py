@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -42,9 +43,11 @@ def main(stamp: Path, words: str, *extras: str) -> None:
     lacking = [text for texts in required for text in texts if is_lacking(text)]
     if is_lacking(project["name"]):
         lacking.append(project["name"])
-    reason = (done.stderr.strip().splitlines() or ["pip failed"])[-1].removeprefix("ERROR: ")
+    reason = (re.findall(r"ERROR: (.*)", done.stderr) or done.stderr.split("\n"))[-1] or "it failed"
     if lacking:
-        sys.exit(f"pip cannot install {', '.join(lacking)} ({reason}): try again with a network")
+        sys.exit(
+            f"pip cannot install {', '.join(lacking)} ({reason}): call make again where there is a network"
+        )
     print(f"pip cannot look for newer packages ({reason}): what is installed is used", flush=True)
 
 

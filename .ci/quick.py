@@ -29,9 +29,10 @@ def tests() -> set[Path]:
     """Return the files of tests."""
     found = {HOME / "tests" / f"test_{name}.py" for name in HOUSE}
     for path in changed():
-        name = path.stem.removeprefix("test_")
-        if path.suffix == ".py" and {"src", "tests"} & set(path.relative_to(HOME).parts):
-            found |= set((HOME / "tests").rglob(f"test_{name}.py"))
+        if path.name.startswith("test_"):
+            found |= {path} if path.exists() else set()
+        elif path.suffix == ".py" and path.is_relative_to(HOME / "src"):
+            found |= set((HOME / "tests").rglob(f"test_{path.name}"))
     return found
 
 
