@@ -49,6 +49,10 @@ DISK_AND_SCREEN = {
     *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),
     *("sqlite3", "tempfile", "typer"),
 }
+HEAVY = {
+    *("SurfaceTopography", "h5netcdf", "h5py", "llvmlite", "matplotlib", "pandas", "pint", "rich", "typer"),
+    "xarray",
+}
 WRITES = {"open", "print", "save", "savetxt", "savez", "tofile", "to_netcdf", "write_bytes", "write_text"}
 
 
@@ -201,28 +205,45 @@ def test_the_checks_see_what_they_look_for():
     assert cycle({"a": {"b", "numpy"}, "b": {"c"}, "c": set()}) == set()
 
 
+def loaded(script, *arguments):
+    """Return the top modules, and those of SciPy, that a script has loaded when it ends."""
+    ending = "import atexit, sys; atexit.register(lambda: sys.stderr.write('\\n' + ' '.join(sys.modules)))\n"
+    words = [sys.executable, "-c", ending + script, *map(str, arguments)]
+    answer = subprocess.run(words, capture_output=True, encoding="utf-8", check=True)
+    names = {tuple(name.split(".")) for name in answer.stderr.splitlines()[-1].split()}
+    return {".".join(name[: 2 if name[0] == "scipy" else 1]) for name in names}
+
+
 def test_importing_the_package_and_all_its_names_loads_no_heavy_library():
-    heavy = [
-        "SurfaceTopography",
-        "h5netcdf",
-        "h5py",
-        "llvmlite",
-        "matplotlib",
-        "pandas",
-        "pint",
-        "rich",
-        "typer",
-        "xarray",
-    ]
-    script = (
-        "import sys, roughcontact\n"
-        "first = set(sys.modules)\n"
-        "for name in roughcontact.__all__: getattr(roughcontact, name)\n"
-        "early = sorted(first & {'numpy', 'scipy'})\n"
-        f"sys.stdout.write(repr((early, sorted(set(sys.modules) & set({heavy})))))"
+    first = "import roughcontact\n"
+    assert loaded(first) & {"numpy", "scipy"} == set()
+    assert loaded(f"{first}for name in roughcontact.__all__: getattr(roughcontact, name)") & HEAVY == set()
+
+
+def test_a_load_loads_only_what_it_computes_with(tmp_path):
+    """From Python, and from the shell, where typer may take pydantic to look at options."""
+    script = """
+import roughcontact as rc
+ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+rc.press(ball, 1e9, force=1e-3)
+"""
+    idle = ("integrate", "interpolate", "optimize", "sparse", "spatial")
+    unasked = HEAVY - {"llvmlite"} | {f"scipy.{name}" for name in idle}
+    assert loaded(script) & {*unasked, "pydantic", "scipy.ndimage"} == set()
+    command = "from roughcontact.cli.main import run; run()"
+    path = tmp_path / "part.npz"
+    loaded(
+        command, "surface", "make", path, "--hurst", "0.8", "--rms", "0.1um", "--size", "1mm", "--points", 32
     )
-    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert answer.stdout == "([], [])"
+    found = loaded(command, "press", path, "--force", "1N", "--modulus", "110GPa")
+    assert found & (unasked - {"typer"}) == set()
+    assert "scipy.ndimage" in found  # spots: the check sees what it looks for
+
+
+def test_help_of_a_command_loads_no_solver():
+    found = loaded("from roughcontact.cli.main import run; run()", "press", "--help")
+    assert "rich" in found
+    assert found & (HEAVY - {"rich", "typer"} | {"scipy.fft", "scipy.linalg"}) == set()
 
 
 def test_each_base_name_stands_once():

@@ -28,7 +28,7 @@ from roughcontact.files.numpy_files import npy_bytes, npz_bytes
 from roughcontact.files.provenance import provenance
 from roughcontact.files.surface_dataset import dataset_without_heights, surface_dataset
 from roughcontact.files.text import text_bytes
-from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf, write_text
+from roughcontact.files.write import netcdf_bytes, require_netcdf, write_csv, write_netcdf, write_text
 from roughcontact.files.write_in_slabs import write_netcdf_in_slabs, write_npy_in_slabs
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
@@ -130,7 +130,8 @@ def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False
     Raises
     ------
     WriteError
-        If its extension is not known, or there is no such folder, no permission, a folder of that name.
+        If its extension is not known or needs a package that is not installed, or there is no such folder, no
+        permission, a folder of that name.
     """
     if in_slabs:
         _require_kind(path, "Surface in slabs", _IN_SLABS[Surface])
@@ -142,6 +143,8 @@ def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str],
     kind = Path(path).suffix.casefold()
     if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
+    if kind == ".nc":
+        require_netcdf()
     return kind
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import analysed_on_host
@@ -185,6 +184,8 @@ def surface_moments(
             raise ValueError(
                 f"{surface.missing} points are missing: use derivative='difference' or fill them first"
             )
+        import scipy.fft
+
         transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
         return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
     require(derivative == "difference", f"derivative must be 'spectral' or 'difference', not {derivative!r}")

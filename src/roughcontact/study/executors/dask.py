@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import multiprocessing.resource_tracker
 import signal
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
@@ -149,12 +150,12 @@ def _local(workers: int) -> Iterator[Site]:
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
     """Keep Ctrl-C from threads and processes that are started meanwhile: it is the coordinator's to stop them."""
-    if not hasattr(signal, "pthread_sigmask"):
+    if sys.platform == "win32":
         yield
-        return
-    multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    else:
+        multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
