@@ -146,8 +146,8 @@ def test_the_demo_takes_a_file_of_the_user(tmp_path):
     assert refused.returncode == 1
     assert refused.stderr.startswith("Error: part.npy: it states no unit")
     assert refused.stderr.endswith('with make: ARGS="--unit nm --size 10um"\n')
-    unknown = demo(tmp_path, *words, "--unit", "parsec", "--size", "1um")
-    assert unknown.stderr.startswith("Error: unit 'parsec'")
+    unknown = demo(tmp_path, *words, "--unit", "second", "--size", "1um")
+    assert unknown.stderr.startswith("Error: unit 'second'")
     assert not (tmp_path / "out").exists()
     answer = demo(tmp_path, *words, "--unit", "nm", "--size", "1um")
     assert answer.returncode == 0, answer.stderr

@@ -43,7 +43,7 @@ def test_numbers_of_the_law():
         ((math.nan, 1e-9), "work of adhesion"),
         ((0.0, 1e-9), "zero everywhere"),
         ((0.05, 0.0), "range of the attraction"),
-        ((0.05, "2nm"), "range of the attraction"),
+        ((0.05, "2nm"), "range must be one number"),
         ((0.05, 2e-9, "jkr"), "one of 'exponential', 'dugdale', 'sharp', not 'jkr'"),
     ],
 )

@@ -203,7 +203,7 @@ def test_masks_that_make_no_sense():
         (np.zeros((4, 4), bool), 1.0, "no cell"),
         (np.ones((4, 4), bool), 1.0, "leave a cell free"),
         (some, 0.0, "not zero"),
-        (some, np.nan, "must be a number"),
+        (some, np.nan, "finite"),
         (some, np.inf, "finite"),
         (np.ones((2, 2), bool), 1.0, "does not fit"),
         (some, np.ones(3), "does not fit"),

@@ -170,11 +170,17 @@ def test_any_flipped_byte_of_a_small_file_is_survived(tmp_path, put, modern):
     assert 0 < read < 150
 
 
-@pytest.mark.parametrize(("beginning", "module"), [(b"CDF\x01", "scipy.io"), (b"\x89HDF\r\n\x1a\n", "h5py")])
-def test_a_broken_library_is_no_damage_of_the_file(tmp_path, monkeypatch, beginning, module):
+@pytest.mark.parametrize(
+    ("beginning", "module", "error", "message"),
+    [
+        (b"CDF\x01", "scipy.io", ImportError, "scipy.io"),
+        (b"\x89HDF\r\n\x1a\n", "h5py", rc.ReadError, "needs the package h5py.* pip install"),
+    ],
+)
+def test_a_broken_library_is_no_damage_of_the_file(tmp_path, monkeypatch, beginning, module, error, message):
     (tmp_path / "a.nc").write_bytes(beginning)
     monkeypatch.setitem(sys.modules, module, None)  # as if it were not installed
-    with pytest.raises(ImportError):
+    with pytest.raises(error, match=message):
         rc.read(tmp_path / "a.nc")
 
 

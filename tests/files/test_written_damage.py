@@ -26,7 +26,7 @@ REPLACED = {name for name in MUTATIONS if name.startswith(("flipped", "garbage a
 # What stands behind the heights is other data of the instrument: a byte more shifts them.
 SHIFTED = {("zeta.zmg", "a byte more")}
 # A digit less in a text is another number, and no more than one.
-TEXTS = {"text.sdf", "pixel-size.txt", "bare.csv", "gwyddion.txt", "profile.csv", "points.xyz"}
+TEXTS = {"text.sdf", "pixel-size.txt", "bare.csv", "gwyddion.txt", "profile.csv", "points.xyz", "surfer.grd"}
 # Its number of points is stated nowhere.
 ENDLESS = {"profile.csv"}
 

@@ -26,7 +26,8 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, Mask, numeric, scalar
+from roughcontact.units import in_si
+from roughcontact.validation import Array, Mask, scalar
 
 __all__ = ["Prescribed", "checked_region", "prescribe", "prescribed_displacement"]
 
@@ -57,7 +58,6 @@ class Prescribed:
     steps: int
 
 
-@numeric(displacement="m", initial="Pa")
 def prescribed_displacement(
     mask: Mask,
     displacement: float | Array,
@@ -140,6 +140,7 @@ def prescribe(
         raise ValueError("the region holds no cell: nothing can be displaced")
     if is_semidefinite(operator) and bool(xp.all(region)):
         raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
+    displacement, initial = in_si(displacement, "m", "displacement"), in_si(initial, "Pa", "initial")
     _check("displacement", displacement, region)
     if initial is not None:
         _check("initial pressure", initial, region)
