@@ -163,5 +163,5 @@ def require_cells(cutoff: float, surface: Surface) -> None:
     least = (2 if exact else _CELLS) * max(grid.spacing)
     if cutoff < least * (1 - 1e-9):
         raise ValueError(
-            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:g} m"
+            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:.10g} m"
         )
