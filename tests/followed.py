@@ -53,3 +53,39 @@ def follow(refusal, *given):
     assert is_ours(met.value), "the message is that of another library"
     for mended in refusal.right:
         mended(*given)
+
+
+@dataclass(frozen=True)
+class RefusedCommand:
+    """A command that is refused, words of its message, and the commands that follow from each of its remedies."""
+
+    wrong: str
+    words: tuple[str, ...]
+    right: tuple[str, ...]
+
+
+def commands(*tables):
+    """Return the rows of tables: ``$`` stands before what is refused, ``!`` before words, ``>`` before remedies."""
+    rows = [block.split("\n") for table in tables for block in table.strip().split("\n\n")]
+    return [pytest.param(_of(lines), id=lines[0].removeprefix("$ ")) for lines in rows]
+
+
+def _of(lines):
+    marked = {mark: tuple(each[2:] for each in lines if each[0] == mark) for mark in "$!>"}
+    assert sum(map(len, marked.values())) == len(lines), lines
+    [wrong] = marked["$"]
+    assert marked["!"], wrong
+    assert marked[">"], wrong
+    return RefusedCommand(wrong, marked["!"], marked[">"])
+
+
+def follow_command(command, refusal):
+    """Meet the refusal of a command, then run what its message says, in every way that it offers."""
+    answer = command(refusal.wrong)
+    assert answer.exit_code == 2, answer.stderr
+    for words in refusal.words:
+        assert words in answer.stderr
+    for mended in refusal.right:
+        for each in mended.split(" && "):
+            answer = command(each)
+            assert answer.exit_code == 0, (each, answer.stderr)

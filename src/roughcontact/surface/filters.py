@@ -70,7 +70,7 @@ def filtered(
     if short_cutoff is None and long_cutoff is None:
         raise ValueError("give short_cutoff, long_cutoff or both [m]")
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
-        raise ValueError(f"short_cutoff {short_cutoff} m must be below long_cutoff {long_cutoff} m")
+        raise ValueError(f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m")
     grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
